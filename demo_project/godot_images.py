@@ -1,5 +1,7 @@
-"""Images and masks that the Godot project of the demo stores: float32, linear, rows from the top. A mask is -1 where there is no
-receiver."""
+"""Reads the images and masks that the demo's Godot project stores, and writes them as PNG and OpenEXR.
+
+They are float32, linear, rows from the top. A mask is -1 where there is no receiver.
+"""
 
 import array
 import os
@@ -11,7 +13,7 @@ LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
 def load_rows(path, row_length):
-    """Return (values, number of rows)."""
+    """Return (values, number of rows); row_length is the number of floats in a row."""
     values = array.array("f")
     with open(path, "rb") as file:
         values.frombytes(file.read())
@@ -36,12 +38,12 @@ _SRGB = bytes(round(255 * _to_srgb(index / 4095)) for index in range(4096))
 
 
 def save_color_png(path, rgb, width):
-    """Linear values, clamped to 0..1, as sRGB."""
+    """Save linear values, clamped to 0..1, as 8-bit sRGB."""
     _save_png(path, bytes(_SRGB[round(4095 * min(max(value, 0.0), 1.0))] for value in rgb), width)
 
 
 def save_gray_png(path, values, width):
-    """Values of 0..1 as 8 bits; below 0, no receiver, a dark violet."""
+    """Save linear values of 0..1 as 8-bit grey. Values below 0 (no receiver) become dark violet."""
     pixels = bytearray()
     for value in values:
         gray = round(255 * min(value, 1.0))
@@ -50,7 +52,7 @@ def save_gray_png(path, values, width):
 
 
 def _save_png(path, pixels, width):
-    """pixels: 8 bits each of red, green, blue."""
+    """pixels: bytes of red, green and blue, from the top."""
     stride = 3 * width
     rows = b"".join(b"\0" + pixels[first : first + stride] for first in range(0, len(pixels), stride))
     parts = [(b"IHDR", struct.pack(">2I5B", width, len(pixels) // stride, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows, 6))]
@@ -65,7 +67,7 @@ def _attribute(name, kind, data):
 
 
 def save_exr(path, values, width, height):
-    """An uncompressed OpenEXR of the channels Y and receiver."""
+    """Save a mask as uncompressed OpenEXR with the float32 channels Y (visibility) and receiver (0 or 1)."""
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
     channels = b"".join(name + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for name in (b"Y", b"receiver")) + b"\0"
     header = struct.pack("<ii", 20000630, 2)

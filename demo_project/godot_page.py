@@ -1,4 +1,4 @@
-"""The page of the Godot demo."""
+"""Writes the HTML page of the Godot demo."""
 
 import html
 
@@ -9,14 +9,14 @@ BODY = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Gnomon inside Godot</title><style>%(style)s</style></head><body>
 <header><h1>Gnomon inside Godot</h1>
-<p>Shadows that the add-on made in %(godot)s, next to Godot's own and the traced reference: what share of the light the image shows.
-%(size)d x %(size)d pixels.</p></header><main>
+<p>Shadows that the add-on made in %(godot)s, next to Godot's own and the traced reference: the
+fraction of the light that reaches each pixel. %(size)d x %(size)d pixels.</p></header><main>
 <section id="lights"><h2>Three lights</h2>
 <p>The image, then each light's mask as <code>show_mask</code> draws it: white is lit.</p>
 <div class="strip" style="--aspect: 1; grid-template-columns: repeat(4, 1fr)">%(lights)s</div></section>
 <section id="room"><h2>A room with %(light_count)d lights</h2>
-<p>The reference is the sum of the images with one light each, times the traced share of that light that each pixel sees. Error: root
-mean square of the image's share of the unshadowed one, over the penumbra's pixels. Time: of a whole frame in which lights, things
+<p>The reference is the sum of the images with one light each, times the traced visible fraction of that light. Error: root
+mean square of the fraction image / unshadowed image, over the penumbra's pixels. Time: of a whole frame in which lights, things
 and shadows move, median of %(frames)d frames; with 1 light that of the swinging lamp.</p>
 %(room_images)s
 <div class="table"><table><tr><th></th><th>Error</th>%(room_heads)s</tr>%(room_rows)s</table></div></section>
@@ -34,16 +34,16 @@ def _figure(source, caption):
 
 
 def _cells(row):
-    least = min(row["rmse"].values())
+    min_rmse = min(row["rmse"].values())
     cells = []
     for mode in NAMES:
-        kind = ' class="best"' if row["rmse"][mode] == least else ""
+        kind = ' class="best"' if row["rmse"][mode] == min_rmse else ""
         cells.append("<td%s>%.4f</td><td>%+.1f ms</td>" % (kind, row["rmse"][mode], row["added_ms"][mode]))
     return "".join(cells)
 
 
 def _images(case, columns):
-    """A row of what each mode shows, and one of its errors."""
+    """Return a row of the shadows of each mode, and one of their errors."""
     shadows = [_figure("%s_reference.png" % case, "Reference")]
     errors = []
     for mode, name in NAMES.items():
@@ -67,7 +67,7 @@ def _room_rows(room):
 
 
 def write_page(path, results):
-    """results: of measure_godot.py."""
+    """results: the contents of results.json, see measure_godot.py."""
     room = results["room"]
     names = [("three_lights.png", "The image")]
     names += [("three_lights_%s.png" % light, light.capitalize()) for light in ("spot", "omni", "sun")]

@@ -1,4 +1,4 @@
-"""Runs the Godot project of the demo."""
+"""Runs Godot on the demo's Godot project."""
 
 import os
 import re
@@ -8,16 +8,16 @@ import subprocess
 PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "godot")
 TIMEOUT_S = 1200
 DEVICE_OPTIONS = ["--rendering-method", "forward_plus", "--rendering-driver", "vulkan", "--audio-driver", "Dummy"]
-# Godot's SPIR-V optimizer logs the first, about shaders that it then hands on unchanged. The second is a race of its threads:
-# each changes the folder of the whole process for a moment (its issue 115321).
+# Messages to ignore. Godot's SPIR-V optimizer logs the first about shaders that it then returns unchanged. The second is a race
+# of Godot's threads, each of which changes the working directory of the process for a moment (Godot issue 115321).
 HARMLESS = re.compile(r"is not supported yet\.$|Parameter \"getcwd\(real_current_dir_name, \d+\)\" is null\.$")
 
 
 def prepare(project=PROJECT):
-    """Makes Godot know the add-on's library and the scripts' classes, as opening the project in the editor does.
+    """Register the add-on's library and the scripts' classes with Godot, as opening the project in the editor does.
 
-    Godot 4.6 itself crashes where it finds the library of an add-on for the first time while it imports without a window
-    (its issue 111048).
+    The list of extensions is written here, because Godot 4.6 crashes if it finds an add-on's library for the first time during an
+    import without a window (Godot issue 111048).
     """
     shutil.rmtree(os.path.join(project, ".godot"), ignore_errors=True)
     os.makedirs(os.path.join(project, ".godot"))
@@ -27,12 +27,12 @@ def prepare(project=PROJECT):
 
 
 def start_godot(arguments, variables={}):
-    """Return (exit code, output), under a virtual display unless $GODOT_DISPLAY is not "virtual". 124: it timed out."""
+    """Run Godot; return (exit code, output). 124: it timed out. $GODOT_DISPLAY is "virtual" by default."""
     return _start([os.environ["GODOT"]] + arguments, variables)
 
 
 def start_game(path, arguments):
-    """Start a program that Godot exported; see start_godot."""
+    """Run a game that Godot exported; returns what start_godot returns."""
     runner = os.environ.get("GODOT_RUN")
     return _start(([runner] if runner else []) + [path] + DEVICE_OPTIONS + arguments, {})
 
@@ -56,7 +56,7 @@ def _start(command, variables):
 
 
 def run_godot(arguments):
-    """Return what Godot printed. A Godot that fails or does not end is an error."""
+    """Run Godot and return its output. Exits with an error if Godot fails or times out."""
     code, output = start_godot(arguments)
     if code != 0:
         raise SystemExit("ERROR: %s ended with %d\n%s" % (" ".join(arguments), code, output))
@@ -64,18 +64,18 @@ def run_godot(arguments):
 
 
 def get_version():
-    """Return Godot's version: "4.6.3.stable.debian"."""
+    """Return Godot's version, such as "4.6.3.stable.debian"."""
     return run_godot(["--version"]).strip().splitlines()[-1]
 
 
 def run(scene, options, size, project=PROJECT):
-    """Runs a scene of the project in a window of that size in pixels; options are its own. What it printed."""
+    """Run a scene of the project in a square window of size pixels, with the options of the scene; return its output."""
     arguments = ["--path", project] + DEVICE_OPTIONS
     arguments += ["--disable-vsync", "--resolution", "%dx%d" % (size, size), scene, "--"]
     return run_godot(arguments + options)
 
 
 def find_messages(output):
-    """Lines in which Godot or a script logged a warning or an error."""
+    """Return the lines in which Godot or a script logged a warning or an error, without harmless ones."""
     lines = [line for line in output.splitlines() if re.match(r"(WARNING|ERROR|SCRIPT ERROR|USER \w+): ", line)]
     return [line for line in lines if not HARMLESS.search(line)]

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# A Godot 4 for the add-on's build, demo and tests. Sourced, after install_packages.sh; see doc/godot.md.
+# Finds or installs a Godot 4 for the add-on's build, demo and tests. Source it after install_packages.sh; see doc/godot.md.
 
 GODOT_SUITE=sid # Debian 12 has no Godot 4
 GODOT_PACKAGES=(
@@ -7,10 +7,10 @@ GODOT_PACKAGES=(
     libxkbcommon-x11-0 libdbus-1-3 libfontconfig1 libasound2t64 libpulse0 libegl1 libgl1 libgl1-mesa-dri
 )
 
-# install_godot ROOT: sets and exports GODOT, a program that runs Godot 4.5 or later: what the variable names already,
-# or `godot` in PATH, or Debian's, which goes into ROOT/build/godot_program (1.2 GB, 3 minutes; root is needed). Of the last
-# one, GODOT_TEMPLATE is the release template that it exports games with, and GODOT_RUN runs such games: GODOT_RUN PROGRAM
-# ARGUMENT... Returns 1, with the reason on stderr, where none of them works.
+# install_godot ROOT: sets and exports GODOT, a program that runs Godot 4.5 or later. It is the first of: the program that GODOT
+# already names, `godot` in PATH, and Debian's, which is installed into ROOT/build/godot_program (1.2 GB, 3 minutes; needs root).
+# For Debian's it also sets GODOT_TEMPLATE, the release template for exported games, and GODOT_RUN, which runs such games:
+# GODOT_RUN PROGRAM ARGUMENT... Returns 1, with the reason on stderr, if there is no working Godot.
 install_godot() {
     local root=$1 folder=$1/build/godot_program version
     if [ -z "${GODOT:-}" ]; then
@@ -34,8 +34,8 @@ install_godot() {
     return 1
 }
 
-# Programs of another Debian run in a root of their own. Mounts are made in a namespace that ends with the program, so
-# that there is nothing to undo, and nothing to delete by accident.
+# _make_godot_root ROOT FOLDER: installs Godot of a later Debian, which therefore gets its own root directory, FOLDER/root.
+# Mounts are made in a namespace that ends with the program, so that there is nothing to undo, or to delete by accident.
 _make_godot_root() {
     local root=$1 folder=$2 mirror
     if [ "$(id -u)" -ne 0 ]; then
@@ -58,7 +58,7 @@ _make_godot_root() {
         ! _run_in "$folder/root.part" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
             "${GODOT_PACKAGES[@]}" >>"$folder/log" 2>&1; then
         tail -n 5 "$folder/log" >&2
-        echo "ERROR: Godot could not be set up, see $folder/log. Is the network there? Or set \$GODOT." >&2
+        echo "ERROR: Godot could not be set up, see $folder/log. Is there a network connection? Or set \$GODOT." >&2
         return 1
     fi
     rm -rf "$folder/root.part/var/cache/apt/archives"
@@ -84,7 +84,7 @@ TEXT
     chmod +x "$folder/run" "$folder/godot"
 }
 
-# _run_in ROOT COMMAND...
+# _run_in ROOT COMMAND...: runs a command in the root directory ROOT.
 _run_in() {
     local folder=$1
     shift

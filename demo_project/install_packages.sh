@@ -1,33 +1,33 @@
 # shellcheck shell=bash disable=SC2034
-# The packages Gnomon needs on Debian 12, listed here only. Sourced by run_demo.sh and
-# tests/run_tests.sh; see doc/getting_started.md.
+# The packages Gnomon needs on Debian 12, listed here only. Sourced by run_demo.sh,
+# run_godot_demo.sh and tests/run_tests.sh; see doc/getting_started.md.
 
-# What builds and runs bin/gnomon.
+# To build and run bin/gnomon.
 BUILD_PACKAGES=(
     build-essential pkg-config python3 scons
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
     libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libpng-dev libturbojpeg0-dev libembree-dev
     libimgui-dev libstb-dev libopenexr-dev libcli11-dev doctest-dev libxxhash-dev
 )
-# Meshes of the bunny and of scenes/make_package_meshes.py, and what converts them.
+# Meshes for scenes/make_bunny.py and scenes/make_package_meshes.py, and their converter.
 DEMO_PACKAGES=(glmark2-data assimp-testmodels assimp-utils)
-# What the tests use in addition.
+# For the tests, in addition.
 TEST_PACKAGES=(
     git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps chromium
 )
-# What tests/run_tests.sh --full uses in addition, to download meshes and gltf-validator.
+# For tests/run_tests.sh --full, in addition, to download meshes and gltf-validator.
 LARGE_MESH_PACKAGES=(npm)
-# What tests/run_tests.sh --full uses in addition, to fuzz: libFuzzer is clang's.
+# For the fuzz tests of tests/run_tests.sh --full, in addition: libFuzzer is part of clang.
 FUZZ_PACKAGES=(clang libclang-rt-14-dev)
-# What tests/run_tests.sh --only blender uses in addition; 160 MB with what they depend on.
+# For tests/run_tests.sh --only blender, in addition; 160 MB with dependencies.
 BLENDER_PACKAGES=(blender python3-numpy)
 
 is_package_installed() {
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
-# install_packages PACKAGE...: installs those that are missing. Needs no network when none is.
-# Returns 1, with the list on stderr, where it cannot.
+# install_packages PACKAGE...: installs the packages that are missing. Needs no network if none is missing.
+# Returns 1, with the list on stderr, if that fails.
 install_packages() {
     local missing=() package as_root=()
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
@@ -50,7 +50,7 @@ install_packages() {
         fi
         as_root=(sudo)
     fi
-    # The variable is handed over by env, because sudo drops it.
+    # env sets the variable, because sudo would drop it.
     local install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends
         install "${missing[@]}")
     if "${install[@]}" >/dev/null 2>&1; then
@@ -61,6 +61,6 @@ install_packages() {
     if "${install[@]}" >/dev/null; then
         return 0
     fi
-    echo "ERROR: apt-get could not install: ${missing[*]}. Is the network there, and is this Debian 12?" >&2
+    echo "ERROR: apt-get could not install: ${missing[*]}. Check the network connection, and that this is Debian 12." >&2
     return 1
 }

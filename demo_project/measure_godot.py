@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Measures the add-on inside $GODOT next to Godot's own shadows, and writes the page of the Godot demo.
 
-Godot renders demo_project/godot's study scenes with shadows of edge_count and with its own, of the qualities Soft Low and Soft
-Ultra; what is compared is the image with the shadow over that without. `gnomon visibility --technique reference` traces the same
-scenes, which Godot exported. Errors are root mean squares over the penumbra's pixels (doc/benchmarks.md), times are what
-a moving light adds to a frame without shadows, medians. The room is measured with all its lights, and in whole frames.
+Godot renders demo_project/godot's study scenes with shadows of edge_count and with its own, of the qualities Soft Low and
+Soft Ultra. It compares the image with shadow divided by the image without. The reference is traced by
+`gnomon visibility --technique reference` in the same scenes, which Godot exports. Errors are root mean squares over the
+penumbra's pixels (doc/benchmarks.md). Times are medians of what a moving light adds to a frame without shadows. The room is
+measured with all its lights, and its times are those of whole frames.
 """
 
 import argparse
@@ -24,11 +25,11 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "benchmark"))
 from mask_file import Mask, load_mask  # noqa: E402
 
 GNOMON = os.path.join(ROOT, "bin", "gnomon")
-WORK = os.path.join(ROOT, "build", "godot_demo")  # Godot may see nothing outside of the project
-LEAST_BEND = 0.002  # second difference of near / z over its value, of an outline
+WORK = os.path.join(ROOT, "build", "godot_demo")  # inside the repository, because Debian's Godot may see nothing else
+MIN_BEND = 0.002  # at an outline: second difference of near / z, relative to near / z
 MODES = ("gnomon", "low", "ultra")
-ROOM_SAMPLES = 1024  # at most, for each of its lights: with 9216 the errors are the same
-LEAST_SHARE = 0.05  # of a pixel's light that a light gives, for its penumbra to count there
+ROOM_SAMPLES = 1024  # max. for each of its lights: with 9216 samples the errors are the same
+MIN_LIGHT_FRACTION = 0.05  # a light's penumbra counts only where it gives at least this fraction of the pixel's light
 
 
 def run_gnomon(arguments):
@@ -39,7 +40,7 @@ def run_gnomon(arguments):
 
 
 def trace_reference(scene, light, stem, size_px, samples, camera=""):
-    """The mask of one light of a scene that Godot exported; STEM.exr and .png. size_px: width and height."""
+    """Return the traced mask of one light of an exported scene; writes STEM.exr and STEM.png. size_px: (width, height)."""
     arguments = ["visibility", scene, "--technique", "reference", "--light", light, "--out", stem + ".exr", "--png", stem + ".png"]
     arguments += ["--size", "%dx%d" % size_px, "--depth-alone", "--set", "reference_samples=%d" % samples]
     run_gnomon(arguments + (["--camera", camera] if camera else []))
@@ -47,7 +48,7 @@ def trace_reference(scene, light, stem, size_px, samples, camera=""):
 
 
 def compute_rmse(reference, values, pixels):
-    """Return the RMSE of the pixels where the values have a receiver too."""
+    """Return the root mean square error over those of the pixels where the values have a receiver."""
     pixels = [pixel for pixel in pixels if values[pixel] >= 0.0]
     if not pixels:
         raise SystemExit("ERROR: no pixel is in the penumbra: this is not the study scene.")
@@ -55,9 +56,9 @@ def compute_rmse(reference, values, pixels):
 
 
 def show_error(name, reference, values, mode, options):
-    """WORK/NAME_MODE_error.png; WORK/NAME_reference.exr is there."""
+    """Write WORK/NAME_MODE_error.png; needs WORK/NAME_reference.exr."""
     stem = os.path.join(WORK, name)
-    # Where one alone has a receiver there is no error to show.
+    # Where only one of both has a receiver, no error is shown.
     shown = array.array("f", values)
     for pixel, receiver in enumerate(reference.receiver):
         shown[pixel] = -1.0 if receiver < 0.5 else values[pixel] if values[pixel] >= 0.0 else reference.visibility[pixel]
@@ -66,7 +67,7 @@ def show_error(name, reference, values, mode, options):
 
 
 def measure_case(case, described, options):
-    """described: of cases.json."""
+    """Return a row of results for the page. described: the case's entry in cases.json."""
     stem = os.path.join(WORK, case)
     size_px = (options.size, options.size)
     reference = trace_reference(stem + ".gltf", described["light"], stem + "_reference", size_px, options.samples)
@@ -84,7 +85,7 @@ def measure_case(case, described, options):
 
 
 def find_outlines(scene, options):
-    """Pixels next to where the surface of a scene ends or bends, in which two rasterizers may see different surfaces."""
+    """Return the pixels where a surface of the scene ends or bends, and two rasterizers may see different surfaces."""
     folder = os.path.join(WORK, "surfaces")
     os.makedirs(folder, exist_ok=True)
     arguments = ["visibility", scene, "--technique", "pcss", "--out", os.path.join(WORK, "surfaces.exr")]
@@ -93,7 +94,7 @@ def find_outlines(scene, options):
     outlines = set()
     for step in (1, options.size):
         for i in range(step, len(depth) - step):
-            if abs(depth[i - step] + depth[i + step] - 2 * depth[i]) > LEAST_BEND * depth[i]:
+            if abs(depth[i - step] + depth[i + step] - 2 * depth[i]) > MIN_BEND * depth[i]:
                 outlines.add(i)
     return outlines
 
@@ -104,7 +105,7 @@ def load_room_image(what, options):
 
 
 def add_room_light(light, dark, off, image, options):
-    """Adds what a light gives where the reference sees it to an image of the room. (pixels of its penumbra, its receivers)"""
+    """Add the image of one light, times its traced visibility, to image; return (penumbra pixels, receivers)."""
     alone = load_room_image("only_" + light, options)
     stem = os.path.join(WORK, "room")
     size_px = (options.size, options.size)
@@ -113,7 +114,7 @@ def add_room_light(light, dark, off, image, options):
         for channel in range(3 * pixel, 3 * pixel + 3):
             image[channel] += visibility * (alone[channel] - dark[channel])
     alone, dark = godot_images.get_luminance(alone), godot_images.get_luminance(dark)
-    return [i for i in mask.find_penumbra() if alone[i] - dark[i] >= LEAST_SHARE * off[i]], mask.receiver
+    return [i for i in mask.find_penumbra() if alone[i] - dark[i] >= MIN_LIGHT_FRACTION * off[i]], mask.receiver
 
 
 def divide_luminance(rgb, off):
@@ -122,7 +123,7 @@ def divide_luminance(rgb, off):
 
 
 def measure_room(options):
-    """The reference is the sum of the images with one light each, each times the visible fraction of that light."""
+    """Measure the room. Its reference is the sum of images with one light each, times the visible fraction of that light."""
     with open(os.path.join(WORK, "room.json"), encoding="utf-8") as file:
         room = json.load(file)
     dark = load_room_image("dark", options)
@@ -158,10 +159,10 @@ def measure_room(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--out", required=True, help="where index.html and its images go")
-    parser.add_argument("--size", type=int, default=800, help="of images, in pixels")
-    parser.add_argument("--frames", type=int, default=20, help="that each mode is timed for")
+    parser.add_argument("--size", type=int, default=800, help="width and height of images, in pixels")
+    parser.add_argument("--frames", type=int, default=20, help="frames over which each mode is timed")
     parser.add_argument("--samples", type=int, default=9216, help="light samples of the reference")
-    parser.add_argument("--cases", default="", help="LIGHT_CASTER, separated by commas; all of them without")
+    parser.add_argument("--cases", default="", help="LIGHT_CASTER, separated by commas (default: all)")
     parser.add_argument("--scenes", default="", help="more glTF files below the project, separated by commas")
     options = parser.parse_args()
     shutil.rmtree(WORK, ignore_errors=True)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to demo_project/out/index.html: installs what is missing, builds, renders
 # demo scenes with and without soft shadows, and measures every technique (`gnomon report`). The page
-# is there with its first scene, and grows.
+# exists after the first scene, and grows with each further one.
 set -euo pipefail
 
 usage() {
@@ -10,12 +10,12 @@ Usage: demo_project/run_demo.sh [options]
   --all           every scene at three sizes of its lights, all quality levels, sweeps: more than an hour
   --size WxH      size of the images and masks (default 256x256)
   --samples N     light samples of the reference (default 1024)
-  --frames N      most frames that each technique is timed for (default 20)
-  --quick         three scenes only
-  --scenes A,B    these scenes only
-  --skip A,B*     all scenes but these; * is any text
+  --frames N      maximum number of frames over which each technique is timed (default 20)
+  --quick         three scenes only: sphere, three_lights, torus_knot
+  --scenes A,B    these scenes only (default: ten scenes)
+  --skip A,B*     none of these of the scenes that would be measured; * is any text
   --out DIR       where the page goes (default demo_project/out)
-  --jobs N        build jobs (default: one a core)
+  --jobs N        build jobs (default: one per core)
   --device NAME   Vulkan device, by name or index (default: the engine's choice)
   --no-window     do not open the window at the end, even where there is a display
   --no-build      use bin/gnomon as it is
@@ -89,7 +89,7 @@ if [ ! -f demo_project/scenes/bunny.gltf ] || [ ! -f demo_project/scenes/bunny_w
     python3 demo_project/scenes/make_bunny.py || has_failed=yes
 fi
 
-# Generated every time, which takes four seconds: files of an older generator would be measured otherwise.
+# Generated every time, which takes four seconds, so that no files of an older generator are measured.
 echo "== Meshes that no technique was tuned for"
 python3 demo_project/scenes/make_artist_scenes.py || has_failed=yes
 python3 demo_project/scenes/make_foliage_scenes.py || has_failed=yes

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a fresh Debian 12 to demo_project/godot/out/index.html: gets a Godot where there is none, builds the add-on and the
+# From a fresh Debian 12 to demo_project/godot/out/index.html: installs Godot if there is none, builds the add-on and the
 # program, renders the Godot project, and measures the masks next to Godot's own shadows.
 set -euo pipefail
 
@@ -8,11 +8,11 @@ usage() {
 Usage: demo_project/run_godot_demo.sh [options]
   --size N        width and height of the images (default 800)
   --samples N     light samples of the reference (default 9216)
-  --frames N      frames that each quality is timed for (default 20)
-  --cases A,B     of omni_box, spot_torus and the like (default: all twelve)
+  --frames N      frames over which each shadow mode is timed (default 20)
+  --cases A,B     cases LIGHT_CASTER, such as omni_box (default: all twelve)
   --scenes A,B    also glTF files below this project, each of their lights alone
   --out DIR       where the page goes (default demo_project/godot/out)
-  --jobs N        build jobs (default: one a core)
+  --jobs N        build jobs (default: one per core)
   --no-build      use what is built
 Godot is $GODOT, or `godot` in PATH, 4.5 or later; else Debian's is set up below build/, which needs root.
 Exit code: 0 all done, 1 something failed, 2 wrong usage.

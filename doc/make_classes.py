@@ -2,9 +2,9 @@
 """Writes doc/classes from the properties that the program declares.
 
     make_classes.py            writes light_3d.md, one page for each technique and mask filter of the build, and index.md
-    make_classes.py --check    writes nothing; names each page that is not as it would be written
+    make_classes.py --check    writes nothing; names each page that is out of date
 
-The program is bin/gnomon, or $GNOMON. Pages of what is not in this build stay as they are.
+The program is bin/gnomon, or $GNOMON. Pages of techniques and filters that are not in this build do not change.
 Exit code: 0 done, 1 a page is out of date or the program failed.
 """
 
@@ -37,7 +37,7 @@ def run_gnomon(*arguments):
 
 
 def parse_common_properties(text):
-    """The properties that every light has; they are in the text only, not in the JSON."""
+    """Return the properties that every light has. They are only in the text output, not in the JSON."""
     lines = text.splitlines()
     if COMMON_HEADING not in lines:
         raise SystemExit('ERROR: `gnomon techniques` printed no section "%s".' % COMMON_HEADING)
@@ -68,16 +68,16 @@ def format_table(properties):
     return lines
 
 
-def find_sibling(added_id):
-    """The link to the page that explains the technique or filter, where there is one."""
+def make_page_link(added_id):
+    """Return lines with a link to the page that explains the technique or filter; no lines if there is no such page."""
     if os.path.isfile(os.path.join(ROOT, "doc", "techniques", added_id + ".md")):
         return ["", "How it works: [%s](../techniques/%s.md)." % (added_id, added_id)]
     return []
 
 
-def make_added_page(item):
+def make_properties_page(item):
     lines = ["# Properties of `%s`" % item["id"], "", NOTE, "", "%s. Source: %s." % (item["name"], item["source"])]
-    lines += find_sibling(item["id"]) + [""]
+    lines += make_page_link(item["id"]) + [""]
     if item["properties"]:
         lines += ["A light stores them in its `extras`; `--set` changes them for one run.", ""]
         lines += format_table(item["properties"])
@@ -105,9 +105,9 @@ def make_index(names):
 
 
 def make_pages():
-    """File name -> text of every page."""
+    """Return the text of every page by its file name."""
     added = json.loads(run_gnomon("techniques", "--json")) + json.loads(run_gnomon("filters", "--json"))
-    pages = {item["id"] + ".md": make_added_page(item) for item in added if not item.get("is_example")}
+    pages = {item["id"] + ".md": make_properties_page(item) for item in added if not item.get("is_example")}
     pages["light_3d.md"] = make_light_page(parse_common_properties(run_gnomon("techniques")))
     existing = os.listdir(FOLDER) if os.path.isdir(FOLDER) else []
     names = {name for name in [*pages, *existing] if name.endswith(".md")} - {"light_3d.md", "index.md"}

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the editor's story under Xvfb and writes its screenshots: doc/images/editor*.png. Build first: scons.
+"""Runs a scripted session of the editor (tests/command_line/editor_story.py) under Xvfb, and writes its screenshots to
+doc/images/editor*.png. Build first: scons.
 
-Look at them afterwards: a screenshot that shows something else than its page states is worse than none.
+Look at them afterwards: a screenshot that contradicts its page is worse than none.
 """
 
 import os
@@ -18,7 +19,7 @@ COLORS = 256  # so that a screenshot stays small in the repository
 
 
 class Photographer(EditorCase):
-    checks = ()  # validation would be in the frame times that are seen
+    checks = ()  # Vulkan validation would distort the frame times in the screenshots
 
     def runTest(self):
         editor_story.run_story(self, self.take)

@@ -1,4 +1,4 @@
-"""Finds a Godot, and lets it describe itself: the headers that the bindings are made from."""
+"""Finds Godot, generates bindings from the description of its API that it writes itself, and packs the add-on."""
 
 import os
 import shutil
@@ -17,11 +17,12 @@ ADDON_LIBRARY = "#demo_project/godot/addons/gnomon/bin/libgnomon.linux.x86_64.so
 
 
 def find_godot():
-    """The program, or None."""
+    """Return the path of Godot, from $GODOT or PATH, or None."""
     return os.environ.get("GODOT") or shutil.which("godot")
 
 
 def _dump(target, source, env):
+    """Let Godot write extension_api.json and gdextension_interface.h. Godot's exit code is ignored: the files count."""
     folder = os.path.dirname(target[0].abspath)
     command = [env["GODOT"], "--headless", "--dump-extension-api", "--dump-gdextension-interface"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
@@ -32,7 +33,7 @@ def _dump(target, source, env):
 
 
 def add_bindings(env):
-    """Generates headers, in get_api_folder(). Objects that include them depend on env["GODOT_HEADERS"]."""
+    """Generate headers in get_api_folder(). Objects that include them depend on env["GODOT_HEADERS"]. Exits if there is no Godot."""
     sys.path.insert(0, env.Dir("#modules/rendering_device_godot").abspath)
     import godot_api
 
@@ -66,12 +67,12 @@ def get_api_folder(env):
 
 
 ZIP_FOLDER = "addons/gnomon"
-ZIP_DATE = (2026, 1, 1, 0, 0, 0)  # the same files make the same archive
-SKIPPED = (".import", ".uid")  # what Godot makes itself
+ZIP_DATE = (2026, 1, 1, 0, 0, 0)  # of every entry, so that the same files give the same archive
+SKIPPED = (".import", ".uid")  # files that Godot generates
 
 
 def add_zip(env):
-    """bin/gnomon_godot_addon.zip: the add-on's folder with its library, without debug information, and the licence."""
+    """Add bin/gnomon_godot_addon.zip: the add-on's folder with its library, without debug information, and the licence. Return its node."""
     folder = env.Dir("#demo_project/godot/" + ZIP_FOLDER).abspath
     files = []
     for root, _folders, names in os.walk(folder):

@@ -1,10 +1,10 @@
-"""GLSL to SPIR-V at build time, and SPIR-V into one C++ file.
+"""Compiles GLSL to SPIR-V at build time, and embeds the SPIR-V in one C++ file.
 
 An entry point is `<what>.<stage>`; include paths start at shaders/. Errors show the GLSL file and
 line, as glslangValidator prints them.
 
-Where an entry point, or what it includes, has `#ifdef VARIANT_<NAME>`, it is compiled once more with
-that macro defined, as `<what>.<name>.<stage>`. At run time compile_shader does the same.
+An entry point that has `#ifdef VARIANT_<NAME>`, itself or in a file that it includes, is compiled once
+more with that macro defined, as `<what>.<name>.<stage>`. At run time compile_shader does the same.
 """
 
 import glob
@@ -20,7 +20,7 @@ _VARIANT = re.compile(r"^\s*#\s*if.*\bVARIANT_([A-Z]+)\b", re.MULTILINE)
 
 
 def _scan(node, env, path):
-    """Dependencies of a shader: what it includes, found from shaders/."""
+    """Return the files that a shader includes, for SCons. Include paths start at shaders/."""
     if not os.path.exists(node.srcnode().abspath):
         return []
     with open(node.srcnode().abspath, encoding="utf-8") as file:
@@ -28,7 +28,7 @@ def _scan(node, env, path):
 
 
 def find_variants(folder, name):
-    """Names of the variants of an entry point, "storage", sorted. Paths start at the folder shaders/."""
+    """Return the sorted names of an entry point's variants, in lower case. folder: shaders/. name: path of the entry point in it."""
     found, seen, waiting = set(), set(), [name]
     while waiting:
         path = os.path.join(folder, waiting.pop())
@@ -43,9 +43,9 @@ def find_variants(folder, name):
 
 
 def _embed(target, source, env):
-    """Writes a table for find_embedded_shader: name (folder/file) -> SPIR-V words.
+    """Writes a C++ file with a table for find_embedded_shader: name (folder/file) -> SPIR-V words.
 
-    SHADER_FUNCTION returns it; SHADER_FOLDER replaces the folder in the names.
+    env["SHADER_FUNCTION"]: name of the C++ function that returns the table. env["SHADER_FOLDER"] replaces the folder in names.
     """
     lines = ['#include "modules/core/embedded_shaders.h"', "", "namespace gnomon {", "namespace {"]
     names = []
@@ -88,8 +88,8 @@ def add_builders(env):
 
 
 def add_test_shaders(env, modules):
-    """The C++ file with shaders of tests: <what>.<stage> next to the test that runs them, in tests/shaders and in the
-    tests of a module. All are named tests/<what>.<stage>; get_test_shaders() returns them.
+    """Return the node of the C++ file that embeds the shaders of tests: the files <what>.<stage> in tests/shaders and in the
+    modules' tests. Their names in the table are tests/<what>.<stage>; get_test_shaders() returns the table.
     """
     build_folder = "#" + env["BUILD_FOLDER"].lstrip("#")
     spirv = []

@@ -12,16 +12,17 @@
 #include <memory>
 #include <string>
 
-// The demo scenes and settings from JSON files, for tests that compare images and masks of them.
+// Loads demo scenes and applies settings from JSON, for tests that compare images and masks.
 
 namespace gnomon {
 
-/// Tests run from the repository's root; an Error reports if the scene is not found from there.
+/// Loads demo_project/scenes/<p_name>.gltf. Tests must run from the repository's root. Throws Error
+/// if the file does not exist.
 inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 	const std::filesystem::path path =
 			std::filesystem::path("demo_project/scenes") / (p_name + ".gltf");
 	if (!std::filesystem::exists(path)) {
-		fail("Scene ", path, " is not there. Run the tests from the repository's root.");
+		fail("Scene ", path, " does not exist. Run the tests from the repository's root.");
 	}
 	GltfLoadOptions options;
 	options.project_folder = "demo_project";
@@ -29,8 +30,8 @@ inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 	return load_gltf(path, options);
 }
 
-/// Sets the properties of every light. A name that neither Light3D nor a technique of this build
-/// declares, or a value out of its range, is an Error.
+/// Sets properties of every light. p_settings: name -> value. Throws Error for a name that neither
+/// Light3D nor a technique of this build declares, and for a value out of its range.
 inline void apply_light_settings(const Scene &p_scene, const nlohmann::json &p_settings) {
 	for (const auto &[name, value] : p_settings.items()) {
 		const PropertyInfo *info = Light3D::get_property_list().find(name);

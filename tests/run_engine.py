@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the engine's tests in several processes at once, each a slice of them in a shuffled order. There are more slices than
-processes, so that none waits long for the last one.
+"""Runs the engine's tests in several processes at once, each with a slice of them in a shuffled order. There are more slices
+than processes, so that no process idles long while the last slice runs.
 
     run_engine.py PROGRAM [--processes N] [-- TEST_OPTION...]
 
-The order is the same every time, and no test may count on another. The last line is the sum of all slices: "N passed,
+The shuffled order is the same in every run. No test may depend on another. The last line is the sum of all slices: "N passed,
 N failed, N skipped"; a slice that ends without its own such line counts as one failure.
 """
 
@@ -46,7 +46,7 @@ def run_slice(arguments, first, last):
 
 
 def add_up(outputs):
-    """Passed, failed and skipped of all slices: (exit code, output) each."""
+    """Return [passed, failed, skipped] of all slices. outputs: (exit code, output) of each slice."""
     totals = [0, 0, 0]
     for code, output in outputs:
         found = SUMMARY.findall(output)
@@ -62,7 +62,7 @@ def main():
     parser = argparse.ArgumentParser(description="Runs the engine's tests in several processes.")
     parser.add_argument("program")
     parser.add_argument("--processes", type=int, default=os.cpu_count() or 1)
-    parser.add_argument("options", nargs="*", help="for the program, behind --")
+    parser.add_argument("options", nargs="*", help="options for the program, after --")
     arguments = parser.parse_args()
     if arguments.processes < 1:
         parser.error("--processes is %d, must be at least 1" % arguments.processes)
@@ -70,7 +70,7 @@ def main():
     outputs = []
     with ThreadPoolExecutor(arguments.processes) as pool:
         for code, output in pool.map(lambda bounds: run_slice(arguments, *bounds), slices):
-            # The sum alone is to be read as the summary.
+            # Only the final sum may look like a summary line.
             print(SUMMARY.sub(r"slice: \g<0>", output), flush=True)
             outputs.append((code, output))
     passed, failed, skipped = add_up(outputs)

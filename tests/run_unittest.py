@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs unittest files. The last line is "N passed, N failed, N skipped", as for every test here.
+"""Runs unittest files. The last line is "N passed, N failed, N skipped", as of every test script here.
 
     run_unittest.py FILE.py... [-k PATTERN]
 """
@@ -12,7 +12,7 @@ import unittest
 
 
 class CountingResult(unittest.TextTestResult):
-    """Prints one line a test and counts those that passed (a test with failed parts is one)."""
+    """Prints one line per test and collects the failed tests. A test with several failed subtests counts once."""
 
     def __init__(self, *arguments, **named):
         super().__init__(*arguments, **named)

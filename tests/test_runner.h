@@ -1,5 +1,5 @@
 #pragma once
 
-/// Runs the tests that doctest's arguments choose; the exit code. For the test program, and for the
-/// library that runs them inside Godot.
+/// Runs the tests that doctest's arguments select and returns the exit code: 0 if all passed. Used
+/// by the test program, and by the library that runs the tests inside Godot.
 int run_tests(int p_argument_count, char **p_arguments);

@@ -1,12 +1,12 @@
-"""Blender add-on: soft shadows of Gnomon on Blender's lights. See doc/blender.md.
+"""Blender add-on: settings of Gnomon's soft shadows on Blender's lights, and glTF export and import. See doc/blender.md.
 
 Without a window:
 
     blender -b FILE.blend -P demo_project/blender/gnomon_shadows.py -- --export OUT.gltf|OUT.glb [--embedded]
 
-What Blender has itself (radius, angle, the box "Shadow") is taken from Blender while a file is exported.
-What it lacks (technique, r, t) is stored in custom properties of the light, under the engine's own names.
-All is in one file, as that is what Blender installs.
+Values that Blender has itself (radius, angle, the checkbox "Shadow") are read from Blender during an export.
+Values that it lacks (technique, penumbra widths r and t) are custom properties of the light with the engine's names.
+Everything is in one file, because that is what Blender installs.
 """
 
 import argparse
@@ -47,27 +47,27 @@ class BlenderValue(NamedTuple):
     """A property of the engine that Blender knows under another name."""
 
     name: str
-    attribute: str  # of Blender's light
+    attribute: str  # name in Blender's light
     label: str
     types: tuple
-    allowed: tuple  # of the engine
+    allowed: tuple  # (minimum, maximum) in the engine's unit
     unit: str
-    # Custom properties that the engine reads, the first before the others, and what makes them
-    # Blender's unit. `radius` and the like are what other programs write.
+    # Custom properties that the engine reads, in order of precedence, with the factors that convert
+    # them to Blender's unit. Names such as `radius` are written by other programs.
     factors: dict
 
     def compute(self, light):
-        """The engine's value. Blender's floats have seven digits; more would be noise in the file."""
+        """Return the value in the engine's unit, rounded to the seven digits of Blender's floats."""
         value = getattr(light, self.attribute)
         return value if isinstance(value, bool) else float("%.7g" % (value / self.factors[self.name]))
 
     def find_names(self, owner):
-        """Custom properties of the light or object that replace Blender's values."""
+        """Return the names of custom properties of the light or object that override Blender's value."""
         return [name for name in self.factors if name in owner]
 
 
 LIGHT_TYPES = ("POINT", "SPOT", "SUN")
-# The scale of the object counts neither in Cycles nor in the engine (tests/blender measures both).
+# Neither Cycles nor the engine applies the scale of the object to these values (tests/blender measures both).
 BLENDER_VALUES = (
     BlenderValue("light_size", "shadow_soft_size", "Radius R", ("POINT", "SPOT"), (0.0, 10000.0), "m",
                  {"light_size": 1.0, "radius": 1.0, "shadow_soft_size": 1.0}),
@@ -78,7 +78,7 @@ BLENDER_VALUES = (
 
 
 class ExportError(Exception):
-    """What is wrong, and what to do; shown to the user as it is."""
+    """The export failed. The text is shown to the user: what is wrong, and what to do."""
 
 
 def get_values(light):
@@ -94,9 +94,9 @@ def read_number(owner, name):
 
 
 def is_exported(item):
-    """As Blender's exporter decides with "Visible Objects" and "Renderable Objects" ticked.
+    """Whether Blender's exporter writes an object if "Visible Objects" and "Renderable Objects" are ticked.
 
-    Without the former it also writes what is excluded from the view layer, and objects that Blender does not
+    Without "Visible Objects" it would also write objects outside of the view layer, and objects that Blender does not
     evaluate, at wrong positions.
     """
     return (
@@ -109,7 +109,7 @@ def is_exported(item):
 
 
 def find_exported_objects(scene):
-    """Objects of the scene, and those that instances of collections bring along."""
+    """Return the exported objects of the scene, including those in instances of collections."""
     found, waiting = set(), [item for item in scene.objects if is_exported(item)]
     while waiting:
         item = waiting.pop()
@@ -153,7 +153,10 @@ def check_lights(lights, scene):
 
 
 def find_owners(value, light, objects):
-    """Where Blender's value goes. One that the user typed wins; the engine reads the light before the object."""
+    """Return the light or the objects in which Blender's value is stored. Custom properties that the user typed win.
+
+    The engine reads the light before the object.
+    """
     if value.find_names(light):
         return []
     plain = [item for item in objects if not value.find_names(item)]
@@ -162,7 +165,7 @@ def find_owners(value, light, objects):
 
 @contextlib.contextmanager
 def filled_properties(lights):
-    """Lights have what the engine reads, as custom properties; afterwards all is as it was."""
+    """Store Blender's values as custom properties that the engine reads, and remove them afterwards."""
     filled = []
     try:
         for light, objects in lights.items():
@@ -177,13 +180,13 @@ def filled_properties(lights):
 
 
 def find_cause(error):
-    """The last line of a traceback that Blender hands over as text, and where to look it up."""
+    """Return the last line of the traceback in an error of Blender, and where known causes are documented."""
     lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Location: ")]
     return "%s. Known causes are in doc/blender.md." % (lines[-1].strip().rstrip(".") if lines else repr(error))
 
 
 def run_exporter(path, is_embedded):
-    """Blender's own exporter, with what this Blender's version knows of these options."""
+    """Run Blender's own exporter with those of our options that this version of Blender has."""
     if "gltf" not in dir(bpy.ops.export_scene):
         raise ExportError('The add-on "glTF 2.0 format" is off. Tick it in Edit > Preferences > Add-ons.')
     text_format = "GLTF_EMBEDDED" if is_embedded else "GLTF_SEPARATE"
@@ -211,7 +214,7 @@ def run_exporter(path, is_embedded):
 
 
 def move_files(source, target, main_name):
-    """Side files first, the scene last: a program that follows the scene's file never reads half of a pair."""
+    """Move side files first and the scene last, so that a program that watches the scene's file never reads old side files."""
     names = sorted(os.listdir(source), key=lambda name: name == main_name)
     if main_name not in names:
         raise ExportError("Blender's exporter wrote no file. Its messages are in the terminal.")
@@ -220,7 +223,7 @@ def move_files(source, target, main_name):
 
 
 def export_scene(context, path, is_embedded=False):
-    """Writes the file and returns warnings. Nothing in Blender is changed."""
+    """Write the file and return warnings. Nothing in Blender is changed. Raises ExportError."""
     path = os.path.abspath(bpy.path.abspath(path))
     folder, name = os.path.split(path)
     if not name.lower().endswith(SUFFIXES):
@@ -246,7 +249,7 @@ def export_scene(context, path, is_embedded=False):
 
 
 def adopt_values(light, owners):
-    """Moves custom properties of the light and its object into Blender's own values."""
+    """Set Blender's own values from custom properties of the light and its object, and remove those properties."""
     for value in get_values(light):
         properties = [(owner, name) for owner in owners for name in value.find_names(owner)]
         if not properties or read_number(*properties[0]) is None:
@@ -259,9 +262,9 @@ def adopt_values(light, owners):
 
 
 def repair_numpy():
-    """Blender 3.4's importer needs numpy.bool, which Debian 12's numpy 1.24 no longer has.
+    """Define numpy.bool, which Blender 3.4's importer needs and Debian 12's numpy 1.24 no longer has.
 
-    github.com/KhronosGroup/glTF-Blender-IO/issues/1844; Blender 3.5 does without.
+    See github.com/KhronosGroup/glTF-Blender-IO/issues/1844. Blender 3.5 does not need it.
     """
     import numpy
 
@@ -278,14 +281,14 @@ def import_scene(path):
             adopt_values(item.data, (item.data, item))
 
 
-# Techniques to choose from
+# List of techniques
 
 
-class ProgramList:
+class TechniqueList:
     """The techniques of the program `gnomon`, queried when the list opens.
 
-    A list in this file would grow stale with every technique, so the program is the only source. Without the
-    program one types the id; a file keeps any id, and the engine warns of one that it does not have.
+    A list in this file would become outdated with every new technique, so the program is the only source. Without the
+    program the user types the id. Files keep any id, and the engine warns of an unknown one.
     """
 
     def __init__(self):
@@ -299,7 +302,7 @@ class ProgramList:
         return shutil.which("gnomon") or os.path.join(root, "bin", "gnomon")
 
     def load(self, context):
-        """(id, name) of each; empty where the program cannot be run."""
+        """Return (id, name) of each technique; an empty list if the program cannot be run."""
         program = self.find_program(context)
         try:
             key = (program, os.path.getmtime(program))
@@ -313,7 +316,7 @@ class ProgramList:
         return self.items
 
 
-TECHNIQUES = ProgramList()
+TECHNIQUES = TechniqueList()
 
 
 def search_techniques(_light, context, _text):
@@ -424,8 +427,8 @@ class GNOMON_OT_export(bpy.types.Operator, ExportHelper):
     bl_label = "Export glTF for Gnomon"
     bl_options = {"REGISTER"}
 
-    filename_ext = ".glb"  # of the first name that is offered
-    check_extension = None  # both are allowed
+    filename_ext = ".glb"  # of the suggested file name
+    check_extension = None  # both .gltf and .glb are allowed
     filter_glob: StringProperty(default="*.gltf;*.glb", options={"HIDDEN"})
     is_embedded: BoolProperty(
         name="Embedded",
@@ -468,7 +471,7 @@ class GNOMON_AP_program(bpy.types.AddonPreferences):
 
     program: StringProperty(
         name="Program",
-        description="Path of `gnomon`, which names the techniques. Empty: searched in PATH",
+        description="Path of `gnomon`, which names the techniques. Empty: searched in PATH, then bin/gnomon above this file",
         subtype="FILE_PATH",
     )
 
@@ -512,7 +515,7 @@ def unregister():
 
 
 def run_command(arguments):
-    """The exit code."""
+    """Export as the command line says; return the exit code."""
     parser = argparse.ArgumentParser(prog="blender -b FILE.blend -P gnomon_shadows.py --", description="Exports for Gnomon.")
     parser.add_argument("--export", required=True, metavar="OUT", help="the .gltf or .glb file to write")
     parser.add_argument("--embedded", action="store_true", help="a .gltf without a .bin next to it")

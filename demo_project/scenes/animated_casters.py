@@ -1,4 +1,4 @@
-"""Casters that move, for the scenes that have them: a figure that walks in a circle, and a flag."""
+"""Adds animated casters to a scene: a figure that walks in a circle, and a flag."""
 
 import figure_walk
 import flag_shapes
@@ -7,15 +7,15 @@ from gltf_animation import Channel, add_animation, add_skin, make_signs_continuo
 from gltf_writer import add, encode_png, invert_quaternion, rotate, scale
 from shapes import make_cylinder
 
-STEPS_OF_LEGS = 24  # keys a cycle; between them a flat foot slides by 0.9 mm at most
-STEPS_OF_BODY = 12
-STEPS_OF_HIPS = 8
-STEPS_OF_FLAG = 12
+LEG_KEYS_PER_CYCLE = 24  # keys per cycle of the walk; between them a flat foot slides by 0.9 mm at most
+BODY_KEYS_PER_CYCLE = 12
+HIPS_KEYS_PER_CYCLE = 8
+FLAG_KEYS_PER_CYCLE = 12
 CLOTH_COLORS = ((0.93, 0.90, 0.82), (0.12, 0.42, 0.44))
 
 
 def build_inverse_bind(translation, rotation):
-    """Column by column; translation and rotation take the joint at rest to the world."""
+    """Return the inverse bind matrix, column by column. translation and rotation take the joint at rest to world space."""
     back = invert_quaternion(rotation)
     columns = [rotate(back, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
     moved = rotate(back, scale(translation, -1.0))
@@ -23,12 +23,12 @@ def build_inverse_bind(translation, rotation):
 
 
 def round_position(position):
-    """Nine digits, so that the last bits of sums do not show in the file."""
+    """Round to nine digits, so that rounding errors do not change the file."""
     return tuple(round(value, 9) + 0.0 for value in position)
 
 
 def add_figure(document, center, stem):
-    """The figure at rest where its walk begins, round the center; joint -> node."""
+    """Add the figure at rest, where its walk around the center begins; return joint -> node."""
     root, heading = figure_walk.get_root(0.0)
     root = round_position(root)
     heading = tuple(round(value, 9) for value in heading)
@@ -51,7 +51,7 @@ def add_figure(document, center, stem):
 
 
 def make_cloth_png(size_px=32):
-    """Two colours, chequered 4 x 2 times."""
+    """Return a checkerboard of two colours, 4 x 2 fields."""
     rows = []
     for y in range(size_px):
         colors = [CLOTH_COLORS[(4 * x // size_px + 2 * y // size_px) % 2] for x in range(size_px)]
@@ -60,7 +60,7 @@ def make_cloth_png(size_px=32):
 
 
 def add_flag(document, foot, height_m, stem):
-    """A flag at the top of its pole; the flag's node."""
+    """Add a flag at the top of its pole; return the flag's node."""
     x, y, z = foot
     metal = document.add_material("Pole", (0.55, 0.55, 0.57), roughness=0.4)
     document.add_object("Pole", make_cylinder(0.018, 0.5 * height_m, 16), metal, (x, y + 0.5 * height_m, z))
@@ -71,7 +71,7 @@ def add_flag(document, foot, height_m, stem):
 
 
 def sample(steps_per_cycle, get_value):
-    """Return (times, values) of a loop; the last value equals the first."""
+    """Return (times in seconds, values) of a loop; get_value takes the phase in cycles. The last value equals the first."""
     count = steps_per_cycle * figure_walk.CYCLE_COUNT
     values = [get_value(index / steps_per_cycle) for index in range(count)]
     return [index * figure_walk.CYCLE_S / steps_per_cycle for index in range(count + 1)], values + values[:1]
@@ -84,15 +84,15 @@ def get_hips_key(phase):
 
 
 def build_walk(nodes):
-    """Channels of the joints."""
-    times, roots = sample(STEPS_OF_LEGS, figure_walk.get_root)
+    """Return the animation channels of the joints."""
+    times, roots = sample(LEG_KEYS_PER_CYCLE, figure_walk.get_root)
     channels = [Channel(nodes["Root"], "translation", times, [translation for translation, _rotation in roots])]
     channels.append(Channel(nodes["Root"], "rotation", times, make_signs_continuous([rotation for _translation, rotation in roots])))
-    times, keys = sample(STEPS_OF_HIPS, get_hips_key)
+    times, keys = sample(HIPS_KEYS_PER_CYCLE, get_hips_key)
     channels.append(Channel(nodes["Hips"], "translation", times, [row for key in keys for row in key], "CUBICSPLINE"))
-    legs, body = (sample(steps, figure_walk.build_rotations) for steps in (STEPS_OF_LEGS, STEPS_OF_BODY))
+    legs, body = (sample(steps, figure_walk.build_rotations) for steps in (LEG_KEYS_PER_CYCLE, BODY_KEYS_PER_CYCLE))
     for joint in list(nodes)[1:]:
-        # The hips have the legs' keys, which are computed for their rotation at these times.
+        # The hips have the same times as the legs, whose keys are computed for the rotation of the hips at these times.
         times, poses = legs if joint == "Hips" or " leg " in joint or joint.startswith("Foot") else body
         rotations = [pose[joint] for pose in poses]
         if joint.startswith("Hand"):  # their pose is constant
@@ -103,10 +103,10 @@ def build_walk(nodes):
 
 
 def add_walk(document, center, pole, pole_height_m, stem):
-    """The figure, the flag, and the animation of both."""
+    """Add the figure, the flag, and one animation of both."""
     channels = build_walk(add_figure(document, center, stem))
     flag = add_flag(document, pole, pole_height_m, stem)
-    count = round(STEPS_OF_FLAG * figure_walk.LOOP_S / flag_shapes.CYCLE_S)
+    count = round(FLAG_KEYS_PER_CYCLE * figure_walk.LOOP_S / flag_shapes.CYCLE_S)
     times = [index * figure_walk.LOOP_S / count for index in range(count + 1)]
     weights = [flag_shapes.get_weights(time, figure_walk.LOOP_S) for time in times[:-1]]
     channels.append(Channel(flag, "weights", times, weights + weights[:1]))

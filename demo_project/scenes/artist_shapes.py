@@ -1,7 +1,7 @@
-"""Meshes as artists leave them: parts merged into one mesh that pierce each other, open, doubled, non-manifold.
+"""Meshes with the usual flaws of artists' work: intersecting parts in one mesh, open, duplicated and non-manifold faces.
 
-Every function takes its random numbers from a generator with a seed and returns a gltf_writer.Mesh in metres whose
-ground is y = 0. A mesh of this kind only promises finite positions, unit normals and triangles of some area.
+Functions take random numbers from a seeded generator and return a gltf_writer.Mesh in metres with the ground at y = 0. Such a
+mesh only has finite positions, unit normals and triangles with an area.
 """
 
 import math
@@ -11,7 +11,7 @@ from shapes import make_box, make_quad
 
 
 def make_open_tube(points, radius, side_count, angle_rad=0.0):
-    """A tube without caps along a polyline that never runs along +Y for long; smooth normals."""
+    """Return a tube with smooth normals and without caps along a polyline. It twists where the direction's |x| crosses 0.8."""
     mesh = Mesh(is_closed=False)
     for i, point in enumerate(points):
         along = normalize(subtract(points[min(i + 1, len(points) - 1)], points[max(i - 1, 0)]))
@@ -31,7 +31,7 @@ def make_open_tube(points, radius, side_count, angle_rad=0.0):
 
 
 def make_strip(left, right):
-    """Quads between two polylines, front where the right one is to the right of the left one's way; flat normals."""
+    """Return quads with flat normals between two polylines, front where right is on the right, looking along them."""
     mesh = Mesh(is_closed=False)
     for i in range(len(left) - 1):
         corners = (left[i], right[i], right[i + 1], left[i + 1])
@@ -44,8 +44,8 @@ def mix(a, b, t):
     return add(scale(a, 1.0 - t), scale(b, t))
 
 
-def pick_turn(generator):
-    """Mostly upright with some yaw, as a level editor's snapping leaves things; one in four any way."""
+def pick_rotation(generator):
+    """Return a random rotation: upright with any yaw in three of four cases, else tilted in any upward direction."""
     yaw = quaternion_about((0.0, 1.0, 0.0), 2.0 * math.pi * generator.random())
     if generator.random() < 0.75:
         return yaw
@@ -54,11 +54,11 @@ def pick_turn(generator):
 
 
 def make_kitbash_part(generator):
-    """A box, an open tube, a plank or a card about the origin."""
+    """Return a box, an open tube, a plank or a card, centred at the origin."""
     kind = generator.choice(("box", "tube", "plank", "card"))
     if kind == "box":
         mesh = make_box([generator.uniform(0.05, 0.16) for _ in range(3)])
-        if generator.random() < 0.3:  # its last face deleted, since no camera was meant to see it
+        if generator.random() < 0.3:  # with its last face deleted, as artists do with hidden faces
             mesh.triangles = mesh.triangles[:-2]
         return mesh
     if kind == "tube":
@@ -70,16 +70,16 @@ def make_kitbash_part(generator):
     return make_quad(generator.uniform(0.1, 0.3), generator.uniform(0.1, 0.3))
 
 
-# Of the parts: one in that many is there twice, or has a third face on one of its edges.
+# One part in DUPLICATE_STEP is duplicated, and one in FIN_STEP has a third face on one of its edges.
 DUPLICATE_STEP, FIN_STEP = 30, 20
 
 
 def make_kitbash(generator, part_count):
-    """Parts in a mound, one mesh: closed and open, pierced by others and by the ground, some doubled, some with edges
-    of three faces. The first ones are broad slabs and cards on which the others cast."""
+    """Return a mound of parts in one mesh: closed and open, intersecting each other and the ground, some duplicated, some
+    with an edge of three faces. The first ones are broad slabs and cards on which the others cast shadows."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     for index in range(part_count):
-        # Denser in the middle, and the nearer to it the higher.
+        # Uniform over a disc, and higher towards its centre.
         distance = 1.55 * math.sqrt(generator.random())
         angle = 2.0 * math.pi * generator.random()
         height = (1.75 - distance) * generator.random()
@@ -88,13 +88,13 @@ def make_kitbash(generator, part_count):
             tilt = generator.uniform(-0.3, 0.3)
             if index % 2:
                 part = make_box((generator.uniform(0.3, 0.5), 0.03, generator.uniform(0.25, 0.4)))
-                turn = quaternion_about((1.0, 0.0, 0.6), tilt)
+                rotation = quaternion_about((1.0, 0.0, 0.6), tilt)
             else:
-                part, turn = make_quad(0.45, 0.35), quaternion_about((1.0, 0.0, 0.3), tilt - 0.5 * math.pi)
+                part, rotation = make_quad(0.45, 0.35), quaternion_about((1.0, 0.0, 0.3), tilt - 0.5 * math.pi)
         else:
-            part, turn = make_kitbash_part(generator), pick_turn(generator)
+            part, rotation = make_kitbash_part(generator), pick_rotation(generator)
         first_vertex = len(mesh.positions)
-        mesh.add_mesh(part, turn, position)
+        mesh.add_mesh(part, rotation, position)
         if index % DUPLICATE_STEP == 0:
             mesh.triangles += [tuple(corner + first_vertex for corner in triangle) for triangle in part.triangles]
         if index % FIN_STEP == 0:
@@ -103,7 +103,7 @@ def make_kitbash(generator, part_count):
 
 
 def add_fin(mesh, triangle, height):
-    """A third face on the triangle's first edge, along its normal."""
+    """Add a third face to the triangle's first edge, in the direction of the triangle's normal."""
     a, b, c = (mesh.positions[index] for index in triangle)
     face_normal = normalize(cross(subtract(b, a), subtract(c, a)))
     fin_normal = cross(subtract(b, a), face_normal)
@@ -128,18 +128,18 @@ YARD_HALF_WIDTH = 0.6
 
 
 def find_rail(x, side):
-    """The hull's upper edge at x."""
+    """Return the point of the hull's upper edge at x; side: -1 or 1."""
     t = x / HULL_HALF_LENGTH
     return (x, DECK_HEIGHT + 0.12 * t * t, side * HULL_HALF_BEAM * math.sqrt(max(0.0, 1.0 - t**4)))
 
 
 def make_hull(strake_count=6, station_count=24):
-    """Strakes side by side without sharing vertices, a deck with hatches and bulwarks: none of it closed."""
+    """Return a ship's hull: strakes (rows of planks) with separate vertices, a deck with hatches, masts and yards, all open."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     stations = [HULL_HALF_LENGTH * 0.985 * (2.0 * i / station_count - 1.0) for i in range(station_count + 1)]
 
     def find_point(x, side, t):
-        # From keel (t = 0) to rail (t = 1), round below.
+        # From the keel (t = 0) along a round section to the rail (t = 1).
         rail = find_rail(x, side)
         angle = 0.5 * math.pi * t
         return (x, KEEL_HEIGHT + (rail[1] - KEEL_HEIGHT) * (1.0 - math.cos(angle)), rail[2] * math.sin(angle))
@@ -147,7 +147,7 @@ def make_hull(strake_count=6, station_count=24):
     for side in (-1.0, 1.0):
         for strake in range(strake_count):
             lower = [find_point(x, side, strake / strake_count) for x in stations]
-            # Each laps over the next by a little, as clinker planks do.
+            # Each strake overlaps the next one a little, as on a clinker-built ship.
             upper = [find_point(x, side, min(1.0, (strake + 1.08) / strake_count)) for x in stations]
             mesh.add_mesh(make_strip(upper, lower) if side < 0.0 else make_strip(lower, upper))
     for i in range(station_count):
@@ -157,19 +157,19 @@ def make_hull(strake_count=6, station_count=24):
         mesh.add_mesh(make_strip(starboard, port))
     for x, top in MASTS:
         mesh.add_mesh(make_open_tube([(x, 0.1, 0.0), (x, top, 0.0)], 0.028, 10))
-        for share in (0.62, 0.88):
-            y = top * share
+        for height_fraction in (0.62, 0.88):
+            y = top * height_fraction
             mesh.add_mesh(make_open_tube([(x, y, -YARD_HALF_WIDTH), (x, y, YARD_HALF_WIDTH)], 0.015, 6))
     bow = find_rail(0.98 * HULL_HALF_LENGTH, 1.0)
     mesh.add_mesh(make_open_tube([(1.35, bow[1] - 0.1, 0.0), (1.95, bow[1] + 0.2, 0.0)], 0.02, 6))
     return mesh
 
 
-LADDER_STEP = 7  # one rope in that many is a ladder
+LADDER_STEP = 7  # one rope in LADDER_STEP is a ladder
 
 
 def make_rigging(generator, rope_count):
-    """Thin open tubes from rails to masts and yards, and between them; ladders of two ropes and rungs."""
+    """Return ropes, thin open tubes between rails, masts and yards, and ladders of two ropes and rungs."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     for index in range(rope_count):
         mast_x, mast_top = generator.choice(MASTS)
@@ -186,7 +186,7 @@ def make_rigging(generator, rope_count):
             foot = (other_x, other_top * generator.uniform(0.45, 0.98), 0.0)
         elif kind < 0.6:  # from a yard down to the rail
             head = (mast_x, mast_top * generator.choice((0.62, 0.88)), side * generator.uniform(0.1, YARD_HALF_WIDTH))
-        elif kind < 0.7:  # to the ground, through which it goes
+        elif kind < 0.7:  # into the ground
             foot = (foot_x + generator.uniform(-0.4, 0.4), -0.05, side * generator.uniform(0.7, 1.3))
         points = make_rope_points(foot, head, generator.uniform(0.0, 0.12), 12)
         mesh.add_mesh(make_open_tube(points, generator.uniform(0.003, 0.007), 4, generator.random()))
@@ -214,7 +214,7 @@ BLADE_ROOT_DEPTH = 0.04
 
 
 def make_grass(generator, blade_count):
-    """Bent blades of two quads and a tip, each an open surface that begins below the ground."""
+    """Return bent blades of grass: open surfaces of two quads and a triangle that begin below the ground."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     for _ in range(blade_count):
         distance, angle = GRASS_RADIUS * math.sqrt(generator.random()), 2.0 * math.pi * generator.random()
@@ -222,7 +222,7 @@ def make_grass(generator, blade_count):
         height, half_width = generator.uniform(0.12, 0.45), generator.uniform(0.008, 0.02)
         bend = generator.uniform(0.0, 0.35) * height
         yaw = quaternion_about((0.0, 1.0, 0.0), 2.0 * math.pi * generator.random())
-        slope = 2.0 * bend / height  # of the bend at the tip; the normal leans back by it
+        slope = 2.0 * bend / height  # horizontal per vertical metre of the bent blade at its tip
         corners = []
         for t in (0.0, 0.45, 0.8, 1.0):
             center = (0.0, t * (height + BLADE_ROOT_DEPTH), bend * t * t)

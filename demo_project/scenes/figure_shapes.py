@@ -1,7 +1,7 @@
-"""A figure of a person: its joints, its body as one closed mesh, and how much each vertex follows which joint.
+"""A human figure: its joints, its body as one closed mesh, and the skinning weights of its vertices.
 
-The figure's space: metres, +Y up, it looks along +Z, its left is +X, its soles are in the plane y = 0. Its arms are
-a little off its sides at rest. The body is the zero surface of round cones that are blended into each other.
+Space of the figure: metres, +Y up, looking along +Z, its left at +X, its soles in the plane y = 0. At rest its arms hang a
+little off its sides. The body is the zero surface of a distance field: round cones that are blended into each other.
 """
 
 import functools
@@ -10,7 +10,7 @@ import math
 from gltf_writer import Mesh, add, encode_png, rotate
 from isosurface import compute_gradient, find_surface, relax_points, split_quads
 
-# Joint -> parent and position. A name that ends in " L" has a twin " R", mirrored.
+# Joint -> (parent, position). A joint with a name in " L" has a mirrored twin with " R".
 LEFT_AND_MIDDLE = {
     "Root": (None, (0.0, 0.0, 0.0)),
     "Hips": ("Root", (0.0, 0.86, 0.0)),
@@ -27,8 +27,8 @@ LEFT_AND_MIDDLE = {
     "Foot L": ("Lower leg L", (0.09, 0.075, -0.02)),
 }
 
-# Joint, ends and their radii, how much thinner than round along x, y and z, and how wide the blend into the parts
-# before it is; all in metres but the third.
+# Round cones: joint, both ends, both radii, factors by which it is thinner along x, y and z, and the width of the blend into
+# the parts before it. All but the factors are in metres.
 PARTS = (
     ("Hips", (0.0, 0.89, -0.005), (0.06, 0.855, -0.008), 0.105, 0.092, (1.0, 1.0, 1.12), 0.0),
     ("Spine", (0.0, 0.93, 0.0), (0.0, 1.07, 0.0), 0.128, 0.132, (1.03, 1.0, 1.32), 0.05),
@@ -48,13 +48,13 @@ PARTS = (
     ("Foot L", (0.09, 0.045, -0.045), (0.1, 0.028, 0.125), 0.046, 0.04, (1.0, 1.0, 1.0), 0.03),
 )
 SOLE_ROUNDING_M = 0.01
-FALLOFF_M = 0.035  # a joint whose part is so much farther off than the closest has no weight
-SIDE_FALLOFF_M = 0.03
-WEIGHT_STEPS = 4096  # weights are multiples of 1 / 4096, so that their sum is 1 in float32 too
+FALLOFF_M = 0.035  # a joint whose part is farther away than the closest part by this distance has no weight
+SIDE_FALLOFF_M = 0.03  # from the middle plane, over which the weights of the other side's limbs fall to 0
+WEIGHT_STEPS = 4096  # weights are multiples of 1 / 4096, so that their sum is exactly 1 in float32
 RELAX_ROUNDS = 12
 SMOOTHING_ROUNDS = 3
-IMAGE_HEIGHT_M = 1.6  # of the texture, which is half as wide
-HAIR_SLOPE = 0.72  # the hair's edge is so much lower farther back
+IMAGE_HEIGHT_M = 1.6  # height of the texture, which is half as wide
+HAIR_SLOPE = 0.72  # by how much the edge of the hair falls per metre towards the back
 HAIR, SKIN, SHIRT, BELT, TROUSERS, SHOES = (
     (0.22, 0.13, 0.08), (0.86, 0.63, 0.50), (0.72, 0.20, 0.16), (0.18, 0.13, 0.10), (0.20, 0.28, 0.42), (0.16, 0.12, 0.11),
 )  # fmt: skip
@@ -65,7 +65,7 @@ def mirror(position):
 
 
 def build_skeleton():
-    """Joint -> (parent, position), parents first."""
+    """Return joint -> (parent, position), parents first."""
     joints = {}
     for side in (1, -1):
         for name, (parent, position) in LEFT_AND_MIDDLE.items():
@@ -105,7 +105,7 @@ def get_body_distance(point):
         blend = part[7]
         overlap = blend - abs(result - distance)
         result = min(result, distance)
-        if overlap > 0.0:  # the smooth minimum of Quilez, polynomial of second order
+        if overlap > 0.0:  # smooth minimum (Quilez), a quadratic polynomial
             result -= overlap * overlap / (4.0 * blend)
     overlap = SOLE_ROUNDING_M - abs(result + y)
     return max(result, -y) + (overlap * overlap / (4.0 * SOLE_ROUNDING_M) if overlap > 0.0 else 0.0)
@@ -133,22 +133,22 @@ def find_influences(point):
             distance = get_part_distance(part, -x if side == "R" else x, y, z)
             distances[joint] = min(distance, distances.get(joint, 10.0))
     closest = min(distances.values())
-    shares = {}
+    weights_by_joint = {}
     for joint, distance in distances.items():
-        share = max(0.0, 1.0 - (distance - closest) / FALLOFF_M) ** 3
-        if joint.endswith((" L", " R")):  # the other side's limbs do not pull
+        weight = max(0.0, 1.0 - (distance - closest) / FALLOFF_M) ** 3
+        if joint.endswith((" L", " R")):  # limbs do not pull vertices of the other side
             inner = 0.5 + 0.5 * (x if joint.endswith("L") else -x) / SIDE_FALLOFF_M
             inner = min(max(inner, 0.0), 1.0)
-            if joint.startswith("Upper leg"):  # what is between the legs follows the trunk too
-                shares["Hips"] = shares.get("Hips", 0.0) + share * (1.0 - inner)
-            share *= inner
-        if share > 0.0:
-            shares[joint] = shares.get(joint, 0.0) + share
-    return {joint: share / sum(shares.values()) for joint, share in shares.items()}
+            if joint.startswith("Upper leg"):  # between the legs the hips get what the upper leg loses
+                weights_by_joint["Hips"] = weights_by_joint.get("Hips", 0.0) + weight * (1.0 - inner)
+            weight *= inner
+        if weight > 0.0:
+            weights_by_joint[joint] = weights_by_joint.get(joint, 0.0) + weight
+    return {joint: weight / sum(weights_by_joint.values()) for joint, weight in weights_by_joint.items()}
 
 
 def smooth_influences(influences, triangles):
-    """Each vertex gets half of its own shares, and half of the mean of its neighbours'."""
+    """Average the weights of each vertex with the mean of its neighbours', SMOOTHING_ROUNDS times."""
     neighbors = [set() for _influence in influences]
     for a, b, c in triangles:
         for one, other in ((a, b), (b, c), (c, a)):
@@ -157,23 +157,23 @@ def smooth_influences(influences, triangles):
     for _round in range(SMOOTHING_ROUNDS):
         smoothed = []
         for own, ring in zip(influences, neighbors):
-            shares = {joint: 0.5 * share for joint, share in own.items()}
+            weights_by_joint = {joint: 0.5 * weight for joint, weight in own.items()}
             for index in sorted(ring):
-                for joint, share in influences[index].items():
-                    shares[joint] = shares.get(joint, 0.0) + 0.5 * share / len(ring)
-            smoothed.append(shares)
+                for joint, weight in influences[index].items():
+                    weights_by_joint[joint] = weights_by_joint.get(joint, 0.0) + 0.5 * weight / len(ring)
+            smoothed.append(weights_by_joint)
         influences = smoothed
     return influences
 
 
 def select_weights(influence, joints):
-    """The four joints that a vertex follows most, as (indices, weights); weights sum to 1."""
-    found = sorted(((share, joints.index(joint)) for joint, share in influence.items()), key=lambda pair: (-pair[0], pair[1]))[:4]
-    total = sum(share for share, _index in found)
-    steps = [math.floor(WEIGHT_STEPS * share / total + 0.5) for share, _index in found]
+    """Return (joint indices, weights) of the four joints with the largest weights; the weights sum to 1."""
+    found = sorted(((weight, joints.index(joint)) for joint, weight in influence.items()), key=lambda pair: (-pair[0], pair[1]))[:4]
+    total = sum(weight for weight, _index in found)
+    steps = [math.floor(WEIGHT_STEPS * weight / total + 0.5) for weight, _index in found]
     steps[0] += WEIGHT_STEPS - sum(steps)
     empty = 4 - len(found)
-    indices = [index if step else 0 for step, (_share, index) in zip(steps, found)]
+    indices = [index if step else 0 for step, (_weight, index) in zip(steps, found)]
     return indices + [0] * empty, [step / WEIGHT_STEPS for step in steps] + [0.0] * empty
 
 
@@ -197,7 +197,7 @@ def get_color(x, height):
 
 
 def make_clothes_png(height_px=256):
-    """Front and back are alike, so that the texture is projected from the front."""
+    """Return the texture of the clothes. It is projected from the front, as front and back look the same."""
     size_m = IMAGE_HEIGHT_M / height_px
     rows = []
     for y in range(height_px):
@@ -210,14 +210,14 @@ def make_clothes_png(height_px=256):
 
 
 def get_clothes_uv(point):
-    """Heights of the head are tilted, so that the hair reaches down to the neck."""
+    """Return texture coordinates. On the head they are tilted, so that the hair reaches down to the neck at the back."""
     x, y, z = point
     tilt = min(max((y - 1.29) / 0.06, 0.0), 1.0) * HAIR_SLOPE
     return (0.5 + 2.0 * x / IMAGE_HEIGHT_M, 1.0 - (y - tilt * z) / IMAGE_HEIGHT_M)
 
 
 def make_figure(translation, rotation):
-    """The body, turned and moved, with the weights of its skin; joints are numbered as build_skeleton names them."""
+    """Return the body, rotated and moved, with its skinning weights. Joint indices follow the order of build_skeleton()."""
     joints = list(build_skeleton())
     points, triangles = find_body()
     mesh = Mesh()

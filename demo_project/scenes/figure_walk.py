@@ -1,8 +1,8 @@
-"""How the figure of figure_shapes.py walks in a circle: what each joint does at a time.
+"""The walk of the figure of figure_shapes.py in a circle: the rotation of each joint at a phase of the walk.
 
-Each foot is planted where the root is at the middle of its stance, and the legs reach the feet by inverse kinematics, so that
-no foot slides. Space: that of the circle, its middle at the origin, on the ground; +Y up.
-Phases are in cycles, a cycle is two steps, and phase 0 is the middle of the left foot's stance.
+A foot is planted next to where the root is at the middle of the foot's stance. Inverse kinematics let the legs reach the
+feet, so that no foot slides. Positions are relative to the centre of the circle on the ground, +Y up. Phases are in cycles of
+two steps. Phase 0 is the middle of the left foot's stance.
 """
 
 import math
@@ -24,27 +24,28 @@ from gltf_writer import (
 
 RADIUS_M = 0.8
 CYCLE_S = 1.2
-CYCLE_COUNT = 5  # once round
+CYCLE_COUNT = 5  # cycles for one round of the circle
 LOOP_S = CYCLE_S * CYCLE_COUNT
 START_RAD = math.radians(-30.0)  # heading at time 0, from +Z
 
-STANCE = 0.6  # share of a cycle that a foot is on the ground
-FOOT_SIDE_M = 0.062  # from the path to a foot
-FOOT_BEHIND_M = 0.03  # of where the root is in the middle of the stance
+STANCE = 0.6  # fraction of a cycle in which a foot is on the ground
+FOOT_SIDE_M = 0.062  # distance of a foot from the path
+FOOT_BEHIND_M = 0.03  # how far a foot is behind the root in the middle of its stance
 TOE_OUT_RAD = math.radians(6.0)
-LIFT_M = 0.045  # of a swinging foot, above what the turn of its sole lifts it
-# Phase of a foot, and how far its toes are up; it turns on its heel where they are up, else on its toes.
+LIFT_M = 0.045  # extra height of a swinging foot, in addition to the height from its pitch
+# (phase since the middle of the stance, angle by which the toes are up). A foot pivots on its heel if they are up, else on
+# its toes.
 TOES_UP_DEG = ((-0.3, 16.0), (-0.21, 0.0), (0.06, 0.0), (0.3, -34.0), (0.38, -38.0), (0.6, 10.0), (0.7, 16.0))
-HEEL, TOES = (0.0, -0.074, -0.052), (0.006, -0.074, 0.152)  # from the ankle, on the sole of the left foot
+HEEL, TOES = (0.0, -0.074, -0.052), (0.006, -0.074, 0.152)  # pivots on the sole of the left foot, relative to the ankle
 
 HIPS_DROP_M, HIPS_BOB_M, HIPS_SWAY_M = 0.033, 0.015, 0.016
 HIPS_YAW_RAD, HIPS_ROLL_RAD, HIPS_TILT_RAD = math.radians(6.0), math.radians(3.0), math.radians(2.0)
 CHEST_YAW_RAD, LEAN_RAD, LOOK_RAD = math.radians(7.0), math.radians(3.0), math.radians(12.0)
 ARM_SWING_RAD, ARM_IN_RAD = math.radians(24.0), math.radians(13.0)
-LONGEST_LEG = 0.999  # share of a straight one: the knee has no direction there
+MAX_LEG_FRACTION = 0.999  # of a straight leg's length, where the direction of the knee would be undefined
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-SIDES = {"L": (1.0, 0.0), "R": (-1.0, 0.5)}  # sign of x, and phase of the stance's middle
+SIDES = {"L": (1.0, 0.0), "R": (-1.0, 0.5)}  # (sign of x, phase of the middle of the stance)
 SKELETON = build_skeleton()
 
 
@@ -54,7 +55,7 @@ def get_rest_offset(joint):
     return position if parent is None else subtract(position, SKELETON[parent][1])
 
 
-def compose_turns(*axes_and_angles):
+def compose_rotations(*axes_and_angles):
     """Compose the rotations; the one about the first axis is applied last."""
     result = (0.0, 0.0, 0.0, 1.0)
     for axis, angle in axes_and_angles:
@@ -63,7 +64,7 @@ def compose_turns(*axes_and_angles):
 
 
 def interpolate_smoothly(knots, at):
-    """A cubic through the knots that is level where they turn back or stay (Fritsch and Butland 1984)."""
+    """Return the value at a parameter of a monotone cubic through the knots, (parameter, value) (Fritsch and Butland 1984)."""
     slopes = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(knots, knots[1:])]
     tangents = [2.0 * a * b / (a + b) if a * b > 0.0 else 0.0 for a, b in zip(slopes, slopes[1:])]
     tangents = [0.0, *tangents, 0.0]
@@ -97,7 +98,8 @@ def get_hips(phase):
 
 
 def get_plant(side, step):
-    """Return (position on the ground, heading) of a foot's stance."""
+    """Return (position on the ground, heading) of a foot in its stance of the cycle step; between whole numbers it interpolates
+    along the path."""
     sign, offset = SIDES[side]
     translation, rotation = get_root(step + offset)
     position = add(translation, rotate(rotation, (sign * FOOT_SIDE_M, 0.0, -FOOT_BEHIND_M)))
@@ -111,23 +113,24 @@ def get_foot(side, phase):
     since = phase - offset - step
     eased, lift = 0.0, 0.0
     if since > 0.5 * STANCE:
-        share = (since - 0.5 * STANCE) / (1.0 - STANCE)
-        eased = share * share * (3.0 - 2.0 * share)
-        lift = LIFT_M * math.sin(math.pi * share) ** 2
-    # A swinging foot follows the path: along a chord the outer foot would hit the inner one.
+        swing_fraction = (since - 0.5 * STANCE) / (1.0 - STANCE)
+        eased = swing_fraction * swing_fraction * (3.0 - 2.0 * swing_fraction)
+        lift = LIFT_M * math.sin(math.pi * swing_fraction) ** 2
+    # A swinging foot follows the curved path. On a straight line the outer foot would hit the inner one.
     position, heading = get_plant(side, step + eased)
     pitch = math.radians(interpolate_smoothly(TOES_UP_DEG, since))
     pivot = HEEL if pitch > 0.0 else TOES
     pivot = (sign * pivot[0], pivot[1], pivot[2])
     ankle = (0.0, SKELETON["Foot L"][1][1], 0.0)
-    # The foot turns on the pivot, which does not move in a stance.
+    # The foot rotates about the pivot, which does not move in a stance.
     flat = add(add(position, rotate(quaternion_about(Y, heading), pivot)), ankle)
-    ankle = subtract(flat, rotate(compose_turns((Y, heading), (X, -pitch)), pivot))
+    ankle = subtract(flat, rotate(compose_rotations((Y, heading), (X, -pitch)), pivot))
     return add(ankle, (0.0, lift, 0.0)), heading, pitch
 
 
 def find_bone_rotation(rest, direction, hinge):
-    """Takes a bone from its rest direction to another, and +X, as far as it is across the bone, to the hinge."""
+    """Return the rotation that takes a bone from its rest direction to direction, and its hinge axis from +X to hinge. Both axes
+    are first made perpendicular to the bone."""
     rest, direction = normalize(rest), normalize(direction)
     side = normalize(subtract(X, scale(rest, dot(X, rest))))
     hinge = normalize(subtract(hinge, scale(direction, dot(hinge, direction))))
@@ -136,10 +139,10 @@ def find_bone_rotation(rest, direction, hinge):
 
 
 def find_leg(hip, ankle, thigh, shin, forward):
-    """Return (rotation of the thigh, rotation of the shin) that let a leg reach from hip to ankle, knee forward."""
+    """Return (rotation of the thigh, rotation of the shin) for a leg from hip to ankle whose knee points forward."""
     upper, lower = math.sqrt(dot(thigh, thigh)), math.sqrt(dot(shin, shin))
     reach = subtract(ankle, hip)
-    length = min(math.sqrt(dot(reach, reach)), LONGEST_LEG * (upper + lower))
+    length = min(math.sqrt(dot(reach, reach)), MAX_LEG_FRACTION * (upper + lower))
     down = normalize(reach)
     hinge = normalize(cross(forward, down))
     ahead = cross(down, hinge)
@@ -161,34 +164,34 @@ def pose_legs(rotations, phase):
         thigh, shin = find_leg(hip, ankle, get_rest_offset(lower), get_rest_offset(foot), forward)
         rotations[upper] = multiply_quaternions(invert_quaternion(hips_rotation), thigh)
         rotations[lower] = multiply_quaternions(invert_quaternion(thigh), shin)
-        rotations[foot] = multiply_quaternions(invert_quaternion(shin), compose_turns((Y, foot_heading), (X, -pitch)))
+        rotations[foot] = multiply_quaternions(invert_quaternion(shin), compose_rotations((Y, foot_heading), (X, -pitch)))
 
 
 def pose_trunk(rotations, phase):
-    """The chest turns against the hips, and leans into the circle; the head looks where the path leads."""
-    forth, aside = math.sin(2.0 * math.pi * phase), math.cos(2.0 * math.pi * phase)
-    yaw, roll = HIPS_YAW_RAD * forth, HIPS_ROLL_RAD * aside
-    against = -yaw - CHEST_YAW_RAD * forth
-    rotations["Hips"] = compose_turns((Y, yaw), (Z, roll), (X, HIPS_TILT_RAD))
-    rotations["Spine"] = compose_turns((Y, 0.5 * against), (Z, -0.7 * roll - 0.5 * LEAN_RAD), (X, 0.5 * HIPS_TILT_RAD))
-    rotations["Chest"] = compose_turns((Y, 0.5 * against), (Z, -0.5 * roll - 0.5 * LEAN_RAD))
-    look = 0.5 * (LOOK_RAD + CHEST_YAW_RAD * forth)
-    rotations["Neck"] = compose_turns((Y, look), (Z, 0.5 * LEAN_RAD), (X, -0.5 * HIPS_TILT_RAD))
-    rotations["Head"] = compose_turns((Y, look), (Z, 0.2 * roll + 0.5 * LEAN_RAD), (X, -HIPS_TILT_RAD))
+    """Rotate the trunk: the chest turns against the hips and leans into the circle, the head looks along the path."""
+    sine, cosine = math.sin(2.0 * math.pi * phase), math.cos(2.0 * math.pi * phase)
+    yaw, roll = HIPS_YAW_RAD * sine, HIPS_ROLL_RAD * cosine
+    against = -yaw - CHEST_YAW_RAD * sine
+    rotations["Hips"] = compose_rotations((Y, yaw), (Z, roll), (X, HIPS_TILT_RAD))
+    rotations["Spine"] = compose_rotations((Y, 0.5 * against), (Z, -0.7 * roll - 0.5 * LEAN_RAD), (X, 0.5 * HIPS_TILT_RAD))
+    rotations["Chest"] = compose_rotations((Y, 0.5 * against), (Z, -0.5 * roll - 0.5 * LEAN_RAD))
+    look = 0.5 * (LOOK_RAD + CHEST_YAW_RAD * sine)
+    rotations["Neck"] = compose_rotations((Y, look), (Z, 0.5 * LEAN_RAD), (X, -0.5 * HIPS_TILT_RAD))
+    rotations["Head"] = compose_rotations((Y, look), (Z, 0.2 * roll + 0.5 * LEAN_RAD), (X, -HIPS_TILT_RAD))
 
 
 def pose_arms(rotations, phase):
-    """Each arm swings with the other side's leg; elbows bend more in front."""
+    """Rotate the arms: each swings with the other side's leg; elbows bend more in front."""
     for side, (sign, _offset) in SIDES.items():
-        back = -sign * math.sin(2.0 * math.pi * phase)  # 1: as far back as it goes
-        rotations["Shoulder %s" % side] = compose_turns((Y, sign * math.radians(4.0) * back))
-        rotations["Upper arm %s" % side] = compose_turns((X, ARM_SWING_RAD * back + math.radians(3.0)), (Z, -sign * ARM_IN_RAD))
-        rotations["Forearm %s" % side] = compose_turns((X, math.radians(-20.0 + 13.0 * back)))
-        rotations["Hand %s" % side] = compose_turns((X, math.radians(-8.0)), (Z, -sign * math.radians(4.0)))
+        back = -sign * math.sin(2.0 * math.pi * phase)  # 1: farthest back
+        rotations["Shoulder %s" % side] = compose_rotations((Y, sign * math.radians(4.0) * back))
+        rotations["Upper arm %s" % side] = compose_rotations((X, ARM_SWING_RAD * back + math.radians(3.0)), (Z, -sign * ARM_IN_RAD))
+        rotations["Forearm %s" % side] = compose_rotations((X, math.radians(-20.0 + 13.0 * back)))
+        rotations["Hand %s" % side] = compose_rotations((X, math.radians(-8.0)), (Z, -sign * math.radians(4.0)))
 
 
 def build_rotations(phase):
-    """Joint -> rotation, for all but the root."""
+    """Return joint -> rotation for all joints except the root."""
     rotations = {}
     pose_trunk(rotations, phase)
     pose_arms(rotations, phase)

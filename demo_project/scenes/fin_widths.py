@@ -1,6 +1,6 @@
-"""Widths (r, t) in metres of the penumbra fins in each scene and light, near the best that
-tests/benchmark/search_fins.py found. The scenes do not have them: other techniques read the light's true size from
-r and t, and fins look best narrower than it.
+"""Widths (r, t) in metres of the penumbra fins for each scene and light, near the best ones that
+tests/benchmark/search_fins.py found. They are not stored in the scenes, because other techniques derive the light's size
+from r and t, and fins look best when they are narrower than that size.
 """
 
 FIN_TECHNIQUES = ("penumbra_fins", "outer_fins")
@@ -17,7 +17,7 @@ FIN_WIDTHS_M = {
     ("three_lights", "Omni"): (0.06, 0.14),
     ("three_lights", "Sun"): (0.06, 0.13),
     ("stained_glass", "Light"): (0.1, 0.25),
-    ("teapot_s15", "Light"): (0.01, 0.01),  # a point light
+    ("teapot_s15", "Light"): (0.01, 0.01),  # a light without size
     ("teapot_s50", "Light"): (0.01, 0.01),
     ("teapot_s80", "Light"): (0.01, 0.01),
     ("bunny", "Light"): (0.1, 0.17),
@@ -26,7 +26,7 @@ FIN_WIDTHS_M = {
 
 
 def get_fin_settings(technique, scene, light):
-    """Light properties for that technique, as `gnomon --set` takes them; none for others and unknown lights."""
+    """Return light properties as arguments of `gnomon --set`; an empty list for techniques without fins and for other lights."""
     widths_m = FIN_WIDTHS_M.get((scene, light))
     if technique not in FIN_TECHNIQUES or widths_m is None:
         return []

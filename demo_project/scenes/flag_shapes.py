@@ -1,6 +1,7 @@
-"""A flag that waves: an open mesh, and morph targets of the waves that run along it. Standard library only.
+"""A waving flag: an open mesh whose morph targets are waves along it. Standard library only.
 
-The flag's space: it hangs in the plane z = 0 from the pole, x = 0, towards +X; its middle is y = 0.
+At rest the flag is in the plane z = 0, from the pole at x = 0 towards +X, with its middle at y = 0. Parameters of its points
+are s, 0 at the pole to 1 at the free end, and t, 0 at the lower to 1 at the upper edge.
 """
 
 import math
@@ -10,19 +11,19 @@ from gltf_writer import Mesh, cross, normalize, subtract, to_float32
 WIDTH_M, HEIGHT_M = 0.78, 0.52
 COLUMNS, ROWS = 24, 16
 WAVE_COUNT = 1.25  # along the flag
-WAVE_M = 0.085  # half a wave's height at the free end
+WAVE_M = 0.085  # amplitude at the free end
 SAG_M = 0.11  # by which the free end hangs lower
 CYCLE_S = 1.0
-STEP = 1e-4
+STEP = 1e-4  # of s and t, for derivatives
 
 
 def get_rest(s, t):
-    """s: 0..1 from the pole, t: 0..1 from below."""
+    """Return the position at rest."""
     return (s * WIDTH_M, (t - 0.5) * HEIGHT_M, 0.0)
 
 
 def get_wave(s, t, offset_rad):
-    """Grows from the pole, and comes sooner farther up."""
+    """Return the wave's z: its amplitude grows from the pole, and its phase is ahead at the upper edge."""
     return WAVE_M * s**1.3 * math.sin(2.0 * math.pi * WAVE_COUNT * s - 0.9 * t + offset_rad)
 
 
@@ -63,6 +64,7 @@ def make_flag():
 
 
 def get_weights(time_s, loop_s):
-    """The waves in quadrature run from the pole to the free end; the sag comes and goes once a loop."""
-    turn_rad = 2.0 * math.pi * time_s / CYCLE_S
-    return (math.cos(turn_rad), -math.sin(turn_rad), 0.55 + 0.35 * math.sin(2.0 * math.pi * time_s / loop_s))
+    """Return the weights of TARGETS. Two waves a quarter period apart add up to one that runs from the pole to the free end; the
+    sag changes once per loop."""
+    phase_rad = 2.0 * math.pi * time_s / CYCLE_S
+    return (math.cos(phase_rad), -math.sin(phase_rad), 0.55 + 0.35 * math.sin(2.0 * math.pi * time_s / loop_s))

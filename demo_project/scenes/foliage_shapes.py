@@ -1,6 +1,6 @@
-"""Cards, and the textures that cut leaves and chain link out of them. Standard library only.
+"""Cards (single quads), and textures whose alpha cuts leaves and chain link out of them. Standard library only.
 
-The edge of each texture's mask is known in closed form: alpha is 1/2 there, and changes by 1 over two texels.
+The edge of each alpha mask is known in closed form: alpha is 1/2 there, and changes by 1 over two texels.
 """
 
 import math
@@ -11,7 +11,7 @@ CHAIN_WIRE = 0.075  # half a wire's width, in tiles
 
 
 def make_card(half_x, half_y, repeats=(1.0, 1.0)):
-    """Return a card in the plane z = 0 whose image is upright."""
+    """Return a card in the plane z = 0 whose image is upright. repeats: how often the image repeats along x and y."""
     mesh = Mesh(is_closed=False)
     for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
         uv = (0.5 * (x + 1) * repeats[0], 0.5 * (1 - y) * repeats[1])
@@ -21,7 +21,7 @@ def make_card(half_x, half_y, repeats=(1.0, 1.0)):
 
 
 def get_leaf_depth(shape, x, y):
-    """Return the depth of a point inside a leaf, in image widths; negative outside. x, y: -0.5 .. 0.5."""
+    """Return a point's depth inside a leaf, in image widths; negative outside. shape: oval or star. x, y: -0.5 .. 0.5."""
     if shape == "oval":  # a lens: where two discs meet
         radius, offset = 0.52, 0.28
         return radius - max(math.hypot(x - offset, y), math.hypot(x + offset, y))
@@ -36,7 +36,7 @@ def get_chain_depth(u, v):
 
 
 def make_mask_png(size_px, get_depth, get_color):
-    """get_depth(u, v): in widths of the image. get_color(u, v): red, green, blue, 0..1, of sRGB."""
+    """Return a texture. get_depth(u, v): depth inside the mask in image widths, negative outside. get_color(u, v): sRGB."""
     rows = []
     for y in range(size_px):
         row = []
@@ -48,10 +48,12 @@ def make_mask_png(size_px, get_depth, get_color):
     return encode_png(size_px, size_px, rows)
 
 
-def make_leaf_png(shape, hue, size_px=64):
+def make_leaf_png(shape, color, size_px=64):
+    """Return the texture of a leaf. shape: as in get_leaf_depth. color: sRGB, darkened at the veins."""
+
     def get_color(u, v):
         vein = 1.0 - 0.25 * math.exp(-(((u - 0.5) * 24) ** 2)) - 0.1 * math.cos(40.0 * (v + abs(u - 0.5)))
-        return [value * vein for value in hue]
+        return [value * vein for value in color]
 
     return make_mask_png(size_px, lambda u, v: get_leaf_depth(shape, u - 0.5, 0.5 - v), get_color)
 
@@ -64,7 +66,7 @@ def make_chain_png(size_px=64):
 
 
 def make_stone_png(generator, size_px=128, rows=8, columns=4):
-    """A wall of blocks: opaque."""
+    """Return an opaque texture of stone blocks."""
     shades = {(row, column): 0.75 + 0.25 * generator.random() for row in range(rows) for column in range(columns)}
     grain = [[generator.uniform(-0.03, 0.03) for _x in range(size_px)] for _y in range(size_px)]
 
@@ -79,8 +81,8 @@ def make_stone_png(generator, size_px=128, rows=8, columns=4):
     return make_mask_png(size_px, lambda _u, _v: 1.0, get_color)
 
 
-def add_turned_card(mesh, card, center, normal, up_angle_rad):
-    """A card that faces along the normal, turned about it."""
+def add_rotated_card(mesh, card, center, normal, up_angle_rad):
+    """Add a card that faces along the normal and is rotated about it by up_angle_rad."""
     n = normalize(normal)
     side = normalize(cross((0.0, 1.0, 0.0) if abs(n[1]) < 0.9 else (1.0, 0.0, 0.0), n))
     up = cross(n, side)
@@ -102,5 +104,5 @@ def make_leaves(generator, count, half_size_m, center, radius_m):
         distance = radius_m * generator.random() ** 0.4
         position = add(center, scale((direction[0], 0.8 * direction[1], direction[2]), distance))
         normal = add(scale(direction, 0.7), (generator.gauss(0.0, 0.4), 0.7 + generator.gauss(0.0, 0.4), generator.gauss(0.0, 0.4)))
-        add_turned_card(mesh, card, position, normal, generator.uniform(0.0, 2.0 * math.pi))
+        add_rotated_card(mesh, card, position, normal, generator.uniform(0.0, 2.0 * math.pi))
     return mesh

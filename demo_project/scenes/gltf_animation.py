@@ -4,8 +4,8 @@ from gltf_writer import to_float32
 
 
 class Channel:
-    """What one node does. path: translation, rotation, scale or weights. values: one tuple a time, or for CUBICSPLINE three:
-    the tangent into the key, its value and the tangent out of it, both tangents a second."""
+    """Animation of one property of one node. path: translation, rotation, scale or weights. values: one tuple per time, or for
+    CUBICSPLINE three: the in-tangent (per second), the value and the out-tangent (per second)."""
 
     def __init__(self, node, path, times_s, values, interpolation="LINEAR"):
         self.node = node
@@ -23,7 +23,7 @@ class Channel:
 
 
 def make_signs_continuous(quaternions):
-    """Signs for which neighbours are less than half a turn apart, as LINEAR needs where a reader does not choose them."""
+    """Return the quaternions with signs by which LINEAR takes the shorter way in readers that do not choose signs themselves."""
     result = []
     for quaternion in quaternions:
         if result and sum(a * b for a, b in zip(quaternion, result[-1])) < 0.0:
@@ -33,7 +33,7 @@ def make_signs_continuous(quaternions):
 
 
 def add_skin(document, name, joints, skeleton, inverse_binds):
-    """joints: nodes. skeleton: the node above all of them. inverse_binds: 16 numbers a joint, column by column."""
+    """Add a skin, return its index. joints: nodes. skeleton: their root. inverse_binds: 16 numbers per joint, column-major."""
     matrices = document.add_accessor(inverse_binds, "MAT4")
     skin = {"name": name, "inverseBindMatrices": matrices, "skeleton": skeleton, "joints": list(joints)}
     document.root.setdefault("skins", []).append(skin)
@@ -41,7 +41,7 @@ def add_skin(document, name, joints, skeleton, inverse_binds):
 
 
 def add_animation(document, name, channels):
-    """Add an animation; channels with the same times share their accessor."""
+    """Add an animation, return its index. Channels with the same times share an accessor."""
     times, written = {}, {"name": name, "channels": [], "samplers": []}
     for channel in channels:
         channel.check(name)

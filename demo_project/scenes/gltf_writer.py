@@ -1,7 +1,7 @@
-"""Triangles and a small glTF 2.0 writer for the demo scenes. Standard library only.
+"""Meshes and a small glTF 2.0 writer for the demo scenes. Standard library only.
 
-A mesh is checked before it is written: float32 positions, no degenerate triangle; unless is_manifold is False, an
-oriented 2-manifold after welding by position, and, where it should be closed, one with outward faces.
+A mesh is checked before it is written. Positions are float32, and no triangle is degenerate. Unless is_manifold is False, it is
+an oriented 2-manifold after welding by position; if is_closed is True as well, it is closed and its faces point outward.
 """
 
 import json
@@ -50,13 +50,13 @@ def to_float32(value):
 
 
 def quaternion_about(axis, angle_rad):
-    """x, y, z, w of a right-handed turn."""
+    """Return x, y, z, w of a right-handed rotation about an axis of any length."""
     x, y, z = scale(normalize(axis), math.sin(0.5 * angle_rad))
     return (x, y, z, math.cos(0.5 * angle_rad))
 
 
 def quaternion_from_y(direction):
-    """The shortest turn that takes +Y to the direction (not straight down)."""
+    """Return the shortest rotation that takes +Y to the direction, which must not be -Y."""
     d = normalize(direction)
     x, y, z, w = d[2], 0.0, -d[0], 1.0 + d[1]
     length = math.sqrt(x * x + y * y + z * z + w * w)
@@ -64,7 +64,7 @@ def quaternion_from_y(direction):
 
 
 def quaternion_from_axes(right, up, back):
-    """Takes +X, +Y and +Z to three directions that are at right angles."""
+    """Return the rotation that takes +X, +Y and +Z to three perpendicular unit vectors."""
     m = ((right[0], up[0], back[0]), (right[1], up[1], back[1]), (right[2], up[2], back[2]))
     trace = m[0][0] + m[1][1] + m[2][2]
     if trace > 0.0:
@@ -81,14 +81,14 @@ def quaternion_from_axes(right, up, back):
 
 
 def quaternion_look_at(eye, target):
-    """Turns -Z to the target and keeps +Y upward, as cameras and lights of glTF need."""
+    """Return the rotation that takes -Z to the direction of the target and keeps +Y upward, for glTF cameras and lights."""
     back = normalize(subtract(eye, target))
     right = normalize(cross((0.0, 1.0, 0.0), back))
     return quaternion_from_axes(right, cross(back, right), back)
 
 
 def multiply_quaternions(a, b):
-    """The turn b, then a."""
+    """Return the rotation b followed by a."""
     x, y, z = add(add(scale(b, a[3]), scale(a, b[3])), cross(a, b))
     return (x, y, z, a[3] * b[3] - dot(a, b))
 
@@ -105,7 +105,7 @@ def rotate(quaternion, v):
 
 
 def encode_png(width, height, rows):
-    """rows: bytes of red, green, blue and alpha, from the top."""
+    """Return the bytes of an RGBA PNG. rows: bytes of red, green, blue and alpha, from the top."""
 
     def make_chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -116,9 +116,10 @@ def encode_png(width, height, rows):
 
 
 class Mesh:
-    """Positions, normals and triangles; positions are rounded to float32 when they are added. uvs: none, or one a vertex.
+    """Positions, normals and triangles; values are rounded to float32 when they are added. uvs: empty, or one per vertex.
 
-    joints, weights: none, or four a vertex, of the node's skin. targets: (name, position deltas, normal deltas), a delta a vertex.
+    joints, weights: empty, or four per vertex, of the node's skin. targets: (name, position deltas, normal deltas), a delta per
+    vertex.
     """
 
     def __init__(self, is_closed=True, is_manifold=True):
@@ -146,7 +147,7 @@ class Mesh:
         self.triangles += [(a, b, c), (a, c, d)]
 
     def add_mesh(self, other, rotation=(0.0, 0.0, 0.0, 1.0), translation=(0.0, 0.0, 0.0)):
-        """Appends a turned and moved copy."""
+        """Append a copy that is rotated, then translated."""
         first = len(self.positions)
         for position, normal in zip(other.positions, other.normals):
             self.add_vertex(add(rotate(rotation, position), translation), rotate(rotation, normal))
@@ -154,7 +155,7 @@ class Mesh:
         self.triangles += [(a + first, b + first, c + first) for a, b, c in other.triangles]
 
     def set_smooth_normals(self):
-        """One normal per position: the sum of its faces' normals, weighted by area."""
+        """Set each vertex's normal to the mean of its faces' normals, weighted by area."""
         sums = [(0.0, 0.0, 0.0)] * len(self.positions)
         for a, b, c in self.triangles:
             origin = self.positions[a]
@@ -164,7 +165,7 @@ class Mesh:
         self.normals = [tuple(to_float32(value) for value in normalize(total)) for total in sums]
 
     def check(self, name):
-        """Raises ValueError naming the mesh when it is not what it should be."""
+        """Raise a ValueError that names the mesh if it lacks the properties listed at the top of this file."""
         welded = {}
         ids = [welded.setdefault(position, len(welded)) for position in self.positions]
         points = list(welded)
@@ -207,7 +208,7 @@ class Mesh:
 
 
 class Document:
-    """One .gltf with its .bin."""
+    """A glTF document in memory: the JSON, the binary buffer and the images."""
 
     def __init__(self, scene_size_m):
         self.binary = bytearray()
@@ -236,7 +237,7 @@ class Document:
         return len(self.root["bufferViews"]) - 1
 
     def add_accessor(self, rows, kind, component_type=FLOAT, target=None, has_bounds=False):
-        """rows: one tuple an element, of float32 values where they have bounds. kind: SCALAR, VEC3, MAT4 ..."""
+        """Add an accessor, return its index. rows: a tuple per element, float32 if has_bounds. kind: SCALAR, VEC3, MAT4 ..."""
         flat = [value for row in rows for value in row]
         accessor = {
             "bufferView": self._add_view(struct.pack("<%d%s" % (len(flat), PACKING[component_type]), *flat), target),
@@ -254,7 +255,7 @@ class Document:
         return self.add_accessor(vectors, "VEC%d" % len(vectors[0]), component_type, ARRAY_BUFFER, has_bounds)
 
     def add_material(self, name, color, roughness=0.7, metallic=0.0, is_double_sided=False, extras=None):
-        """Colour is linear. extras: scatter, scatter_distance, shading_model."""
+        """Add a material, return its index. color: linear RGB. extras: scatter, scatter_distance, shading_model."""
         material = {
             "name": name,
             "pbrMetallicRoughness": {
@@ -271,7 +272,7 @@ class Document:
         return len(self.root["materials"]) - 1
 
     def add_texture(self, file_name, png):
-        """Add a texture whose image is a file next to the scene. Default sampler: repeated, and linear in gnomon."""
+        """Add a texture with an image file next to the scene, return its index. It repeats, and gnomon filters it linearly."""
         self.images[file_name] = png
         for members, value in (("samplers", {}), ("images", {"uri": file_name})):
             self.root.setdefault(members, []).append(value)
@@ -280,14 +281,14 @@ class Document:
         return index
 
     def set_texture(self, material, texture, is_cut_out=False):
-        """The base colour's, whose alpha cuts holes where is_cut_out."""
+        """Set the base colour texture. Its alpha cuts holes if is_cut_out."""
         written = self.root["materials"][material]
         written["pbrMetallicRoughness"]["baseColorTexture"] = {"index": texture}
         if is_cut_out:
             written["alphaMode"] = "MASK"
 
     def add_glass(self, name, color, transmission, thickness_m=0.0, attenuation_color=None, attenuation_distance_m=None):
-        """A material through which light goes: KHR_materials_transmission, and _volume where it has a thickness."""
+        """Add a material with KHR_materials_transmission, and KHR_materials_volume if it has a thickness; return its index."""
         index = self.add_material(name, color, roughness=0.1)
         extensions = {"KHR_materials_transmission": {"transmissionFactor": transmission}}
         if thickness_m > 0.0:
@@ -323,12 +324,12 @@ class Document:
         return len(self.root["meshes"]) - 1
 
     def add_node(self, name, translation=None, rotation=None, parent=None, **members):
-        """Below the parent, a node's index, or the scene."""
+        """Add a node below the parent, a node's index, or else to the scene; return its index."""
         node = {"name": name}
         if translation is not None:
             node["translation"] = list(translation)
         if rotation is not None:
-            # Nine digits, so that the last bits of sin and cos do not show in the file.
+            # Nine digits, so that rounding errors of sin and cos do not change the file.
             node["rotation"] = [round(value, 9) + 0.0 for value in rotation]
         node.update(members)
         self.root["nodes"].append(node)
@@ -340,7 +341,7 @@ class Document:
         return index
 
     def add_object(self, name, mesh, material, translation=None, rotation=None, **members):
-        """A mesh and the node that places it; the node's index."""
+        """Add a mesh and a node with it; return the node's index."""
         return self.add_node(name, translation, rotation, mesh=self.add_mesh(name, mesh, material), **members)
 
     def add_camera(self, name, eye, target, vertical_fov_rad):
@@ -355,7 +356,7 @@ class Document:
         self.add_node(name, eye, quaternion_look_at(eye, target), camera=index)
 
     def add_light(self, name, light, eye, target, extras):
-        """light: type, intensity, color, spot as in KHR_lights_punctual."""
+        """Add a light and its node. light: type, intensity, color, spot as in KHR_lights_punctual."""
         lights = self.root["extensions"]["KHR_lights_punctual"]["lights"]
         lights.append({"name": name, **light, "extras": extras})
         extension = {"KHR_lights_punctual": {"light": len(lights) - 1}}
@@ -371,7 +372,7 @@ class Document:
 
 
 def save_files(files, folder):
-    """Each file is written next to its target and renamed, so that no file is ever incomplete."""
+    """Write the files. Each is written under another name and renamed, so that no file is ever incomplete."""
     os.makedirs(folder, exist_ok=True)
     for name, data in sorted(files.items()):
         path = os.path.join(folder, name)

@@ -1,14 +1,14 @@
-"""Triangles of the surface on which a field is zero. Standard library only.
+"""Makes a mesh of the surface on which a scalar field is zero. Standard library only.
 
-Naive surface nets (Gibson 1998): one vertex in each cell of a grid that the surface crosses, joined across edges of
-the grid whose ends differ. Differs: the planes of the grid may have any distances, so that long limbs get long
-triangles, and the vertices are moved on to the surface afterwards.
+Naive surface nets (Gibson 1998): one vertex in each grid cell that the surface crosses, and a quad for each grid edge whose
+ends have different signs. Two things differ from the source: the grid planes may have any spacing, so that long limbs get
+long triangles, and the vertices are moved to the surface afterwards.
 """
 
 from gltf_writer import add, dot, normalize, scale, subtract
 
 GRADIENT_STEP_M = 1e-4
-CORNERS = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+CORNERS = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]  # of a cell; bits of the index: x 4, y 2, z 1
 
 
 def compute_gradient(field, point):
@@ -23,7 +23,7 @@ def compute_gradient(field, point):
 
 
 def move_to_surface(field, point, step_count=4):
-    """Newton's steps along the gradient."""
+    """Move a point to the surface by Newton steps along the gradient."""
     for _step in range(step_count):
         value = field(point)
         if abs(value) < 1e-6:
@@ -34,7 +34,7 @@ def move_to_surface(field, point, step_count=4):
 
 
 def find_cell_point(samples, planes, cell):
-    """The mean of the points at which the surface crosses the cell's edges; None where it crosses none."""
+    """Return the mean of the points where the surface crosses the cell's edges; None if it crosses none."""
     total, count = (0.0, 0.0, 0.0), 0
     corners = [tuple(cell[axis] + corner[axis] for axis in range(3)) for corner in CORNERS]
     values = [samples[corner] for corner in corners]
@@ -42,18 +42,19 @@ def find_cell_point(samples, planes, cell):
         return None
     for first in range(8):
         for axis in range(3):
-            second = first | (4 >> axis)
+            second = first | (4 >> axis)  # the upper end of the edge along the axis; first itself if it is that end
             if second == first or (values[first] > 0.0) == (values[second] > 0.0):
                 continue
-            share = values[first] / (values[first] - values[second])
+            fraction = values[first] / (values[first] - values[second])
             ends = [tuple(planes[k][corner[k]] for k in range(3)) for corner in (corners[first], corners[second])]
-            total = add(total, add(scale(ends[0], 1.0 - share), scale(ends[1], share)))
+            total = add(total, add(scale(ends[0], 1.0 - fraction), scale(ends[1], fraction)))
             count += 1
     return scale(total, 1.0 / count)
 
 
 def find_surface(field, planes):
-    """Return (points, quads) of a field that is negative inside; its surface must be inside the outermost planes."""
+    """Return (points, quads) of a field that is negative inside. planes: ascending grid coordinates of each axis; the surface
+    must be inside the outermost ones."""
     counts = [len(plane) for plane in planes]
     samples = {}
     for i, x in enumerate(planes[0]):
@@ -85,7 +86,7 @@ def find_surface(field, planes):
 
 
 def relax_points(field, points, quads, round_count):
-    """Evens out the vertices along the surface, and moves them on to it."""
+    """Distribute the points evenly along the surface, and move them to it."""
     neighbors = [set() for _point in points]
     for quad in quads:
         for a, b in zip(quad, quad[1:] + quad[:1]):
@@ -107,7 +108,7 @@ def relax_points(field, points, quads, round_count):
 
 
 def split_quads(points, quads):
-    """Triangles; each quad is split along its shorter diagonal."""
+    """Return triangles: each quad is split along its shorter diagonal."""
     triangles = []
     for a, b, c, d in quads:
         ac, bd = subtract(points[a], points[c]), subtract(points[b], points[d])

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Makes scenes of meshes for which no technique was tuned: merged, pierced, open and doubled parts.
+"""Makes scenes of meshes for which no technique was tuned: merged, intersecting, open and duplicated parts.
 
     make_artist_scenes.py [--scenes A,B] [--seed N] [--count N] [--out DIR]
 
-The same seed and count give the same bytes. The default output is next to this file and not committed; run_demo.sh and
-tests/stability make it.
+--count is the number of parts, ropes or blades of each scene.
+
+The same seed and count give the same bytes. By default the files are written next to this file. They are not committed;
+run_demo.sh and tests/stability generate them.
 """
 
 import math
@@ -14,20 +16,20 @@ from gltf_writer import Document
 from make_scenes import AMBER, BARK, MOSS, SAND, SCENE_SIZE_M, add_ground, make_light_extras
 from seeded_scenes import SeededScenes
 
-MOST_PARTS = 20000
-LIGHT_SHARE = 0.1  # of S: the size of each light
-SUN_ANGLE_DEG = round(2.0 * math.degrees(math.atan(LIGHT_SHARE)), 6)
+MAX_PARTS = 20000
+LIGHT_SIZE_FRACTION = 0.1  # of the scene's size: the size of each light
+SUN_ANGLE_DEG = round(2.0 * math.degrees(math.atan(LIGHT_SIZE_FRACTION)), 6)
 
 
 def make_artist_set(camera_eye=(-3.6, 3.6, 5.0), camera_target=(-0.25, 0.5, 0.05)):
-    """Camera, a light of each type of a tenth of the scene's size, and the study's ground."""
+    """Return a document with a camera, the ground of the study, and a light of each type, a tenth of the scene in size."""
     document = Document(SCENE_SIZE_M)
     document.add_camera("Camera", camera_eye, camera_target, math.radians(36.87))
-    size = make_light_extras("light_size", LIGHT_SHARE * SCENE_SIZE_M)
+    size = make_light_extras("light_size", LIGHT_SIZE_FRACTION * SCENE_SIZE_M)
     cone = {"innerConeAngle": round(math.atan(0.6), 9), "outerConeAngle": round(math.atan(0.75), 9)}
     spot = {"type": "spot", "color": [1.0, 0.80, 0.55], "intensity": 170.0, "spot": cone}
     document.add_light("Spot", spot, (2.6, 5.2, 1.8), (0.0, 0.5, 0.0), size)
-    # Further from all parts than five times its size: pcss searches blockers in a wider cone else.
+    # Farther from all parts than five times its size, because pcss would search blockers in a wider cone otherwise.
     omni = {"type": "point", "color": [0.45, 0.70, 1.0], "intensity": 45.0}
     document.add_light("Omni", omni, (-2.9, 3.8, -2.2), None, size)
     sun = {"type": "directional", "color": [1.0, 0.93, 0.85], "intensity": 1.3}
@@ -38,7 +40,7 @@ def make_artist_set(camera_eye=(-3.6, 3.6, 5.0), camera_target=(-0.25, 0.5, 0.05
 
 def make_kitbash_scene(generator, count):
     document = make_artist_set()
-    # Not double-sided: a card seen from behind is not there for the camera, but casts.
+    # Not double-sided: a card seen from behind is invisible to the camera, but casts a shadow.
     document.add_object("Kitbash", make_kitbash(generator, count), document.add_material("Kitbash", SAND, roughness=0.7))
     return document
 
@@ -58,16 +60,16 @@ def make_grass_scene(generator, count):
     return document
 
 
-# Name -> how it is built, and how many parts, ropes or blades it has by default.
+# Name -> (function that builds it, default number of parts, ropes or blades).
 SCENES = {
     "kitbash": (make_kitbash_scene, 300),
     "rigging": (make_rigging_scene, 400),
     "grass": (make_grass_scene, 2000),
 }
-_seeded = SeededScenes(SCENES, "parts, ropes or blades", MOST_PARTS)
+_seeded = SeededScenes(SCENES, "parts, ropes or blades", MAX_PARTS)
 build_scene = _seeded.build
 build_scene_files = _seeded.build_files
 
 
 if __name__ == "__main__":
-    _seeded.run("Makes the scenes of merged, open and piercing parts.")
+    _seeded.run("Makes the scenes of merged, open and intersecting parts.")

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Makes the bunny scenes from the mesh of Debian's package glmark2-data.
 
-    make_bunny.py [OUT.gltf]       default: bunny.gltf next to this file (not committed)
+    make_bunny.py [OUT.gltf] [--mesh FILE.obj]
 
-The mesh (69,666 triangles, closed) is scaled to 1.9 m and put on the ground of the study's scenes. Next to OUT.gltf,
-OUT_wax.gltf has a translucent one, before a wall and a point light, as in figure 8 of Wang and Xiao 2015; its
-self-shadow is what it is about.
+OUT.gltf is by default bunny.gltf next to this file (not committed), --mesh the mesh of the package.
+
+The mesh (69,666 triangles, closed) is scaled to a height of 1.9 m and put on the ground of the study's scenes. The second file,
+OUT_wax.gltf, has a translucent bunny with a wall and a light without size, as in figure 8 of Wang and Xiao 2015, to show
+its self-shadow.
 """
 
 import argparse
@@ -44,7 +46,7 @@ def make_scene(mesh):
 
 def make_wax_scene(mesh):
     document = Document(SCENE_SIZE_M)
-    # From the side, so that ears and head cast on the body.
+    # From the side, so that ears and head cast shadows on the body.
     add_translucent_set(document, light_eye=(-4.4, 4.4, 1.6))
     material = document.add_material("Wax", (0.85, 0.66, 0.52), roughness=0.5, extras=make_scatter_extras(0.8))
     document.add_object("Bunny", mesh, material)
@@ -52,7 +54,7 @@ def make_wax_scene(mesh):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Makes the bunny scene.")
+    parser = argparse.ArgumentParser(description="Makes the bunny scenes.")
     parser.add_argument("out", nargs="?", default=os.path.join(FOLDER, "bunny.gltf"))
     parser.add_argument("--mesh", help="the .obj (default: that of package %s)" % PACKAGE)
     arguments = parser.parse_args()

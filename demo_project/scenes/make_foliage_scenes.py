@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Makes scenes of casters that their textures cut out: one leaf, a fence, a tree, and a courtyard with both,
-in which a figure walks and a flag waves.
+"""Makes scenes of casters that are cut out by the alpha of their textures: a leaf, a fence, a tree, and a courtyard with fence
+and tree, in which a figure walks and a flag waves.
 
     make_foliage_scenes.py [--scenes A,B] [--seed N] [--count N] [--out DIR]
 
-The same seed and count give the same bytes. The default output is next to this file and not committed; run_demo.sh and
-tests/stability make it.
+--count is the number of leaves of a tree.
+
+The same seed and count give the same bytes. By default the files are written next to this file. They are not committed;
+run_demo.sh and tests/stability generate them.
 """
 
 import math
@@ -18,7 +20,8 @@ from make_scenes import BARK, SAND, SCENE_SIZE_M, Document, make_light_extras
 from seeded_scenes import SeededScenes
 from shapes import make_cylinder
 
-MOST_LEAVES = 100000
+MAX_LEAVES = 100000
+# The tree's kinds of leaves: shape, sRGB colour.
 LEAVES = (("oval", (0.36, 0.62, 0.20)), ("oval", (0.55, 0.70, 0.24)), ("star", (0.78, 0.52, 0.18)))
 WHITE = (1.0, 1.0, 1.0)
 
@@ -30,15 +33,15 @@ def add_cut_out(document, name, file_name, png, roughness=0.7):
 
 
 def add_tree(document, generator, count, position, stem, height_m=1.55, radius_m=0.75, leaf_m=0.075):
-    """A trunk, and leaves of three textures."""
+    """Add a trunk and leaves with three textures. count: the number of leaves."""
     bark = document.add_material("Bark", BARK, roughness=0.9)
     x, y, z = position
     document.add_object("Trunk", make_cylinder(0.07, 0.5 * height_m, 24), bark, (x, y + 0.5 * height_m, z))
     center = (x, y + height_m + 0.2, z)
-    for index, (shape, hue) in enumerate(LEAVES):
-        share = count * (index + 1) // len(LEAVES) - count * index // len(LEAVES)
-        material = add_cut_out(document, "Leaves %d" % (index + 1), "%s_leaf_%d.png" % (stem, index + 1), make_leaf_png(shape, hue))
-        document.add_object("Leaves %d" % (index + 1), make_leaves(generator, share, leaf_m, center, radius_m), material)
+    for index, (shape, color) in enumerate(LEAVES):
+        leaf_count = count * (index + 1) // len(LEAVES) - count * index // len(LEAVES)
+        material = add_cut_out(document, "Leaves %d" % (index + 1), "%s_leaf_%d.png" % (stem, index + 1), make_leaf_png(shape, color))
+        document.add_object("Leaves %d" % (index + 1), make_leaves(generator, leaf_count, leaf_m, center, radius_m), material)
 
 
 def make_leaf_scene(_generator, _count):
@@ -68,12 +71,12 @@ def make_leaves_scene(generator, count):
 
 
 def make_wall(half_x, half_y, repeats):
-    """Five sides of a wall's box, without the lower one."""
+    """Return a box for a wall, without its bottom."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     card = make_card(half_x, half_y, repeats)
-    thickness = 0.08
-    for turn, depth in ((0.0, thickness), (math.pi, thickness)):
-        mesh.add_mesh(card, quaternion_about((0.0, 1.0, 0.0), turn), (0.0, half_y, depth if turn == 0.0 else -depth))
+    thickness = 0.08  # half that of the wall
+    for turn, depth in ((0.0, thickness), (math.pi, -thickness)):
+        mesh.add_mesh(card, quaternion_about((0.0, 1.0, 0.0), turn), (0.0, half_y, depth))
     top = make_card(half_x, thickness, (repeats[0], 0.25))
     mesh.add_mesh(top, quaternion_about((1.0, 0.0, 0.0), -0.5 * math.pi), (0.0, 2.0 * half_y, 0.0))
     end = make_card(thickness, half_y, (0.25, repeats[1]))
@@ -103,19 +106,19 @@ def make_courtyard_scene(generator, count):
         x, z = -1.7 + 1.2 * side * math.cos(0.6), 0.9 - 1.2 * side * math.sin(0.6)
         document.add_object("Post", make_cylinder(0.035, 0.54, 24), post, (x, 0.54, z))
     add_walk(document, (1.85, 0.0, 0.5), (-1.35, 0.0, -1.9), 2.2, "courtyard")
-    # The first camera looks in the sun's direction, so that the figure hides its shadow; from here it is on the right.
+    # From the first camera, which looks away from the sun, the figure hides its shadow. From here the shadow is on the right.
     document.add_camera("Walk camera", (1.1, 2.4, 5.5), (0.75, 0.85, -0.4), math.radians(38.0))
     return document
 
 
-# Name -> how it is built, and how many leaves it has by default.
+# Name -> (function that builds it, default number of leaves).
 SCENES = {
     "leaf": (make_leaf_scene, 1),
     "fence": (make_fence_scene, 0),
     "leaves": (make_leaves_scene, 2000),
     "courtyard": (make_courtyard_scene, 2000),
 }
-_seeded = SeededScenes(SCENES, "leaves", MOST_LEAVES)
+_seeded = SeededScenes(SCENES, "leaves", MAX_LEAVES)
 build_scene = _seeded.build
 build_scene_files = _seeded.build_files
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Makes scenes of foreign meshes that Debian packages hold, as they are: open, doubled, pierced, of many formats.
+"""Makes scenes of third-party meshes in Debian packages, unrepaired: open, duplicated and intersecting, in many formats.
 
     make_package_meshes.py [--scenes A,B] [--out DIR]
 
-Needs the command assimp (package assimp-utils), assimp-testmodels and glmark2-data. The default output is
-package_NAME.gltf next to this file, not committed. A mesh that is missing or does not convert is named on stderr, the
-others are made, and the exit code is 1.
+Needs the packages assimp-utils (command assimp), assimp-testmodels and glmark2-data. By default it writes package_NAME.gltf
+next to this file; these files are not committed. A mesh that is missing or cannot be converted is named on stderr, the others
+are made, and the exit code is 1.
 """
 
 import argparse
@@ -23,10 +23,10 @@ from package_files import MeshUnavailable, find_package_file, load_obj
 
 PREFIX = "package_"
 TIMEOUT_S = 120
-MOST_HEIGHT_M, MOST_WIDTH_M = 1.9, 2.6  # about what the study's casters fill
-LIFT_M = 0.002  # a flat sole in the ground's plane: which of both is seen would be left to rounding
-CREASE_COSINE = math.cos(math.radians(50.0))  # flatter edges are shaded smoothly
-LEAST_AREA_SQUARED_M4 = 1e-18  # float32 does not distinguish the corners of a smaller triangle some metres from the origin
+MAX_HEIGHT_M, MAX_WIDTH_M = 1.9, 2.6  # about the size of the study's casters
+LIFT_M = 0.002  # a flat sole in the ground's plane would cause z-fighting
+CREASE_COSINE = math.cos(math.radians(50.0))  # between face normals; flatter edges are shaded smoothly
+MIN_AREA_SQUARED_M4 = 1e-18  # (2 x area)^2; float32 merges corners of smaller triangles
 
 TEST_MODELS, BENCHMARK_MODELS = "assimp-testmodels", "glmark2-data"
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -34,8 +34,8 @@ Z_UP = quaternion_about((1.0, 0.0, 0.0), -0.5 * math.pi)
 Z_DOWN = quaternion_about((1.0, 0.0, 0.0), 0.5 * math.pi)
 X_DOWN = quaternion_about((0.0, 0.0, 1.0), -0.5 * math.pi)
 
-# turn: takes up in the file to +Y.
-PackageMesh = namedtuple("PackageMesh", "package ending turn color")
+# ending: of the file's path. rotation: takes the file's up direction to +Y.
+PackageMesh = namedtuple("PackageMesh", "package ending rotation color")
 MESHES = {
     "jeep": PackageMesh(TEST_MODELS, "/MS3D/jeep1.ms3d", UPRIGHT, MOSS),
     "spider": PackageMesh(TEST_MODELS, "/OBJ/spider.obj", UPRIGHT, BARK),
@@ -50,7 +50,7 @@ MESHES = {
 
 
 def convert_to_triangles(path):
-    """Vertices and triangles of a file in any format that assimp reads, with its nodes' transforms."""
+    """Return (vertices, triangles) of a file in any format that assimp reads; the transforms of its nodes are applied."""
     with tempfile.TemporaryDirectory() as folder:
         converted = os.path.join(folder, "mesh.obj")
         try:
@@ -71,27 +71,27 @@ def convert_to_triangles(path):
             raise MeshUnavailable("what assimp made of %s cannot be read: %s" % (path, error)) from error
 
 
-def fit_points(points, turn):
-    """Turned, LIFT_M above y = 0 about the Y axis, within MOST_HEIGHT_M and MOST_WIDTH_M."""
-    turned = [rotate(turn, point) for point in points]
-    low = [min(point[axis] for point in turned) for axis in range(3)]
-    high = [max(point[axis] for point in turned) for axis in range(3)]
+def fit_points(points, rotation):
+    """Return the points, rotated, scaled to fit MAX_WIDTH_M and MAX_HEIGHT_M, and centred on the Y axis LIFT_M above y = 0."""
+    rotated_points = [rotate(rotation, point) for point in points]
+    low = [min(point[axis] for point in rotated_points) for axis in range(3)]
+    high = [max(point[axis] for point in rotated_points) for axis in range(3)]
     width = max(high[0] - low[0], high[2] - low[2])
     if not all(math.isfinite(value) for value in low + high) or width <= 0.0:
         raise MeshUnavailable("its vertices reach from %s to %s, which cannot be scaled" % (low, high))
-    factor = min(MOST_WIDTH_M / width, MOST_HEIGHT_M / max(high[1] - low[1], 1e-6 * width))
+    factor = min(MAX_WIDTH_M / width, MAX_HEIGHT_M / max(high[1] - low[1], 1e-6 * width))
     foot = (0.5 * (low[0] + high[0]), low[1], 0.5 * (low[2] + high[2]))
-    return [add(scale(subtract(point, foot), factor), (0.0, LIFT_M, 0.0)) for point in turned]
+    return [add(scale(subtract(point, foot), factor), (0.0, LIFT_M, 0.0)) for point in rotated_points]
 
 
 def make_creased_mesh(points, triangles):
-    """The triangles as they are, but for those without area; normals are split at creases."""
+    """Return a mesh of all triangles that have an area; vertices are split at creases."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     faces, area_normals, faces_of = [], [], {}
     for triangle in triangles:
         corners = [points[index] for index in triangle]
         area_normal = cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0]))
-        if dot(area_normal, area_normal) <= LEAST_AREA_SQUARED_M4:
+        if dot(area_normal, area_normal) <= MIN_AREA_SQUARED_M4:
             continue
         for corner in corners:
             faces_of.setdefault(corner, []).append(len(faces))
@@ -117,11 +117,11 @@ def make_creased_mesh(points, triangles):
 
 
 def build_scene_files(name, item):
-    """File name -> bytes. Raises MeshUnavailable."""
+    """Return file name -> bytes of a scene with the mesh. Raises MeshUnavailable."""
     points, triangles = convert_to_triangles(find_package_file(item.package, item.ending))
     if not triangles:
         raise MeshUnavailable("%s has no triangles" % item.ending)
-    mesh = make_creased_mesh(fit_points(points, item.turn), triangles)
+    mesh = make_creased_mesh(fit_points(points, item.rotation), triangles)
     document = make_artist_set()
     # These formats do not define which side of an open mesh is seen; viewers show both.
     document.add_object("Mesh", mesh, document.add_material("Mesh", item.color, roughness=0.6, is_double_sided=True))
@@ -129,7 +129,7 @@ def build_scene_files(name, item):
 
 
 def make_scenes(meshes, folder):
-    """Names of those that could not be made; each has had its message."""
+    """Make the scenes. Return the names of those that failed, after printing an error for each."""
     failed = []
     for name, item in meshes.items():
         try:

@@ -4,7 +4,8 @@
     make_scenes.py [--out DIR]     writes every scene
     make_scenes.py --check         exits 1 when a committed scene differs from what would be written
 
-The numbers are those of the study (doc/benchmarks.md), so that figures compare: metres, +Y up.
+The first six of SCENES are those of the study in doc/benchmarks.md, with its values, so that results are comparable.
+Units are metres, +Y is up.
 """
 
 import argparse
@@ -29,13 +30,13 @@ from shapes import (
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
 SCENE_SIZE_M = 4
+# LIGHT_TANGENT: tangent of the half angle of the spot light's cone.
 LIGHT_EYE, LIGHT_TARGET, LIGHT_TANGENT = (1.8, 6.0, 1.2), (0.0, 0.4, 0.0), 0.95
 CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV_DEG = (-3.2, 4.6, 4.6), (-0.3, 0.45, -0.2), 36.87
 LIGHT_SIZE_M = 0.4
 LIGHT_INTENSITY_CD = 260.0  # about 7 lx at 6 m: a light grey ground comes out light grey
 WARM_WHITE = [1.0, 0.95, 0.87]
 GROUND_HALF = (4.2, 0.2, 4.2)
-GROUND_CENTER = (0.0, -0.2, 0.0)
 
 GROUND_COLOR = (0.60, 0.58, 0.55)
 CORAL = (0.86, 0.24, 0.16)
@@ -48,14 +49,15 @@ BARK = (0.28, 0.17, 0.10)
 SAND = (0.66, 0.52, 0.34)
 JADE = (0.46, 0.74, 0.56)
 
-# What 16 pixels show of the teapot in an image of 512 x 512: there both ways to spread light agree.
+# About 16 pixels on the teapot at 512 x 512, so that both methods of receiver_scatter, in metres and in pixels, have
+# the same radius there.
 SCATTER_DISTANCE_M = 0.12
 
 
 def make_ground():
-    """The ground box with its top in the node's plane y = 0, so that the node defines the plane."""
+    """Return the ground box with its top in the plane y = 0 of the node, so that the node defines the receiver plane."""
     mesh = make_box(GROUND_HALF)
-    mesh.positions = [(x, 0.0 if y > 0.0 else 2.0 * GROUND_CENTER[1], z) for x, y, z in mesh.positions]
+    mesh.positions = [(x, 0.0 if y > 0.0 else -2.0 * GROUND_HALF[1], z) for x, y, z in mesh.positions]
     return mesh
 
 
@@ -65,7 +67,7 @@ def add_ground(document):
 
 
 def make_light_extras(size_name, size):
-    """Size of a light's shadow; the widths of its penumbra follow from it."""
+    """Return extras with the size of a light. The widths of its penumbra are derived from it."""
     return {size_name: size, "shadow_enabled": True}
 
 
@@ -83,7 +85,7 @@ def add_spot_light(document, eye=LIGHT_EYE, target=LIGHT_TARGET, tangent=LIGHT_T
 
 
 def make_document(camera_target=CAMERA_TARGET, vertical_fov_deg=CAMERA_FOV_DEG, **light):
-    """Return what all study scenes share: a camera and a spot light."""
+    """Return a document with the camera and the spot light of all study scenes."""
     document = Document(SCENE_SIZE_M)
     document.add_camera("Camera", CAMERA_EYE, camera_target, math.radians(vertical_fov_deg))
     add_spot_light(document, **light)
@@ -102,8 +104,8 @@ def make_contact_box_scene():
     document = make_document(camera_target=(-0.35, 0.55, -0.25))
     add_ground(document)
     material = document.add_material("Teal", TEAL, roughness=0.6)
-    turn = quaternion_about((0.0, 1.0, 0.0), 0.4)
-    document.add_object("Box", make_box((0.35, 1.02, 0.35)), material, (0.2, 0.97, 0.1), turn)
+    rotation = quaternion_about((0.0, 1.0, 0.0), 0.4)
+    document.add_object("Box", make_box((0.35, 1.02, 0.35)), material, (0.2, 0.97, 0.1), rotation)
     return document
 
 
@@ -124,8 +126,8 @@ def make_stacked_layers_scene():
     document.add_object("Lower disc", make_cylinder(0.6, 0.04, 48), teal, (-0.2, 0.6, -0.2))
     lean = quaternion_from_y((-0.2, 1.0, 0.0))
     document.add_object("Upper disc", make_cylinder(0.55, 0.04, 48), coral, (0.15, 1.3, 0.25), lean)
-    turn = quaternion_about((0.0, 1.0, 0.0), 0.3)
-    document.add_object("Board", make_box((0.5, 0.05, 0.35)), amber, (0.7, 2.1, -0.1), turn)
+    rotation = quaternion_about((0.0, 1.0, 0.0), 0.3)
+    document.add_object("Board", make_box((0.5, 0.05, 0.35)), amber, (0.7, 2.1, -0.1), rotation)
     return document
 
 
@@ -156,13 +158,13 @@ def make_open_sheets_scene():
     document.add_object("Cloth", make_cloth(24, 0.75, 0.09), plum, (-0.1, 1.2, -0.1))
     lean = quaternion_about((1.0, 0.4, 0.2), -0.6)
     document.add_object("Leaning sheet", make_quad(0.35, 0.5), sky, (-1.2, 0.75, 0.7), lean)
-    turn = quaternion_about((0.0, 1.0, 0.0), -0.5)
-    document.add_object("Standing sheet", make_quad(0.5, 0.4), amber, (1.05, 0.4, -0.9), turn)
+    rotation = quaternion_about((0.0, 1.0, 0.0), -0.5)
+    document.add_object("Standing sheet", make_quad(0.5, 0.4), amber, (1.05, 0.4, -0.9), rotation)
     return document
 
 
 def make_three_lights_scene():
-    """One light of each type on a few casters: the start scene."""
+    """Return the start scene: a light of each type and a few casters."""
     document = Document(SCENE_SIZE_M)
     document.add_camera("Camera", (-3.6, 3.6, 5.0), (-0.1, 0.62, -0.1), math.radians(36.87))
     spot = {
@@ -182,8 +184,8 @@ def make_three_lights_scene():
     teal = document.add_material("Teal", TEAL, roughness=0.6)
     coral = document.add_material("Coral", CORAL, roughness=0.4)
     document.add_object("Knot", make_torus_knot(0.26, 0.12, 240, 20), amber, (-0.15, 1.2, -0.2))
-    turn = quaternion_about((0.0, 1.0, 0.0), 0.5)
-    document.add_object("Box", make_box((0.32, 0.45, 0.32)), teal, (1.35, 0.45, -0.75), turn)
+    rotation = quaternion_about((0.0, 1.0, 0.0), 0.5)
+    document.add_object("Box", make_box((0.32, 0.45, 0.32)), teal, (1.35, 0.45, -0.75), rotation)
     document.add_object("Sphere", make_icosphere(4, 0.38), coral, (-0.95, 0.38, 1.05))
     return document
 
@@ -194,7 +196,7 @@ def make_wall():
 
 
 def add_translucent_set(document, light_eye=(-2.6, 4.3, 4.6)):
-    """Camera, a point light, ground and wall of Wang and Xiao 2015, section 2: opaque, and shaded as there."""
+    """Add camera, a light without size, and opaque ground and wall with the shading model of Wang and Xiao 2015, section 2."""
     document.add_camera("Camera", (0.5, 2.1, 6.6), (0.05, 0.78, 0.0), math.radians(30.0))
     light = {
         "type": "spot",
@@ -214,30 +216,33 @@ def make_scatter_extras(scatter):
 
 
 def make_teapot_scene(scatter):
-    """The source's figures 4 to 7: an opaque ring casts on a translucent teapot."""
+    """Return the scene of figures 4 to 7 of Wang and Xiao 2015: an opaque ring casts a shadow on a translucent teapot."""
     document = Document(SCENE_SIZE_M)
     add_translucent_set(document)
     jade = document.add_material("Jade", JADE, roughness=0.35, extras=make_scatter_extras(scatter))
-    turn = quaternion_about((0.0, 1.0, 0.0), 0.35)
-    document.add_object("Teapot", make_teapot(0.5, 10), jade, (0.0, 0.0, 0.0), turn)
+    rotation = quaternion_about((0.0, 1.0, 0.0), 0.35)
+    document.add_object("Teapot", make_teapot(0.5, 10), jade, (0.0, 0.0, 0.0), rotation)
     coral = document.add_material("Ring", CORAL, roughness=0.6, extras={"shading_model": "phong"})
-    towards_light = quaternion_from_y((-2.6, 3.4, 4.6))
+    towards_light = quaternion_from_y((-2.6, 3.4, 4.6))  # about the direction from the ring to the light
     document.add_object("Ring", make_torus(0.42, 0.085, 64, 24), coral, (-0.72, 1.8, 1.35), towards_light)
     return document
 
 
 def make_stained_glass_scene():
-    """Panes and a sphere that colour the light, one behind another, on an opaque ground and a translucent block."""
+    """Return panes and a sphere of coloured glass behind each other that cast on an opaque ground and a translucent block."""
     document = make_document()
     add_ground(document)
     wax = document.add_material("Wax", (0.85, 0.80, 0.68), roughness=0.5, extras={"scatter": 0.8, "scatter_distance": 0.25})
     document.add_object("Block", make_box((0.55, 0.12, 0.55)), wax, (-1.15, 0.12, 0.75))
-    red = document.add_glass("Red glass", (0.95, 0.16, 0.10), 0.9)
-    blue = document.add_glass("Blue glass", (0.12, 0.30, 0.95), 0.9)
+    red = document.add_glass("Red glass", (0.95, 0.16, 0.10), transmission=0.9)
+    blue = document.add_glass("Blue glass", (0.12, 0.30, 0.95), transmission=0.9)
     pane = make_box((0.55, 0.45, 0.015))
     document.add_object("Red pane", pane, red, (-0.45, 1.45, 0.3), quaternion_about((0.3, 1.0, 0.1), 0.7))
     document.add_object("Blue pane", pane, blue, (0.05, 0.75, -0.05), quaternion_about((0.3, 1.0, -0.2), 0.5))
-    amber = document.add_glass("Amber glass", (1.0, 0.82, 0.40), 0.95, 0.6, (0.95, 0.72, 0.40), 0.5)
+    amber = document.add_glass(
+        "Amber glass", (1.0, 0.82, 0.40), transmission=0.95,
+        thickness_m=0.6, attenuation_color=(0.95, 0.72, 0.40), attenuation_distance_m=0.5,
+    )  # fmt: skip
     document.add_object("Amber ball", make_icosphere(4, 0.34), amber, (0.75, 1.15, 0.65))
     moss = document.add_material("Moss", MOSS, roughness=0.7)
     document.add_object("Ring", make_torus(0.3, 0.06, 48, 16), moss, (0.25, 1.9, 0.45), quaternion_from_y((1.0, 2.0, 0.3)))
@@ -258,7 +263,7 @@ SCENES = {
     "teapot_s50": lambda: make_teapot_scene(0.50),
     "teapot_s80": lambda: make_teapot_scene(0.80),
 }
-# Scenes that differ in their materials alone share their .bin.
+# Scenes that differ only in their materials share a .bin.
 BINARIES = {"teapot_s15": "teapot", "teapot_s50": "teapot", "teapot_s80": "teapot"}
 
 
@@ -270,7 +275,7 @@ def build_all_files():
 
 
 def find_differences(files, folder):
-    """The names whose bytes in the folder are missing or others."""
+    """Return the names of files that are missing in the folder or have other bytes there."""
     differing = []
     for name, data in sorted(files.items()):
         path = os.path.join(folder, name)

@@ -1,14 +1,14 @@
-"""Meshes of installed Debian packages: where their files are, and a reader of Wavefront OBJ."""
+"""Finds files of installed Debian packages, and reads Wavefront OBJ meshes."""
 
 import subprocess
 
 
 class MeshUnavailable(Exception):
-    """The text names what is missing and the next step."""
+    """A mesh is missing or unusable. The text names what is missing, and the next step where there is one."""
 
 
 def find_package_file(package, ending):
-    """Path of the package's file whose path ends so."""
+    """Return the path of the package's first file whose path ends with ending. Raises MeshUnavailable."""
     try:
         result = subprocess.run(["dpkg", "-L", package], capture_output=True, text=True, check=False)
     except FileNotFoundError as error:
@@ -22,9 +22,9 @@ def find_package_file(package, ending):
 
 
 def load_obj(path):
-    """Vertices and triangles of a Wavefront OBJ of triangles or convex polygons; its groups are merged."""
+    """Return (vertices, triangles) of a Wavefront OBJ file of convex polygons, with all groups merged."""
     points, triangles = [], []
-    with open(path, encoding="utf-8", errors="replace") as file:  # names in it may be of any encoding
+    with open(path, encoding="utf-8", errors="replace") as file:  # names may have any encoding
         for line in file:
             words = line.split()
             if not words:

@@ -9,7 +9,7 @@ from gltf_writer import Mesh, add, cross, normalize, scale, subtract
 
 
 def make_box(half):
-    """A box about the origin with hard edges."""
+    """Return a box about the origin with hard edges; half: its half extents."""
     mesh = Mesh()
     for axis in range(3):
         for sign in (-1.0, 1.0):
@@ -65,7 +65,7 @@ def make_icosphere(subdivisions, radius):
 
 
 def close_tube(mesh, along_count, around_count):
-    """Quads between the rings of vertices of a tube that ends where it begins."""
+    """Add quads between the vertex rings of a tube whose last ring joins the first one."""
     for i in range(along_count):
         for j in range(around_count):
             here, there = i * around_count, (i + 1) % along_count * around_count
@@ -74,7 +74,7 @@ def close_tube(mesh, along_count, around_count):
 
 
 def make_torus_knot(size, tube_radius, along_count, around_count):
-    """Centre line size ((2 + cos 3t) cos 2t, -sin 3t, (2 + cos 3t) sin 2t), with a round tube."""
+    """Return a round tube along the curve size * ((2 + cos 3t) cos 2t, -sin 3t, (2 + cos 3t) sin 2t)."""
     mesh = Mesh()
     for i in range(along_count):
         t = 2.0 * math.pi * i / along_count
@@ -88,8 +88,8 @@ def make_torus_knot(size, tube_radius, along_count, around_count):
                 slope * math.sin(2.0 * t) + 2.0 * wide * math.cos(2.0 * t),
             )
         )
-        # Outward of the torus on which the line lies: it closes with the line, unlike a frame
-        # carried along.
+        # The normal of the torus on which the curve lies. It is periodic along the curve, unlike a
+        # frame that is transported along it.
         outward = (math.cos(3.0 * t) * math.cos(2.0 * t), -math.sin(3.0 * t), math.cos(3.0 * t) * math.sin(2.0 * t))
         side = normalize(cross(tangent, outward))
         upward = cross(side, tangent)
@@ -102,7 +102,7 @@ def make_torus_knot(size, tube_radius, along_count, around_count):
 
 
 def make_torus(radius, tube_radius, along_count, around_count):
-    """A ring about +Y."""
+    """Return a torus about the Y axis."""
     mesh = Mesh()
     for i in range(along_count):
         turn = 2.0 * math.pi * i / along_count
@@ -116,15 +116,15 @@ def make_torus(radius, tube_radius, along_count, around_count):
 
 
 def evaluate_bezier(points, t):
-    """A point of the cubic through four control points."""
+    """Return the point at t of the cubic Bezier curve with four control points."""
     s = 1.0 - t
     weights = (s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t)
     return tuple(sum(weight * point[axis] for weight, point in zip(weights, points)) for axis in range(3))
 
 
 def make_teapot(size, step_count):
-    """Newell's teapot (1975), see third_party/teapot: 3 sizes high, on the plane y = 0. Each of its
-    32 patches becomes step_count^2 quads. It has edges: lid, body, handle and spout are open surfaces."""
+    """Return Newell's teapot (1975), see third_party/teapot: 3.15 * size high, on the plane y = 0. Each of its
+    32 patches becomes step_count^2 quads. Lid, body, handle and spout are open surfaces."""
     folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     with open(os.path.join(folder, "third_party", "teapot", "patches.json"), encoding="utf-8") as file:
         data = json.load(file)
@@ -132,7 +132,7 @@ def make_teapot(size, step_count):
     known = {}
 
     def add_point(point):
-        # Patches meet in equal points but for rounding.
+        # Points where patches meet are equal except for rounding.
         key = tuple(round(value, 6) + 0.0 for value in (point[0] * size, point[2] * size, -point[1] * size))
         if key not in known:
             known[key] = mesh.add_vertex(key, (0.0, 1.0, 0.0))
@@ -180,7 +180,7 @@ def make_cylinder(radius, half_height, side_count):
 
 
 def make_clutter(count, half, center, ball_radius, seed):
-    """Boxes at seeded random positions in a sphere, each with a uniformly random rotation."""
+    """Return boxes at seeded random positions in a sphere, each with a uniformly random rotation."""
     generator = random.Random(seed)
     box = make_box(half)
     mesh = Mesh()
@@ -208,7 +208,7 @@ RIPPLES = ((2.6, 0.05), (5.4, 0.025), (11.0, 0.012))
 
 
 def make_terrain(cell_count, half_width, floor_y, seed):
-    """A grid of hills and ripples, closed by a skirt and a floor."""
+    """Return a heightfield of hills and ripples, closed by a skirt and a floor."""
     generator = random.Random(seed)
     waves = []
     for wave_number, height in RIPPLES:
@@ -258,7 +258,7 @@ def make_terrain(cell_count, half_width, floor_y, seed):
 
 
 def make_cloth(cell_count, half_width, wave_height):
-    """An open, wavy mesh about the origin."""
+    """Return an open, wavy mesh about the origin."""
     mesh = Mesh(is_closed=False)
     side = cell_count + 1
     for i in range(side):
@@ -276,7 +276,7 @@ def make_cloth(cell_count, half_width, wave_height):
 
 
 def make_quad(half_width, half_height):
-    """One quad in the plane z = 0, facing +Z."""
+    """Return a quad in the plane z = 0 that faces +Z."""
     mesh = Mesh(is_closed=False)
     normal = (0.0, 0.0, 1.0)
     corners = ((-half_width, -half_height), (half_width, -half_height), (half_width, half_height), (-half_width, half_height))

@@ -14,11 +14,12 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const double FRAME_S = 1.0 / 30;
+const double FRAME_S = 1.0 / 30; // time between the two frames of a temporal error
+// Number of measured times per animation.
 const size_t QUICK_TIME_COUNT = 4;
 const size_t FULL_TIME_COUNT = 16;
 
-/// In the middle of equal parts of the animation.
+/// Returns times in seconds: the midpoints of equal intervals of the animation.
 std::vector<double> list_times(const Animation &p_animation, ReportExtent p_extent) {
 	const size_t count = p_extent == ReportExtent::FULL ? FULL_TIME_COUNT : QUICK_TIME_COUNT;
 	std::vector<double> times_s;
@@ -28,36 +29,37 @@ std::vector<double> list_times(const Animation &p_animation, ReportExtent p_exte
 	return times_s;
 }
 
-MaskQuestion make_question(const ReportScene &p_scene, const Animation &p_animation,
+MaskTask make_task(const ReportScene &p_scene, const Animation &p_animation,
 		const std::string &p_light, double p_time_s, glm::uvec2 p_size_px, uint64_t p_filter_hash) {
 	const Camera3D &camera = *find_report_view(p_scene).camera;
-	MaskQuestion question;
-	question.scene = build_posed_snapshot(*p_scene.scene, camera, &p_animation, p_time_s);
-	question.next_scene = build_posed_snapshot(
+	MaskTask task;
+	task.scene = build_posed_snapshot(*p_scene.scene, camera, &p_animation, p_time_s);
+	task.next_scene = build_posed_snapshot(
 			*p_scene.scene, camera, &p_animation, p_animation.wrap_time(p_time_s + FRAME_S));
-	question.light = p_light;
-	question.size_px = p_size_px;
-	question.filter_hash = p_filter_hash;
-	return question;
+	task.light = p_light;
+	task.size_px = p_size_px;
+	task.filter_hash = p_filter_hash;
+	return task;
 }
 
-MaskQuestion get_next(const MaskQuestion &p_question) {
-	MaskQuestion next = p_question;
-	next.scene = p_question.next_scene;
+/// Returns the same task for the next frame.
+MaskTask get_next(const MaskTask &p_task) {
+	MaskTask next = p_task;
+	next.scene = p_task.next_scene;
 	next.next_scene = nullptr;
 	return next;
 }
 
 } // namespace
 
-void AnimationPart::plan(const ReportOptions &p_options, const Add &p_add) const {
+void AnimationPart::plan(const ReportOptions &p_options, const AddConfiguration &p_add) const {
 	if (p_options.animation == ReportExtent::NONE) {
 		return;
 	}
 	for (const ReportScene &item : p_options.animated_scenes) {
 		if (!item.scene || item.scene->animations.empty() ||
 				!(item.scene->animations[0]->duration_s > 0)) {
-			continue; // not loaded: the matrix reports it
+			continue; // no animation, or not loaded; the matrix reports the latter
 		}
 		const std::shared_ptr<const Animation> animation = item.scene->animations[0];
 		ReportConfiguration configuration;
@@ -82,8 +84,7 @@ void AnimationPart::plan(const ReportOptions &p_options, const Add &p_add) const
 				p_add(configuration,
 						[=, size_px = p_options.size_px, filter_hash = p_options.filter_hash](
 								const PropertyValues &) {
-							return make_question(
-									item, *animation, light, time_s, size_px, filter_hash);
+							return make_task(item, *animation, light, time_s, size_px, filter_hash);
 						});
 			}
 		}
@@ -91,24 +92,24 @@ void AnimationPart::plan(const ReportOptions &p_options, const Add &p_add) const
 }
 
 std::vector<TracedReference> AnimationPart::trace_references(
-		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) const {
+		MaskSource &r_source, const MaskTask &p_task, uint32_t p_sample_count) const {
 	std::vector<TracedReference> references;
-	references.push_back(r_source.trace_reference(p_question, p_sample_count));
-	references.push_back(r_source.trace_reference(get_next(p_question), p_sample_count));
+	references.push_back(r_source.trace_reference(p_task, p_sample_count));
+	references.push_back(r_source.trace_reference(get_next(p_task), p_sample_count));
 	return references;
 }
 
-MaskImage AnimationPart::run_cell(MaskSource &r_source, const MaskQuestion &p_question,
+MaskImage AnimationPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 		std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const {
 	ReportCell &cell = r_report.cells[p_cell];
-	const MaskQuestion questions[] = { p_question, get_next(p_question) };
-	const DrawnMasks drawn = r_source.draw(questions, cell.technique);
+	const MaskTask tasks[] = { p_task, get_next(p_task) };
+	const DrawnMasks drawn = r_source.draw(tasks, cell.technique);
 	if (drawn.validation_message_count > 0) {
 		fail(drawn.validation_message_count, " validation messages.");
 	}
 	const MaskImage references[] = { p_references[0].mask, p_references[1].mask };
 	cell.error = ReportError{ compute_mask_metrics(references[0], drawn.frames[0]), {} };
-	cell.error->whole_light = cell.error->all;
+	cell.error->whole_light = cell.error->all; // not measured separately in report parts
 	cell.stability = ReportStability();
 	cell.stability->temporal_rmse =
 			compute_temporal_metrics(references, drawn.frames).penumbra_rmse;

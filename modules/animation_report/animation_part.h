@@ -4,22 +4,23 @@
 
 namespace gnomon {
 
-/// The report's part that plays each scene's first animation: at some of its times the error, and
-/// the error of change from there to a frame later (TemporalMetrics).
+/// The part of the report that measures animated scenes. At several times of each scene's first
+/// animation it measures the error of the mask, and the temporal error between that frame and the
+/// one 1/30 s later (see TemporalMetrics).
 class AnimationPart : public ReportPart {
 public:
 	std::vector<std::string> list_sweeps() const override { return {}; }
-	/// Each time of each light that casts shadows of each animated scene.
-	void plan(const ReportOptions &p_options, const Add &p_add) const override;
-	/// Of the question's scene and of its next_scene.
-	std::vector<TracedReference> trace_references(MaskSource &r_source,
-			const MaskQuestion &p_question, uint32_t p_sample_count) const override;
-	/// Keeps no image.
-	MaskImage run_cell(MaskSource &r_source, const MaskQuestion &p_question,
+	/// Adds one configuration per animated scene, shadow-casting light and time.
+	void plan(const ReportOptions &p_options, const AddConfiguration &p_add) const override;
+	/// Returns two references: of p_task.scene and of p_task.next_scene.
+	std::vector<TracedReference> trace_references(
+			MaskSource &r_source, const MaskTask &p_task, uint32_t p_sample_count) const override;
+	/// Sets the error and the temporal error of the cell. Returns an empty image.
+	MaskImage run_cell(MaskSource &r_source, const MaskTask &p_task,
 			std::span<const TracedReference> p_references, Report &r_report,
 			size_t p_cell) const override;
 	bool is_unusable(const ReportCell & /*p_cell*/) const override { return false; }
-	/// A curve for each scene, light and technique.
+	/// Returns one plot per scene and light, each with one series per technique.
 	nlohmann::ordered_json to_json(const Report &p_report) const override;
 };
 

@@ -19,8 +19,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const size_t CHUNK_BYTES = size_t(1) << 20; // written at once
-const size_t LONGEST_SHARE_OF_NAME = 128;	// of the target's, so that a name of 255 bytes works
+const size_t CHUNK_BYTES = size_t(1) << 20; // bytes per write, 1 MiB
+/// The temporary name begins with at most this many bytes of the target's name, so that it stays
+/// below the limit of 255 bytes.
+const size_t MAX_NAME_PREFIX_BYTES = 128;
 const int LOCK_ATTEMPT_COUNT = 8;
 
 std::function<void()> step_hook;
@@ -36,21 +38,23 @@ bool try_lock(int p_file) {
 	return ::flock(p_file, LOCK_EX | LOCK_NB) == 0;
 }
 
-/// Waits while another process, which takes the file for a leftover, removes it.
+/// Locks the file. Waits while another process holds the lock because it takes the new file for a
+/// leftover and removes it. On a file system without locks the file stays unlocked.
 void lock(int p_file) {
 	while (::flock(p_file, LOCK_EX) != 0 && errno == EINTR) {
 	}
 }
 
-/// A file next to the target that is written and then renamed; it is removed unless it was renamed.
+/// A locked temporary file next to the target. finish() renames it to the target; if that did not
+/// happen, the destructor removes it.
 class UnfinishedFile {
 public:
 	explicit UnfinishedFile(const fs::path &p_target) : target(p_target) {
 		const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-		remove_once(folder);
-		const std::string share = target.filename().string().substr(0, LONGEST_SHARE_OF_NAME);
+		remove_left_over_files_once(folder);
+		const std::string prefix = target.filename().string().substr(0, MAX_NAME_PREFIX_BYTES);
 		for (int attempt = 0; attempt < LOCK_ATTEMPT_COUNT; ++attempt) {
-			path = (folder / ("." + share + ".XXXXXX")).string() +
+			path = (folder / ("." + prefix + ".XXXXXX")).string() +
 					std::string(UNFINISHED_FILE_ENDING);
 			file = ::mkostemps(
 					path.data(), static_cast<int>(UNFINISHED_FILE_ENDING.size()), O_CLOEXEC);
@@ -73,7 +77,7 @@ public:
 		if (!is_renamed) {
 			::unlink(path.c_str());
 		}
-		::close(file); // and only now the lock goes
+		::close(file); // also releases the lock
 	}
 	UnfinishedFile(const UnfinishedFile &) = delete;
 	UnfinishedFile &operator=(const UnfinishedFile &) = delete;
@@ -110,8 +114,8 @@ public:
 	}
 
 private:
-	/// Leftovers come from earlier processes, so checking each folder once is enough.
-	static void remove_once(const fs::path &p_folder) {
+	/// Removes the leftovers in a folder, once per folder: they come from earlier processes.
+	static void remove_left_over_files_once(const fs::path &p_folder) {
 		static std::mutex mutex;
 		static std::set<fs::path> seen;
 		const std::lock_guard lock_guard(mutex);

@@ -12,28 +12,30 @@ class App;
 
 namespace gnomon {
 
-/// Options that every command has.
+/// Options that several commands share.
 struct CommonOptions {
-	std::string device; // index of the device, or part of its name; empty: the best device
+	std::string device; // index of the device, or part of its name; empty: the best usable one
 	bool validation = false;
-	/// For commands that draw scenes, see stage_scene: "auto", "on" or "off".
+	/// For commands that draw scenes: whether a camera, a light and a ground are added, "auto",
+	/// "on" or "off"; see stage_scene.
 	std::string stage = "auto";
-	/// For commands that draw scenes: name of the animation; empty: the first.
+	/// For commands that draw scenes: name of the animation; empty: `run` takes the project's, else
+	/// the first, other commands the first if at_s is set, else none.
 	std::string animation;
-	std::optional<double> at_s; // time in the animation, seconds; empty: the scene is drawn at rest
+	std::optional<double> at_s; // time in the animation, seconds; unset: its start
 };
 
 struct CommandInfo {
-	static constexpr int LAST = 100;
+	static constexpr int LAST = 100; // help_order of commands that do not set one
 
-	std::string id; // its word on the command line
+	std::string id; // name of the subcommand on the command line
 	/// Called once, before the command line is parsed, to add the subcommand. If the user chose
 	/// that subcommand, it runs inside CLI11's parse.
 	std::function<void(CLI::App &r_app, CommonOptions &r_common)> add;
 	int help_order = LAST; // position in --help, ascending; equal values are sorted by id
 };
 
-/// The commands of this build. Modules add theirs at ModuleLevel::FEATURES.
+/// Lists the commands of this build. Modules add theirs at ModuleLevel::FEATURES.
 class CommandRegistry : public ExtensionRegistry<CommandInfo> {};
 
 } // namespace gnomon

@@ -41,10 +41,10 @@ void replace_embedded_shader(std::string_view p_name, std::vector<uint32_t> p_sp
 
 std::span<const uint32_t> find_embedded_shader(std::string_view p_name) {
 	const auto replaced = replaced_shaders.find(p_name);
-	return replaced != replaced_shaders.end() ? replaced->second : find_built_shader(p_name);
+	return replaced != replaced_shaders.end() ? replaced->second : find_original_shader(p_name);
 }
 
-std::span<const uint32_t> find_built_shader(std::string_view p_name) {
+std::span<const uint32_t> find_original_shader(std::string_view p_name) {
 	const EmbeddedShader *shader = find_shader(get_embedded_shaders(), p_name);
 	if (shader == nullptr) {
 		shader = find_shader(added_shaders, p_name);

@@ -20,7 +20,7 @@ public:
 	using Error::Error;
 };
 
-/// The device is lost: every later call to it fails too, so the caller should not continue.
+/// The GPU device is lost: every later call to it fails too, so the caller should not continue.
 class DeviceLost : public Error {
 public:
 	using Error::Error;
@@ -41,8 +41,9 @@ template <typename... Arguments> [[noreturn]] void fail(const Arguments &...p_ar
 
 } // namespace gnomon
 
-/// A programming error, never bad input: prints the condition and the values given, then aborts.
-/// On in every build: this program measures errors, so it must not go on with a wrong state.
+/// Checks for programming errors, never for bad input. If the condition is false, prints it and the
+/// other arguments, joined by text(), and aborts. Enabled in every build, because measurements
+/// taken in an invalid state would be wrong.
 #define GNOMON_ASSERT(m_condition, ...)                                                            \
 	do {                                                                                           \
 		if (!(m_condition)) [[unlikely]] {                                                         \

@@ -8,20 +8,21 @@
 
 namespace gnomon {
 
-/// Everything of one kind that modules add when they start and remove when they stop, in the order
-/// of addition. Info has an `id`, its own within the kind. Main thread only.
+/// A registry of extensions of one kind, such as commands or techniques. Modules add entries when
+/// they start and remove them when they stop. Entries stay in the order of addition. Info must have
+/// a string member `id` that is unique within the registry. Main thread only.
 template <typename Info> class ExtensionRegistry {
 public:
-	/// An id that is present already is a programming error.
+	/// Adds an entry. An id that is already registered is a programming error.
 	static void add(Info p_info) {
 		GNOMON_ASSERT(find(p_info.id) == nullptr, p_info.id, " is registered twice");
 		infos.push_back(std::move(p_info));
 	}
-	/// An id that is absent changes nothing.
+	/// Removes the entry with that id; does nothing if there is none.
 	static void remove(std::string_view p_id) {
 		std::erase_if(infos, [&](const Info &p_info) { return p_info.id == p_id; });
 	}
-	/// Null: nothing has that id. Valid until the next add or remove.
+	/// Returns the entry with that id, or null. The pointer is valid until the next add or remove.
 	static const Info *find(std::string_view p_id) {
 		return find_if([&](const Info &p_info) { return p_info.id == p_id; });
 	}

@@ -21,13 +21,12 @@ namespace {
 const char CACHE_MAGIC[8] = { 'G', 'N', 'O', 'M', 'O', 'N', 'C', '1' };
 const size_t CACHE_HEADER_BYTES = sizeof(CACHE_MAGIC) + 2 * sizeof(uint64_t);
 
-/// How a user's folder is found: two environment variables, a path below the home folder, and one
-/// below the temporary folder.
+/// The candidates for the location of a user's folder, in order of priority.
 struct UserFolder {
-	const char *own_variable;
-	const char *shared_variable;
-	const char *at_home;
-	const char *temporary;
+	const char *folder_variable; // environment variable with the path of the folder itself
+	const char *parent_variable; // environment variable with the parent folder: XDG_CACHE_HOME
+	const char *home_subfolder;	 // parent folder, relative to $HOME
+	const char *temporary;		 // name of the folder below the system's temporary folder
 };
 
 const char *get_variable(const char *p_name) {
@@ -35,15 +34,16 @@ const char *get_variable(const char *p_name) {
 	return value != nullptr && *value != 0 ? value : nullptr;
 }
 
-/// The folder is created if absent; a failure shows when something is written to it.
+/// Returns the first candidate that is set, and creates the folder if absent. A failure to create
+/// it is reported by the first write into it.
 fs::path find_user_folder(const UserFolder &p_folder) {
 	fs::path folder;
-	if (const char *own = get_variable(p_folder.own_variable)) {
+	if (const char *own = get_variable(p_folder.folder_variable)) {
 		folder = own;
-	} else if (const char *shared = get_variable(p_folder.shared_variable)) {
+	} else if (const char *shared = get_variable(p_folder.parent_variable)) {
 		folder = fs::path(shared) / "gnomon";
 	} else if (const char *home = get_variable("HOME")) {
-		folder = fs::path(home) / p_folder.at_home / "gnomon";
+		folder = fs::path(home) / p_folder.home_subfolder / "gnomon";
 	} else {
 		folder = fs::temp_directory_path() / p_folder.temporary;
 	}
@@ -165,7 +165,7 @@ std::vector<uint8_t> load_cache_entry(const std::string &p_name) {
 		entry.erase(entry.begin(), entry.begin() + CACHE_HEADER_BYTES);
 		return entry;
 	}
-	log_warning("Cache entry ", path, " is damaged; it is removed and made again.");
+	log_warning("Cache entry ", path, " is damaged; it is removed and will be recreated.");
 	fs::remove(path, code);
 	return {};
 }

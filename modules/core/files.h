@@ -13,7 +13,7 @@
 
 namespace gnomon {
 
-/// Loads the whole file. A file that is missing, unreadable, a folder, or larger than the limit is
+/// Loads the whole file. A path that is missing, unreadable, a folder, or larger than the limit is
 /// an Error that names it.
 std::vector<uint8_t> load_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
@@ -21,37 +21,39 @@ std::vector<uint8_t> load_file(
 std::string load_text_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
 
-/// Writes next to the target, syncs to disk and renames, so that the target is always the complete
-/// old or the complete new file, even when the process is killed. The next save into the folder
-/// removes what a killed process left there. An unwritable folder or a full disk is an Error naming
-/// the path.
+/// Writes a temporary file next to the target, syncs it to disk and renames it, so that the target
+/// is always the complete old or the complete new file, even if the process is killed. A process's
+/// first save into a folder removes the temporary files that killed processes left there. An
+/// unwritable folder or a full disk is an Error naming the path.
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 
-/// File name ending of files that save_file_atomically has not renamed yet. They are next to the
-/// target and are locked while their writer runs; the next save into the folder removes those that
-/// a killed process left behind.
+/// File name ending of the temporary files of save_file_atomically. They are next to the target and
+/// are locked while the process that writes them runs.
 inline constexpr std::string_view UNFINISHED_FILE_ENDING = ".gnomon_part";
 
-/// Removes the unfinished files in the folder that no running process is writing.
+/// Removes the temporary files of save_file_atomically in the folder that no running process is
+/// writing.
 void remove_left_over_files(const std::filesystem::path &p_folder);
 
-/// Test hook: the function is called after each step of each save, so that a test can end the
-/// process there. An empty function removes the hook. Returns the previous hook.
+/// Test hook: the function is called after each step of each save (file created, each MiB written,
+/// synced, renamed), so that a test can end the process there. An empty function removes the hook.
+/// Returns the previous hook.
 std::function<void()> set_save_step_hook(std::function<void()> p_hook);
 
-/// True when the path, with `..` and links resolved, is in the folder or below it.
+/// Returns true if the path, with `..` and links resolved, is the folder or below it.
 bool is_inside_folder(const std::filesystem::path &p_path, const std::filesystem::path &p_folder);
 
-/// Where data that can be made again is cached: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon,
-/// else ~/.cache/gnomon, else a folder below the system's temporary one. Created when absent.
+/// Returns the folder for data that can be recomputed: $GNOMON_CACHE_DIR, else
+/// $XDG_CACHE_HOME/gnomon, else ~/.cache/gnomon, else a folder below the system's temporary one.
+/// Created when absent.
 std::filesystem::path get_cache_folder();
 
-/// Where a user's choices are stored: $GNOMON_CONFIG_DIR, else $XDG_CONFIG_HOME/gnomon, else
+/// Returns the folder for a user's settings: $GNOMON_CONFIG_DIR, else $XDG_CONFIG_HOME/gnomon, else
 /// ~/.config/gnomon, else a folder below the system's temporary one. Created when absent.
 std::filesystem::path get_config_folder();
 
-/// Computes a 64-bit xxHash3. It names cache entries and detects damaged ones; it is not
+/// Computes a 64-bit xxHash3, for naming cache entries and detecting damaged ones. It is not
 /// cryptographic.
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed = 0);
 uint64_t compute_text_hash(std::string_view p_text, uint64_t p_seed = 0);
@@ -62,17 +64,19 @@ template <typename T> uint64_t compute_value_hash(const T &p_value, uint64_t p_s
 }
 /// Formats the hash as 16 hexadecimal digits.
 std::string format_hash(uint64_t p_hash);
-/// Views a value, or an array of values, of a type without padding as bytes.
+/// Views an array of values as bytes. Their type should have no padding. The result is valid as
+/// long as the array.
 template <typename T> std::span<const uint8_t> bytes_of(std::span<const T> p_values) {
 	return { reinterpret_cast<const uint8_t *>(p_values.data()), p_values.size_bytes() };
 }
 
-/// Builds the contents of a cache file: a magic number, the size and the hash of the bytes, the
-/// bytes.
+/// Builds the contents of a cache file: a magic number, the size of p_bytes, their hash, and the
+/// bytes themselves.
 std::vector<uint8_t> build_cache_entry(std::span<const uint8_t> p_bytes);
 /// Returns the bytes stored in a cache file, or nothing when the file is damaged.
 std::optional<std::span<const uint8_t>> parse_cache_entry(std::span<const uint8_t> p_entry);
-/// Stores bytes under a name in the cache folder with a checksum. A failure to write only warns.
+/// Stores bytes with a checksum under a name in the cache folder. A failure to write only logs a
+/// warning.
 void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes);
 /// Returns the stored bytes, or an empty vector when the entry is absent or damaged (a damaged
 /// entry is logged and removed).

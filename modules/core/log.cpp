@@ -11,7 +11,7 @@ namespace {
 
 std::mutex log_mutex;
 LogSink log_sink;
-std::atomic<LogLevel> lowest_level = LogLevel::INFO;
+std::atomic<LogLevel> min_level = LogLevel::INFO;
 
 } // namespace
 
@@ -21,24 +21,24 @@ LogSink set_log_sink(LogSink p_sink) {
 }
 
 LogFilterScope::LogFilterScope(std::function<bool(LogLevel, const std::string &)> p_passes) {
-	before = set_log_sink(
+	previous_sink = set_log_sink(
 			[this, passes = std::move(p_passes)](LogLevel p_level, const std::string &p_line) {
 				if (passes(p_level, p_line)) {
-					forward_log(before, p_level, p_line);
+					forward_log(previous_sink, p_level, p_line);
 				}
 			});
 }
 
 LogFilterScope::~LogFilterScope() {
-	set_log_sink(std::move(before));
+	set_log_sink(std::move(previous_sink));
 }
 
 void set_log_level(LogLevel p_level) {
-	lowest_level = p_level;
+	min_level = p_level;
 }
 
 void write_log(LogLevel p_level, const std::string &p_line) {
-	if (p_level < lowest_level) {
+	if (p_level < min_level) {
 		return;
 	}
 	std::lock_guard lock(log_mutex);

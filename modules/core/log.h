@@ -9,28 +9,30 @@ namespace gnomon {
 
 enum class LogLevel { INFO, WARNING, ERROR };
 
-/// Receives every line. Called from any thread, one line at a time.
+/// Receives every line that is not below the log level. Called from any thread, one line at a time.
+/// It must not log or replace the sink.
 using LogSink = std::function<void(LogLevel, const std::string &)>;
 
-/// Replaces where lines go (default: stderr, "WARNING: " or "ERROR: " in front) and returns the
-/// sink before. An empty function restores the default.
+/// Replaces the sink and returns the previous one. An empty function restores the default, which
+/// prints to stderr with "WARNING: " or "ERROR: " in front.
 LogSink set_log_sink(LogSink p_sink);
-/// Passes a line to a previous sink, or to the default output when that sink is empty.
+/// Passes a line to the sink, or to the default output if the sink is empty.
 void forward_log(const LogSink &p_sink, LogLevel p_level, const std::string &p_line);
-/// Sees every line while it exists; the sink from before gets those that pass.
+/// Filters the log while it exists: the previous sink receives only the lines that pass the filter.
 class LogFilterScope {
 public:
-	/// p_passes: true: the line goes on to the sink from before.
+	/// p_passes: called with each line; returns true if the previous sink is to receive the line.
 	explicit LogFilterScope(std::function<bool(LogLevel, const std::string &)> p_passes);
 	~LogFilterScope();
 	LogFilterScope(const LogFilterScope &) = delete;
 	LogFilterScope &operator=(const LogFilterScope &) = delete;
 
 private:
-	LogSink before;
+	LogSink previous_sink;
 };
 /// Lines below this level are dropped. Default INFO.
 void set_log_level(LogLevel p_level);
+/// Logs one line. Callable from any thread.
 void write_log(LogLevel p_level, const std::string &p_line);
 
 template <typename... Arguments> void log_info(const Arguments &...p_arguments) {

@@ -5,41 +5,46 @@
 
 namespace gnomon {
 
-/// Modules start level by level, dependencies first, and stop in the opposite order.
+/// The steps of startup. At each level, every module is initialized after its dependencies; modules
+/// stop in the opposite order.
 /// CORE: settings, log. SERVERS: device and scene classes. FEATURES: techniques, filters, file
-/// formats. EDITOR: panels; never reached by a game.
+/// formats. EDITOR: panels; a game never initializes this level.
 enum class ModuleLevel { CORE, SERVERS, FEATURES, EDITOR };
 
-/// What a module declares (config.py), and its two functions.
+/// Describes a module: what its config.py declares, and the functions that start and stop it.
 struct ModuleInfo {
 	std::string name;
 	std::string description;
-	std::string source; // the paper or book; empty where there is none
+	std::string source; // paper or book that the module implements; empty: none
 	std::string version;
-	std::string doc; // path of its page, from the repository's root
-	int layer = 0;
+	std::string doc;		  // path of its documentation page, relative to the repository's root
+	int layer = 0;			  // dependencies have a lower layer, see doc/architecture.md
 	bool can_disable = false; // whether it can be switched off while the program runs
-	bool is_example = false;  // a template to copy; lists for users omit it
+	bool is_example = false;  // a template for new modules; not shown in lists for users
 	std::vector<std::string> dependencies;
 	void (*initialize)(ModuleLevel) = nullptr;
 	void (*uninitialize)(ModuleLevel) = nullptr;
 	bool is_enabled = true;
 };
 
-/// All modules of this build. Not thread-safe: the main thread only.
+/// Lists the modules of this build, and starts and stops them. Main thread only.
 class ModuleRegistry {
 public:
 	/// Called by the generated register_modules(), dependencies first.
 	static void add(ModuleInfo p_info);
-	/// Runs initialize for every level up to and including p_level.
+	/// Initializes the enabled modules at every level up to and including p_level that was not
+	/// reached before.
 	static void initialize(ModuleLevel p_level);
-	/// Undoes initialize, last module first, and forgets all modules.
+	/// Stops all modules, the last one first, and empties the registry.
 	static void uninitialize();
 	/// Switches a module off or on while the program runs. Off also switches off the enabled
-	/// modules that depend on it; on also switches on its dependencies. Unknown names and modules
-	/// that cannot be disabled are an Error that lists what can.
+	/// modules that depend on it; on also switches on its dependencies. An unknown name is an
+	/// Error. Disabling a module whose can_disable is false is an Error that lists the modules that
+	/// can be disabled.
 	static void set_enabled(const std::string &p_name, bool p_is_enabled);
+	/// Returns false for an unknown name.
 	static bool is_enabled(const std::string &p_name);
+	/// Returns all modules, dependencies first.
 	static const std::vector<ModuleInfo> &get_modules();
 };
 

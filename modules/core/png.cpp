@@ -34,7 +34,7 @@ std::vector<uint8_t> encode_png(
 			static_cast<int>(p_size_px.x), static_cast<int>(p_size_px.y),
 			static_cast<int>(p_channel_count), p_pixels.data(), static_cast<int>(row_bytes));
 	if (is_written == 0 || bytes.empty()) {
-		fail("it cannot be encoded, memory is short. Use a smaller size.");
+		fail("it cannot be encoded: out of memory. Use a smaller size.");
 	}
 	return bytes;
 }

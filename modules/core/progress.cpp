@@ -10,8 +10,8 @@ namespace gnomon {
 
 namespace {
 
-constexpr double QUIET_SECONDS = 1.0;
-constexpr int BAR_WIDTH = 30;
+constexpr double QUIET_SECONDS = 1.0; // before anything is shown
+constexpr int BAR_WIDTH = 30;		  // in characters
 
 std::atomic<int> alive_count = 0;
 

@@ -43,21 +43,22 @@ std::vector<std::string> parse_list(const std::string &p_text) {
 	return items;
 }
 
-/// A key=value and the lines that it spans.
+/// A key=value entry and the lines that it spans, counted from 0.
 struct Entry {
 	std::string section;
 	std::string key;
-	std::string value; // of a list over several lines, all of them
+	std::string value; // the lines of a list are joined
 	size_t first_line = 0;
-	size_t end_line = 0; // the one after the last
+	size_t end_line = 0; // one past the last line
 	bool is_list() const { return !value.empty() && value.front() == '['; }
 };
 
-/// The layout of a file. Reading and writing share it, so that neither misinterprets the other.
+/// The lines and entries of a project.cfg. Reading and writing both use it, so that they agree on
+/// how a file is interpreted.
 struct Layout {
 	std::vector<std::string> lines;
 	std::vector<Entry> entries;
-	std::map<std::string, size_t> sections; // to the line of each one's first heading
+	std::map<std::string, size_t> sections; // by name: line of the section's first heading
 };
 
 bool is_heading(const std::string &p_line) {
@@ -65,7 +66,7 @@ bool is_heading(const std::string &p_line) {
 			p_line.find('=') == std::string::npos;
 }
 
-/// A list continues until a line ends with ].
+/// Appends lines to the list in r_entry until one ends with ]. A list without end is an Error.
 void read_list(Layout &r_layout, Entry &r_entry, const fs::path &p_path) {
 	while (r_entry.value.back() != ']') {
 		const bool is_over = r_entry.end_line == r_layout.lines.size();
@@ -99,7 +100,7 @@ Layout read_layout(const std::string &p_text, const fs::path &p_path) {
 		const size_t equals = line.find('=');
 		if (equals == std::string::npos) {
 			fail(p_path, ":", number + 1, ": \"", line,
-					"\" is no section, comment or key=value. Mend the line.");
+					"\" is not a section, comment or key=value. Correct the line.");
 		}
 		Entry entry{ section, trim(line.substr(0, equals)), trim(line.substr(equals + 1)), number,
 			number + 1 };
@@ -166,9 +167,9 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 void Project::add_scenes(const std::vector<std::string> &p_names, std::vector<fs::path> &r_scenes) {
 	for (const std::string &scene : p_names) {
 		const fs::path path = folder / scene;
-		std::error_code code; // a name that no file can have is missing too
-		const bool is_there = fs::exists(path, code);
-		(is_there ? r_scenes : missing_scenes).push_back(path);
+		std::error_code code; // with an error, as for a name that is too long, the scene is missing
+		const bool scene_exists = fs::exists(path, code);
+		(scene_exists ? r_scenes : missing_scenes).push_back(path);
 	}
 }
 

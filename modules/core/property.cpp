@@ -12,9 +12,9 @@ namespace gnomon {
 
 namespace {
 
-/// Largest magnitude of whole numbers: numbers are parsed as double, which cannot represent all
-/// whole numbers beyond it.
-constexpr double MAX_WHOLE = 9007199254740991.0; // 2^53 - 1
+/// Largest magnitude of an INT. Numbers are parsed as double, which cannot represent every larger
+/// whole number.
+constexpr double MAX_EXACT_INTEGER = 9007199254740991.0; // 2^53 - 1
 
 std::vector<std::string> split(const std::string &p_text) {
 	std::vector<std::string> parts;
@@ -45,7 +45,7 @@ std::optional<double> get_number(const PropertyValue &p_value) {
 	return std::nullopt;
 }
 
-/// Whether a number is in the declared range, apart from the special value.
+/// Returns whether a number is finite and in the declared range. Ignores the special value.
 bool is_in_range(const PropertyInfo &p_info, double p_number) {
 	const PropertyRange range = get_range(p_info);
 	const bool has_range = !p_info.hint.empty();
@@ -67,7 +67,7 @@ std::optional<glm::dvec3> parse_vector(std::string_view p_text) {
 	return vector;
 }
 
-std::string refuse(const PropertyInfo &p_info, const PropertyValue &p_value) {
+std::string describe_refusal(const PropertyInfo &p_info, const PropertyValue &p_value) {
 	return text("is ", format_property(p_value), ", must be ", describe_range(p_info));
 }
 
@@ -88,10 +88,11 @@ void PropertyList::replace(PropertyInfo p_info) {
 }
 
 void PropertyList::prepare(PropertyInfo &r_info) {
+	// An ENUM whose default is no string (index 3 of PropertyValue) defaults to its first choice.
 	if (r_info.type == PropertyType::ENUM && r_info.default_value.index() != 3) {
 		r_info.default_value = split(r_info.hint).at(0);
 	}
-	// Converts the literal's type, so that { ..., 3, ... } also declares a FLOAT.
+	// Converts the default's type, so that a FLOAT may be declared with the literal 3.
 	const std::string refusal = check_property(r_info, r_info.default_value);
 	GNOMON_ASSERT(refusal.empty(), "default of property ", r_info.name, " ", refusal);
 	r_info.default_value = convert_property(r_info, r_info.default_value);
@@ -109,9 +110,10 @@ const PropertyInfo *PropertyList::find(std::string_view p_name) const {
 std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_value) {
 	switch (p_info.type) {
 		case PropertyType::BOOL:
-			return std::holds_alternative<bool>(p_value) ? "" : refuse(p_info, p_value);
+			return std::holds_alternative<bool>(p_value) ? "" : describe_refusal(p_info, p_value);
 		case PropertyType::STRING:
-			return std::holds_alternative<std::string>(p_value) ? "" : refuse(p_info, p_value);
+			return std::holds_alternative<std::string>(p_value) ? ""
+																: describe_refusal(p_info, p_value);
 		case PropertyType::ENUM: {
 			const std::string *chosen = std::get_if<std::string>(&p_value);
 			for (const std::string &name : split(p_info.hint)) {
@@ -119,28 +121,28 @@ std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_va
 					return "";
 				}
 			}
-			return refuse(p_info, p_value);
+			return describe_refusal(p_info, p_value);
 		}
 		case PropertyType::INT:
 		case PropertyType::FLOAT: {
 			const std::optional<double> number = get_number(p_value);
 			if (!number || !std::isfinite(*number)) {
-				return refuse(p_info, p_value);
+				return describe_refusal(p_info, p_value);
 			}
 			if (p_info.type == PropertyType::INT &&
-					(std::floor(*number) != *number || std::abs(*number) > MAX_WHOLE)) {
-				return refuse(p_info, p_value);
+					(std::floor(*number) != *number || std::abs(*number) > MAX_EXACT_INTEGER)) {
+				return describe_refusal(p_info, p_value);
 			}
 			if (!p_info.special.empty() && *number == *parse_number(p_info.special)) {
 				return "";
 			}
-			return is_in_range(p_info, *number) ? "" : refuse(p_info, p_value);
+			return is_in_range(p_info, *number) ? "" : describe_refusal(p_info, p_value);
 		}
 		case PropertyType::VECTOR3: {
 			const glm::dvec3 *vector = std::get_if<glm::dvec3>(&p_value);
 			const bool is_allowed = vector && is_in_range(p_info, vector->x) &&
 					is_in_range(p_info, vector->y) && is_in_range(p_info, vector->z);
-			return is_allowed ? "" : refuse(p_info, p_value);
+			return is_allowed ? "" : describe_refusal(p_info, p_value);
 		}
 	}
 	return "has an unknown type";
@@ -215,26 +217,30 @@ std::string describe_range(const PropertyInfo &p_info) {
 		return "text";
 	}
 	const std::vector<std::string> parts = split(p_info.hint);
-	std::string words;
+	std::string description;
 	if (p_info.type == PropertyType::ENUM) {
 		for (size_t index = 0; index < parts.size(); ++index) {
-			words += (index == 0 ? "" : index + 1 == parts.size() ? " or " : ", ") + parts[index];
+			description += (index == 0								   ? ""
+										   : index + 1 == parts.size() ? " or "
+																	   : ", ") +
+					parts[index];
 		}
-		return words;
+		return description;
 	}
-	words = p_info.type == PropertyType::INT
-			? text("a whole number of at most ", static_cast<int64_t>(MAX_WHOLE), " either way")
+	description = p_info.type == PropertyType::INT
+			? text("a whole number, in magnitude at most ", static_cast<int64_t>(MAX_EXACT_INTEGER))
 			: "a finite number";
 	if (parts.size() >= 2) {
-		words = parts[0] + ".." + parts[1];
+		description = parts[0] + ".." + parts[1];
 	}
 	if (p_info.type == PropertyType::VECTOR3) {
-		words = "three numbers x,y,z" + (parts.size() >= 2 ? " of " + words : std::string());
+		description =
+				"three numbers x,y,z" + (parts.size() >= 2 ? " of " + description : std::string());
 	}
 	if (!p_info.special.empty()) {
-		words = p_info.special + " or " + words;
+		description = p_info.special + " or " + description;
 	}
-	return p_info.unit.empty() ? words : words + " " + p_info.unit;
+	return p_info.unit.empty() ? description : description + " " + p_info.unit;
 }
 
 const PropertyValue &get_property(

@@ -16,11 +16,12 @@ enum class PropertyType { BOOL, INT, FLOAT, ENUM, STRING, VECTOR3 };
 
 /// BOOL: bool. INT: int64_t. FLOAT: double. ENUM and STRING: std::string. VECTOR3: glm::dvec3.
 using PropertyValue = std::variant<bool, int64_t, double, std::string, glm::dvec3>;
-/// Name to value. Holds only what was set; what is absent has its PropertyInfo's default.
+/// Values by property name. Contains only the properties that were set; the others have the default
+/// of their PropertyInfo.
 using PropertyValues = std::map<std::string, PropertyValue, std::less<>>;
 
-/// One declaration drives the editor's inspector, the scene file's extras, `--set` on the command
-/// line, the generated docs and the test that every property has a tooltip.
+/// Declares a property. The editor's inspector, the scene file's extras, `--set` on the command
+/// line and the generated docs all use this declaration.
 struct PropertyInfo {
 	std::string name; // snake_case; a technique's properties begin with its id
 	PropertyType type = PropertyType::FLOAT;
@@ -28,7 +29,7 @@ struct PropertyInfo {
 	/// INT, FLOAT and each component of VECTOR3: "minimum,maximum,step". ENUM: "first,second,...".
 	/// Otherwise empty.
 	std::string hint;
-	std::string tooltip; // one sentence or two: meaning, and what happens at the edges
+	std::string tooltip; // one or two sentences: the meaning, and the effect of extreme values
 	std::string unit;	 // "m", "px", "deg", or empty
 	std::string group;	 // heading in the inspector
 	/// A value outside the range that is also allowed and has its own meaning: "-1" for "derived".
@@ -38,33 +39,35 @@ struct PropertyInfo {
 	bool is_color = false; // VECTOR3: linear red, green, blue
 };
 
-/// One step of a technique's ladder from cheap to good, which the error report measures.
+/// A quality level of a technique or mask filter, for example a number of taps. The error report
+/// measures each of them.
 struct QualitySetting {
 	std::string name; // "32 taps"; unique within the technique
-	/// Properties of the technique or of every light (penumbra_outer_width); they override the
-	/// light's own.
+	/// Values that replace those of the light: properties that the technique declares, or that
+	/// every light has (penumbra_outer_width).
 	PropertyValues properties;
-	/// The setting is so slow that the report measures it at one light size only.
+	/// True: so slow that the report measures it only at the middle light size of each light.
 	bool is_expensive = false;
 };
 
-/// A property of earlier versions: files may still contain it, nothing reads it, and saving
+/// A property of earlier versions. Files may still contain it; it has no effect, and saving
 /// preserves it.
 struct RemovedProperty {
 	std::string name;
-	std::string advice; // a sentence: what replaced it
+	std::string advice; // a sentence that names the replacement
 };
 
 /// The properties of one kind of object, in the order in which they are shown.
 class PropertyList {
 public:
-	/// A name that is present already, or a default that its own range refuses, is a programming
-	/// error.
+	/// Appends a declaration. A name that is already declared, or a default outside the declared
+	/// range, is a programming error.
 	void add(PropertyInfo p_info);
-	/// Declares a property again, at its position. A name that the list lacks is a programming
-	/// error.
+	/// Replaces the declaration of the same name, at the same position. An undeclared name is a
+	/// programming error.
 	void replace(PropertyInfo p_info);
 	void add_removed(RemovedProperty p_removed) { removed.push_back(std::move(p_removed)); }
+	/// Returns null if the name is not declared.
 	const PropertyInfo *find(std::string_view p_name) const;
 	const std::vector<PropertyInfo> &get_properties() const { return properties; }
 	const std::vector<RemovedProperty> &get_removed() const { return removed; }
@@ -77,19 +80,20 @@ private:
 	std::vector<RemovedProperty> removed;
 };
 
-/// Why the value is refused, or empty when it is allowed: "is 7, must be 1..3". NaN and infinity
-/// are refused, and so is a value of another type (an INT is allowed where a FLOAT is expected,
-/// and a FLOAT without fraction where an INT is).
+/// Returns why the value is not allowed, for example "is 7, must be 1..3"; empty if it is allowed.
+/// NaN and infinity are not allowed, nor is a value of another type, except a whole number for a
+/// FLOAT and a FLOAT without fraction for an INT.
 std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_value);
-/// The value converted to the property's type. Only for values that check_property allows.
+/// Converts the value to the property's type. Only for values that check_property allows.
 PropertyValue convert_property(const PropertyInfo &p_info, const PropertyValue &p_value);
-/// Reads "0.4", "true", "hard", "1,2,3". Text that does not parse, or that check_property refuses,
-/// is an Error that begins with p_object and names the value and the range.
+/// Parses text such as "0.4", "true", "hard" or "1,2,3". Text that does not parse, or a value that
+/// check_property does not allow, is an Error that begins with p_object and names the value and the
+/// range.
 PropertyValue parse_property(
 		const PropertyInfo &p_info, std::string_view p_text, const std::string &p_object);
-/// Formats a value so that parse_property reads it back.
+/// Formats a value as text that parse_property parses.
 std::string format_property(const PropertyValue &p_value);
-/// A property's value as JSON: a vector is a list of three numbers.
+/// Converts a property's value to JSON. A vector becomes an array of three numbers.
 template <typename Json> Json property_to_json(const PropertyValue &p_value) {
 	return std::visit(
 			[](const auto &p_held) {
@@ -101,23 +105,26 @@ template <typename Json> Json property_to_json(const PropertyValue &p_value) {
 			},
 			p_value);
 }
-/// The allowed values in words: "1..3", "-1 or 0..10000 m", "hard, 2x2 or 3x3", "true or false".
+/// Describes the allowed values: "1..3", "-1 or 0..10000 m", "hard, 2x2 or 3x3", "true or false".
 std::string describe_range(const PropertyInfo &p_info);
 
-/// The names of an ENUM, in order.
+/// Returns the choices of an ENUM, in the order of the hint.
 std::vector<std::string> get_choices(const PropertyInfo &p_info);
-/// The allowed range of a number, apart from its special value. Without a hint there are no limits.
+/// The allowed range of a number, apart from its special value. The defaults, for a property
+/// without a hint, mean no limits.
 struct PropertyRange {
 	double minimum = -1e30;
 	double maximum = 1e30;
 	double step = 0.01; // step of the slider
 };
+/// Parses the hint of an INT, FLOAT or VECTOR3.
 PropertyRange get_range(const PropertyInfo &p_info);
 
-/// The value that is set, else the declared default. A name that the list lacks is a programming
+/// Returns the value in p_values, else the declared default. An undeclared name is a programming
 /// error.
 const PropertyValue &get_property(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+/// Like get_property, for a BOOL or a FLOAT property.
 bool get_bool(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 double get_float(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: core has only building blocks for the other modules.
+// Registers nothing: core only contains utilities for the other modules.

@@ -7,7 +7,7 @@ def get_layer():
 
 
 def get_description():
-    return "A window of the desktop, its keys and its mouse"
+    return "Desktop window with keyboard and mouse input"
 
 
 def can_disable():

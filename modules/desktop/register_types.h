@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: callers create the window.
+// Registers nothing: callers create a Window directly.

@@ -1,7 +1,7 @@
 #include "modules/desktop/window.h"
 
 #include "modules/core/error.h"
-// Before GLFW: Vulkan's handles turn on its Vulkan functions.
+// Must come before GLFW, which declares its Vulkan functions only after the Vulkan headers.
 #include "modules/rendering_device_vulkan/vulkan_handles.h"
 #include "modules/rendering_device_vulkan/window_swapchain.h"
 

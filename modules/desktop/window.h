@@ -13,43 +13,48 @@ struct GLFWwindow;
 
 namespace gnomon {
 
-/// A desktop window and its keyboard. Only one at a time.
+/// A GLFW window with its keyboard and mouse input. Only one may exist at a time.
 class Window {
 public:
-	/// Without a display: an Error whose message ends with the advice.
+	/// Opens the window. A missing display or Vulkan driver is an Error; p_advice is a sentence
+	/// that ends its message.
 	Window(const std::string &p_title, glm::uvec2 p_size_px, const std::string &p_advice);
 	~Window();
 	Window(const Window &) = delete;
 	Window &operator=(const Window &) = delete;
 
-	/// Returns DeviceOptions::instance_extensions for drawing in windows of this desktop.
+	/// Returns the Vulkan instance extensions that drawing in a window needs, for
+	/// DeviceOptions::instance_extensions. Call it while a window exists.
 	static std::vector<std::string> get_instance_extensions();
-	/// Creates the swapchain of this window, for a device that was created with needs_surface.
-	/// Destroy it before the window and the device.
+	/// Creates the swapchain of this window. The device must have been created with
+	/// DeviceOptions::needs_surface. Destroy the swapchain before the window and the device.
 	std::unique_ptr<Swapchain> create_swapchain(RenderingDevice &r_device);
 
-	/// Processes events. Returns false once the user has closed the window.
+	/// Processes events. Returns false once the user or close() has closed the window.
 	bool poll();
+	/// Makes poll return false. The window itself stays until the destructor.
 	void close();
-	/// Cancels closing after the user closed the window, so that poll returns true again.
+	/// Cancels closing: poll returns true again.
 	void keep_open();
-	/// Size of the drawable area; 0 while minimised.
+	/// Returns the size of the drawable area; 0 while minimised.
 	glm::uvec2 get_size_px() const;
-	/// Content scale of the desktop: 1 on a normal screen, 2 on a high-density one.
+	/// Returns the desktop's content scale: 1 on a normal screen, 2 on a high-density one.
 	float get_scale() const;
 	void set_title(const std::string &p_title);
 
+	/// Whether the key, a GLFW_KEY_ constant, is pressed now.
 	bool is_down(int p_glfw_key) const;
 	/// Returns the GLFW handle, for a user interface library that adds its own callbacks.
 	GLFWwindow *get_handle() { return window; }
-	/// A key press, reported even if the key has been released since.
+	/// A key press. It is reported even if the key was released before the next poll.
 	struct KeyPress {
-		int key = 0;	   // GLFW's code
-		int modifiers = 0; // GLFW's bits, as they were then
+		int key = 0;	   // a GLFW_KEY_ constant
+		int modifiers = 0; // GLFW_MOD_ bits at the time of the press
 	};
-	/// Key presses since the last poll, in order.
+	/// Returns the key presses that the last poll processed, in order.
 	const std::vector<KeyPress> &get_key_presses() const { return key_presses; }
-	/// Movement since the last poll while the right button is held, in pixels.
+	/// Returns how far the mouse moved between the last two polls, in pixels, if the right button
+	/// is pressed; else 0.
 	glm::dvec2 get_drag_px() const { return drag_px; }
 
 private:

@@ -11,8 +11,8 @@ namespace gnomon {
 
 namespace {
 
-const uint32_t RAYS_PER_ROUND = 4; // times those of the round before
-const int NICENESS = 15;
+const uint32_t ROUND_SAMPLE_FACTOR = 4; // ratio of the rays of a round to those of the previous one
+const int NICENESS = 15;				// of at most 19, the lowest priority
 
 } // namespace
 
@@ -24,8 +24,7 @@ void BackgroundReference::start(
 	progress = 0.0f;
 	round_sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
 	thread = std::thread([this, make = std::move(p_make), p_sample_count] {
-		// Applies to this thread and to those it creates. If it fails, the thread just keeps its
-		// priority.
+		// Applies to this thread and to those it creates. On failure the thread keeps its priority.
 		setpriority(PRIO_PROCESS, 0, NICENESS);
 		try {
 			run(make, p_sample_count);
@@ -42,9 +41,9 @@ void BackgroundReference::stop() {
 	if (thread.joinable()) {
 		thread.join();
 	}
-	is_busy = false; // also where no thread could be made
+	is_busy = false; // also if the thread could not be created
 	const std::lock_guard lock(mutex);
-	ended_round.reset();
+	finished_round.reset();
 	failure.clear();
 }
 
@@ -53,7 +52,7 @@ std::optional<ReferenceRound> BackgroundReference::take() {
 	if (!failure.empty()) {
 		fail(std::exchange(failure, std::string()));
 	}
-	return std::exchange(ended_round, std::nullopt);
+	return std::exchange(finished_round, std::nullopt);
 }
 
 void BackgroundReference::run(
@@ -63,21 +62,21 @@ void BackgroundReference::run(
 	uint32_t sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
 	while (!is_cancelled) {
 		round_sample_count = sample_count;
-		ReferenceAnswer answer = source->trace(
+		ReferenceResult result = source->trace(
 				sample_count, is_cancelled, [&](float p_fraction) { progress = p_fraction; });
-		if (!answer.is_complete) {
+		if (!result.is_complete) {
 			return;
 		}
 		{
 			const std::lock_guard lock(mutex);
-			ended_round = ReferenceRound{ std::move(answer.visibility), answer.standard_error,
+			finished_round = ReferenceRound{ std::move(result.visibility), result.standard_error,
 				sample_count,
 				std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() };
 		}
 		if (sample_count >= p_sample_count) {
 			return;
 		}
-		sample_count = std::min(sample_count * RAYS_PER_ROUND, p_sample_count);
+		sample_count = std::min(sample_count * ROUND_SAMPLE_FACTOR, p_sample_count);
 	}
 }
 

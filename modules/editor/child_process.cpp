@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-/// Quotes any text as one word for the shell.
+/// Quotes any text as a single argument for the shell.
 std::string quote(const std::string &p_text) {
 	std::string quoted = "'";
 	for (const char letter : p_text) {
@@ -19,14 +19,14 @@ std::string quote(const std::string &p_text) {
 
 } // namespace
 
-void start_program(const std::vector<std::string> &p_words) {
+void start_program(const std::vector<std::string> &p_arguments) {
 	std::string command;
-	for (const std::string &word : p_words) {
-		command += quote(word) + " ";
+	for (const std::string &argument : p_arguments) {
+		command += quote(argument) + " ";
 	}
-	// Runs in the shell's background, so that it leaves no zombie process when it ends.
+	// The shell starts it in the background, so that it leaves no zombie process when it ends.
 	if (std::system((command + ">/dev/null 2>&1 &").c_str()) != 0) {
-		fail("No process can be started. Run it yourself: ", command);
+		fail("Cannot start a process. Run the command yourself: ", command);
 	}
 }
 

@@ -1,4 +1,4 @@
-// `gnomon edit`: the editor's window.
+// The subcommand `gnomon edit`, which opens the editor's window.
 
 #include "modules/editor/command_edit.h"
 
@@ -19,11 +19,11 @@ EditorOptions options;
 void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 	CLI::App *command = r_app.add_subcommand("edit", "Opens a project or a scene in the editor");
 	command->add_option("project", options.path,
-			"A project's folder, or a .gltf or .glb file. Default: what was open last");
+			"A project's folder, or a .gltf or .glb file. Default: the last opened scene");
 	command->add_option("--shaders", options.shaders,
 			"Shader sources, recompiled when they change. Default: next to bin");
-	command->add_option("--items", options.items, "Writes where widgets are as JSON, for tests");
-	command->add_option("--frames", options.frame_count, "Ends after so many")
+	command->add_option("--items", options.items, "File for the widgets' positions, for tests");
+	command->add_option("--frames", options.frame_count, "Ends after this many frames")
 			->check(CLI::Range(1u, 1000000u));
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");

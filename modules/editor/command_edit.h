@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// Adds the subcommand `gnomon edit` to the parser; used as CommandInfo::add.
+/// Adds the subcommand `gnomon edit` to the parser. This is its CommandInfo::add.
 void add_edit_command(CLI::App &r_app, CommonOptions &r_common);
 
 } // namespace gnomon

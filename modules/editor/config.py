@@ -7,11 +7,11 @@ def get_layer():
 
 
 def get_description():
-    return "Scene tree, viewport and inspector, made from property lists"
+    return "Scene editor: scene tree, viewport and an inspector generated from property lists"
 
 
 def can_disable():
-    return False  # it runs only on request, and then it cannot end itself
+    return False  # it runs only on `gnomon edit`, and a running editor cannot disable itself
 
 
 def get_doc():

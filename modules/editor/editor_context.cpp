@@ -31,13 +31,13 @@ std::shared_ptr<const SceneSnapshot> EditorContext::build_viewport_snapshot() co
 	return build_snapshot(document.get_scene(), camera);
 }
 
-void EditorContext::note_item(const std::string &p_name) {
+void EditorContext::record_item_rect(const std::string &p_name) {
 	if (ImGui::IsWindowAppearing()) {
-		return; // what has just opened finds its position in the next frame
+		return; // a window that has just opened gets its final position in the next frame
 	}
-	const ImVec2 least = ImGui::GetItemRectMin();
-	const ImVec2 greatest = ImGui::GetItemRectMax();
-	items[p_name] = { least.x, least.y, greatest.x, greatest.y };
+	const ImVec2 top_left = ImGui::GetItemRectMin();
+	const ImVec2 bottom_right = ImGui::GetItemRectMax();
+	items[p_name] = { top_left.x, top_left.y, bottom_right.x, bottom_right.y };
 }
 
 bool EditorContext::begin_tab(const char *p_name, const std::string &p_addition) {
@@ -45,7 +45,7 @@ bool EditorContext::begin_tab(const char *p_name, const std::string &p_addition)
 	const bool is_requested = requested_tab == p_name;
 	const bool is_shown = ImGui::BeginTabItem(
 			label.c_str(), nullptr, is_requested ? ImGuiTabItemFlags_SetSelected : 0);
-	note_item(std::string("tab ") + p_name);
+	record_item_rect(std::string("tab ") + p_name);
 	if (is_requested && is_shown) {
 		requested_tab.clear();
 	}

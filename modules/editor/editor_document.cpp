@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns null if no node has that name.
+/// Finds a node by name in a tree. Returns null if there is none.
 Node3D *find_node(Node3D &r_root, const std::string &p_name) {
 	if (r_root.name == p_name) {
 		return &r_root;
@@ -29,6 +29,7 @@ Node3D *find_node(Node3D &r_root, const std::string &p_name) {
 	return nullptr;
 }
 
+/// Appends the smallest number from 2 that makes the name unique.
 std::string make_free_name(Node3D &r_root, const std::string &p_name) {
 	for (int number = 2;; ++number) {
 		const std::string name = text(p_name, " ", number);
@@ -38,7 +39,7 @@ std::string make_free_name(Node3D &r_root, const std::string &p_name) {
 	}
 }
 
-/// Copies the node with its descendants, each under a name of its own.
+/// Copies the node with its descendants, and gives each copy a unique name.
 std::unique_ptr<Node3D> copy_tree(const Node3D &p_node, Node3D &r_root) {
 	std::unique_ptr<Node3D> copy = p_node.copy();
 	copy->file_index = -1;
@@ -87,7 +88,7 @@ void EditorDocument::open(const fs::path &p_file) {
 	std::unique_ptr<Scene> loaded = load_gltf(p_file, options);
 	staged = stage_scene(*loaded, stage);
 	if (!staged.empty()) {
-		log_info(staged, " Untick \"staged\" of what is to be saved with it.");
+		log_info(staged, " Untick \"staged\" on the nodes that should be saved.");
 	}
 	selected = nullptr;
 	history = UndoHistory();
@@ -100,17 +101,17 @@ void EditorDocument::open(const fs::path &p_file) {
 
 void EditorDocument::read_file() {
 	const FileTimes before = read_file_times();
-	file_times = before; // also when it cannot be read: once is enough
+	file_times = before; // even if reading fails, so that it is not retried before a change
 	open(path);
-	note_file_time(); // it may refer to other files now
+	record_file_times(); // the scene may refer to other files now
 	for (auto &[file, time] : file_times) {
-		if (const auto known = before.find(file); known != before.end()) {
-			time = known->second; // what was written meanwhile is newer
+		if (const auto previous = before.find(file); previous != before.end()) {
+			time = previous->second; // a file written during the reading counts as newer
 		}
 	}
 }
 
-void EditorDocument::note_file_time() {
+void EditorDocument::record_file_times() {
 	file_times = read_file_times();
 }
 
@@ -130,17 +131,17 @@ EditorDocument::FileTimes EditorDocument::read_file_times() const {
 }
 
 Bounds EditorDocument::compute_selected_bounds() const {
-	const double SPACE_SIZES = 0.05; // of S
+	const double MARGIN_FRACTION = 0.05; // margin, as a fraction of the scene size S
 	const auto snapshot = build_snapshot(*scene, Camera3D());
 	if (selected == nullptr) {
 		return snapshot->compute_caster_bounds();
 	}
 	Bounds bounds = selected->compute_bounds();
-	// A skinned mesh is where its joints are, wherever its node is.
+	// The bounds of a skinned mesh follow its joints, not its node.
 	const glm::dvec3 center = bounds.is_empty() ? glm::dvec3(selected->compute_world_from_node()[3])
 												: 0.5 * (bounds.minimum + bounds.maximum);
-	bounds.add(center - glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
-	bounds.add(center + glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
+	bounds.add(center - glm::dvec3(MARGIN_FRACTION * snapshot->scene_size_m));
+	bounds.add(center + glm::dvec3(MARGIN_FRACTION * snapshot->scene_size_m));
 	return bounds;
 }
 
@@ -178,11 +179,11 @@ void EditorDocument::duplicate(Node3D &r_node) {
 		fail("The scene's root cannot be duplicated. Select one of its children.");
 	}
 	std::unique_ptr<Node3D> copy = copy_tree(r_node, *scene->root);
-	Node3D *made = copy.get();
-	made->is_staged = false; // a copy is the user's own
+	Node3D *copied_node = copy.get();
+	copied_node->is_staged = false; // the copy is the user's node and is saved
 	history.add(*r_node.parent, std::move(copy), text("Duplicate ", r_node.name));
 	timeline.pose();
-	selected = made;
+	selected = copied_node;
 }
 
 std::string EditorDocument::undo() {
@@ -192,7 +193,7 @@ std::string EditorDocument::undo() {
 	const std::string name = history.get_undo_name();
 	Node3D *node = history.undo();
 	timeline.pose();
-	selected = node->parent != nullptr ? node : nullptr; // it may just have left the tree
+	selected = node->parent != nullptr ? node : nullptr; // null: its addition was undone
 	return name;
 }
 
@@ -210,7 +211,8 @@ std::string EditorDocument::redo() {
 void EditorDocument::set_module_enabled(const std::string &p_name, bool p_is_enabled) {
 	ModuleRegistry::set_enabled(p_name, p_is_enabled);
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
-		std::erase(project.disabled_modules, module.name); // names of other builds stay
+		// Names of modules that this build lacks stay in the list.
+		std::erase(project.disabled_modules, module.name);
 		if (!module.is_enabled) {
 			project.disabled_modules.push_back(module.name);
 		}
@@ -243,7 +245,7 @@ void EditorDocument::save_as(const fs::path &p_path) {
 	autosaved_serial = history.get_serial();
 	is_recovered = false;
 	changed_since.reset();
-	note_file_time();
+	record_file_times();
 }
 
 fs::path EditorDocument::get_recovery_path() const {
@@ -264,15 +266,15 @@ bool EditorDocument::autosave(Clock::time_point p_now) {
 	}
 	changed_since = p_now;
 	try {
-		save_aside();
+		save_recovery();
 	} catch (const Error &error) {
-		log_error("Changes cannot be saved aside: ", error.what());
+		log_error("Changes cannot be saved in the recovery file: ", error.what());
 		return false;
 	}
 	return true;
 }
 
-void EditorDocument::save_aside() {
+void EditorDocument::save_recovery() {
 	if (!is_changed()) {
 		return;
 	}
@@ -294,7 +296,7 @@ void EditorDocument::recover() {
 		const fs::path moved = get_recovery_path().string() + ".unread";
 		std::error_code code;
 		fs::rename(get_recovery_path(), moved, code);
-		fail("What was saved aside cannot be read and stays as ", moved, ": ", error.what());
+		fail("The recovery file cannot be read. It was renamed to ", moved, ": ", error.what());
 	}
 	is_recovered = true;
 	owns_recovery = true;
@@ -314,7 +316,7 @@ void EditorDocument::discard_own_recovery() {
 
 bool EditorDocument::is_file_newer() const {
 	const FileTimes now = read_file_times();
-	// While the scene itself is not there, it is being written.
+	// While the scene file does not exist, another program is still writing it.
 	return now != file_times && now.contains(path);
 }
 

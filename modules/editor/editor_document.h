@@ -15,7 +15,8 @@
 
 namespace gnomon {
 
-/// The edited scene: its file, its changes and the selection. It has no drawing code.
+/// The edited scene: its file, its unsaved changes, its undo history and the selection. It does not
+/// depend on the user interface.
 class EditorDocument {
 public:
 	using Clock = std::chrono::steady_clock;
@@ -35,20 +36,22 @@ public:
 	const Project &get_project() const { return project; }
 	const std::filesystem::path &get_path() const { return path; }
 	UndoHistory &get_history() { return history; }
-	/// Returns which of the scene's animations is shown, and when; it is not a change of the scene.
+	/// Returns the timeline, which selects the animation and the time at which the scene is shown.
+	/// Using it is not a change of the scene.
 	Timeline &get_timeline() { return timeline; }
 	const Timeline &get_timeline() const { return timeline; }
-	/// Returns why the file could not be read; empty: it was read. Such a document cannot be saved,
-	/// because that would overwrite the file; it is reloaded when the file changes.
+	/// Returns why the file could not be read; empty: it was read. A document with a failure cannot
+	/// be saved, because that would overwrite the file; it is reloaded when the file changes.
 	const std::string &get_failure() const { return failure; }
 	StageMode get_stage() const { return stage; }
-	/// Describes in one line what was added to the file's scene; empty: nothing.
+	/// Returns one line that lists what stage_scene added to the scene; empty: nothing.
 	const std::string &get_staged() const { return staged; }
-	/// Lists the names of nodes that saving skips; empty: none.
+	/// Returns the names of the staged nodes, which saving skips, separated by commas; empty: none.
 	std::string list_staged() const;
+	/// Whether there are unsaved changes.
 	bool is_changed() const { return is_recovered || !history.is_saved(); }
 
-	/// Null: nothing is selected.
+	/// Returns the selected node; null: none.
 	Node3D *get_selected() const { return selected; }
 	void select(Node3D *p_node) { selected = p_node; }
 	/// Returns the bounds of the selected node, enlarged to at least a small box around its centre;
@@ -63,35 +66,39 @@ public:
 	void end_drag() { history.close(); }
 	/// Renames a node. An empty name, or one that another node has, is an Error.
 	void rename(Node3D &r_node, const std::string &p_name);
+	/// Removes a node with its descendants. Removing the root is an Error.
 	void remove(Node3D &r_node);
-	/// Duplicates the node next to itself under a new name, and selects the copy.
+	/// Copies the node with its descendants, gives the copies new names, and selects the copy.
+	/// Duplicating the root is an Error.
 	void duplicate(Node3D &r_node);
-	/// Undoes a step, selects the node that changed and returns the step's name; empty: nothing to
-	/// undo.
+	/// Undoes a step, selects the node that changed (nothing, if that left the tree or is the root)
+	/// and returns the step's name; empty: nothing to undo.
 	std::string undo();
+	/// Does an undone step again; otherwise like undo.
 	std::string redo();
 
-	/// Switches a module in this program and in the project, and writes its project.cfg. Not
-	/// undoable.
+	/// Switches a module on or off, in this process and in the project's project.cfg. Not undoable.
 	void set_module_enabled(const std::string &p_name, bool p_is_enabled);
 
 	/// Saves atomically. After an Error the old file and all changes are intact.
 	void save();
+	/// Like save, to another file, which becomes the document's file.
 	void save_as(const std::filesystem::path &p_path);
-	/// Path of the recovery file, next to the scene, that autosave writes.
+	/// Returns the path of the recovery file, which autosave writes next to the scene.
 	std::filesystem::path get_recovery_path() const;
-	/// Writes the recovery file if the changes are old enough. Returns false on failure; it retries
-	/// after another interval.
+	/// Writes the recovery file if there have been new changes for the autosave interval. Call it
+	/// once a frame. Returns false on failure, which is logged; it retries after another interval.
 	bool autosave(Clock::time_point p_now);
 	void set_autosave_interval(std::chrono::seconds p_interval) { autosave_interval = p_interval; }
-	/// Writes the recovery file now if there are changes, before the program ends.
-	void save_aside();
-	/// Whether an earlier program left a recovery file with unsaved changes.
+	/// Writes the recovery file at once if there are unsaved changes.
+	void save_recovery();
+	/// Whether there is a recovery file. When the document was just opened, it contains unsaved
+	/// changes of an earlier session.
 	bool has_recovery() const;
 	/// Loads the recovery file; the document then counts as changed. If it cannot be read, it is
 	/// preserved under another name, and an Error is thrown.
 	void recover();
-	/// Deletes the recovery file, even one of another program.
+	/// Deletes the recovery file, also that of an earlier session.
 	void discard_recovery();
 	/// Deletes the recovery file if this document wrote or loaded it.
 	void discard_own_recovery();
@@ -100,17 +107,22 @@ public:
 	/// or saved.
 	bool is_file_newer() const;
 	/// Ignores the newer file: the next save overwrites it.
-	void keep_over_file() { note_file_time(); }
+	void ignore_newer_file() { record_file_times(); }
 	/// Reloads the file. Changes and history are lost; the node with the name of the selected one
-	/// is selected. An Error leaves everything unchanged.
+	/// is selected. An Error leaves scene and history unchanged; is_file_newer is then false until
+	/// the file changes again.
 	void reload();
 
 private:
+	/// Loads the scene from a file; clears the history and the selection.
 	void open(const std::filesystem::path &p_file);
+	/// Opens the document's file and records the modification times of its files.
 	void read_file();
-	void note_file_time();
-	/// Modification times of the scene's files. A scene that could not be read may merely lack its
-	/// .bin.
+	/// Records the current modification times of the files.
+	void record_file_times();
+	/// Modification times of the scene's files, by path. The .bin of the scene's name is always
+	/// checked: a scene that could not be read has not listed its files, and may merely lack that
+	/// one.
 	using FileTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
 	FileTimes read_file_times() const;
 
@@ -123,12 +135,12 @@ private:
 	UndoHistory history;
 	Timeline timeline;
 	Node3D *selected = nullptr;
-	bool is_recovered = false;
-	bool owns_recovery = false; // the recovery file is this document's, not an earlier program's
+	bool is_recovered = false;	// the scene comes from the recovery file and is not saved yet
+	bool owns_recovery = false; // the recovery file is this document's, not an earlier session's
 	FileTimes file_times;
 	std::chrono::seconds autosave_interval = AUTOSAVE_INTERVAL;
-	uint64_t autosaved_serial = 0;
-	std::optional<Clock::time_point> changed_since;
+	uint64_t autosaved_serial = 0; // UndoHistory::get_serial of the last saved or autosaved state
+	std::optional<Clock::time_point> changed_since; // start of the wait for the next autosave
 };
 
 } // namespace gnomon

@@ -18,9 +18,10 @@ void set_next_window(ImVec2 p_position, ImVec2 p_size) {
 	ImGui::SetNextWindowSize(p_size);
 }
 
-/// Draws a line that can be dragged to change a fraction of the window.
+/// Draws a line that can be dragged to change a fraction of the window. p_window: size in pixels
+/// along the drag for a fraction of 1. p_sign: -1 if a drag to the right or down lowers r_fraction.
 void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is_vertical,
-		float p_window, float p_sign, float &r_share) {
+		float p_window, float p_sign, float &r_fraction) {
 	set_next_window(p_position, p_size);
 	ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
 	ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
@@ -34,9 +35,9 @@ void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is
 	}
 	if (ImGui::IsItemActive()) {
 		const ImVec2 drag = ImGui::GetIO().MouseDelta;
-		r_share = std::clamp(
-				r_share + p_sign * (p_is_vertical ? drag.x : drag.y) / std::max(p_window, 1.0f),
-				EditorLayout::LEAST_SHARE, EditorLayout::GREATEST_SHARE);
+		r_fraction = std::clamp(
+				r_fraction + p_sign * (p_is_vertical ? drag.x : drag.y) / std::max(p_window, 1.0f),
+				EditorLayout::MIN_FRACTION, EditorLayout::MAX_FRACTION);
 	}
 	ImGui::End();
 	ImGui::PopStyleVar(2);
@@ -46,6 +47,7 @@ void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is
 
 void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	const ImVec2 window = ImGui::GetIO().DisplaySize;
+	// Heights of toolbar, status bar and timeline; thickness of the splitters.
 	const float bar = ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y;
 	const float line = ImGui::GetFontSize() * 0.3f;
 	const float left = std::floor(window.x * r_layout.left);

@@ -19,38 +19,38 @@ const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
 
 } // namespace
 
-/// A question that must be answered before anything else.
-struct EditorSession::Question {
+/// A modal dialog with two answers.
+struct EditorSession::Dialog {
 	const char *title = "";
 	std::string text;
 	const char *yes = "";
 	const char *no = "";
 	std::function<void()> on_yes;
 	std::function<void()> on_no;
-	bool may_cancel = false; // Escape and a third button: as if there had been no question
+	bool may_cancel = false; // adds a Cancel button, and Escape cancels; neither runs an action
 };
 
-/// Draws the question over everything. Returns true once it is answered and the answer is carried
-/// out.
-bool EditorSession::draw_question(const Question &p_question) {
-	ImGui::OpenPopup(p_question.title);
-	if (!ImGui::BeginPopupModal(p_question.title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+/// Draws the dialog over all panels. Returns true once the user has answered and the answer's
+/// action has run.
+bool EditorSession::draw_dialog(const Dialog &p_dialog) {
+	ImGui::OpenPopup(p_dialog.title);
+	if (!ImGui::BeginPopupModal(p_dialog.title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
 		return false;
 	}
-	ImGui::TextUnformatted(p_question.text.c_str());
+	ImGui::TextUnformatted(p_dialog.text.c_str());
 	bool is_answered = false;
 	const auto draw_answer = [&](const char *p_label, const std::function<void()> &p_action) {
 		const bool is_pressed = ImGui::Button(p_label);
-		context.note_item(std::string("button ") + p_label);
+		context.record_item_rect(std::string("button ") + p_label);
 		if (is_pressed) {
 			p_action();
 			is_answered = true;
 		}
 	};
-	draw_answer(p_question.yes, p_question.on_yes);
+	draw_answer(p_dialog.yes, p_dialog.on_yes);
 	ImGui::SameLine();
-	draw_answer(p_question.no, p_question.on_no);
-	if (p_question.may_cancel) {
+	draw_answer(p_dialog.no, p_dialog.on_no);
+	if (p_dialog.may_cancel) {
 		ImGui::SameLine();
 		draw_answer("Cancel", [] {});
 		is_answered |= ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
@@ -66,7 +66,7 @@ EditorSession::EditorSession(EditorContext &r_context, std::filesystem::path p_p
 		context(r_context), document(r_context.document), program(std::move(p_program)),
 		prompts_recovery(r_context.document.has_recovery()) {}
 
-void EditorSession::look_as_scene() {
+void EditorSession::move_to_scene_camera() {
 	const std::vector<Camera3D *> cameras = document.get_scene().find_nodes<Camera3D>();
 	Bounds bounds;
 	context.attempt([&] { bounds = document.compute_selected_bounds(); });
@@ -78,10 +78,10 @@ void EditorSession::look_as_scene() {
 	const double distance_m = bounds.is_empty()
 			? 5.0
 			: glm::length(0.5 * (bounds.minimum + bounds.maximum) - position);
-	context.viewport.camera.look_as(*cameras.front(), distance_m);
+	context.viewport.camera.move_to_camera(*cameras.front(), distance_m);
 }
 
-void EditorSession::follow_file(Clock::time_point p_now) {
+void EditorSession::check_file(Clock::time_point p_now) {
 	if (p_now < next_file_check) {
 		return;
 	}
@@ -94,9 +94,9 @@ void EditorSession::follow_file(Clock::time_point p_now) {
 		const bool was_read = document.get_failure().empty();
 		document.reload();
 		if (!was_read) {
-			look_as_scene();
+			move_to_scene_camera();
 		}
-		context.set_status("The file has changed and was read again.");
+		context.set_status("The file has changed and was reloaded.");
 	});
 }
 
@@ -141,7 +141,7 @@ void EditorSession::run(EditorCommand p_command) {
 			break;
 		case EditorCommand::REDO:
 			if (const std::string name = document.redo(); !name.empty()) {
-				context.set_status("Done again: " + name);
+				context.set_status("Redone: " + name);
 			}
 			break;
 		case EditorCommand::DUPLICATE:
@@ -163,7 +163,7 @@ void EditorSession::run(EditorCommand p_command) {
 			}
 			start_program({ program.string(), "run", document.get_path().string(), "--stage",
 					get_stage_mode_name(document.get_stage()) });
-			context.set_status(text("The game runs in a window of its own.", describe_staged()));
+			context.set_status(text("The game runs in its own window.", describe_staged()));
 			break;
 		case EditorCommand::PLAY_ANIMATION:
 			if (Timeline &timeline = document.get_timeline(); timeline.is_playing()) {
@@ -173,8 +173,8 @@ void EditorSession::run(EditorCommand p_command) {
 				context.viewport.is_moving = timeline.is_playing();
 			}
 			break;
-		case EditorCommand::READ_PAGE:
-			read_page();
+		case EditorCommand::OPEN_PAGE:
+			open_page();
 			break;
 		case EditorCommand::QUIT:
 			is_closing = true;
@@ -182,18 +182,18 @@ void EditorSession::run(EditorCommand p_command) {
 	}
 }
 
-/// Describes that a save skips the staged nodes, which may have been changed; empty if there are
-/// none.
+/// Returns a sentence that lists the staged nodes, which saving skips even if they were changed;
+/// empty if there are none.
 std::string EditorSession::describe_staged() const {
 	const std::string names = document.list_staged();
 	return names.empty() ? "" : " Never saved while staged: " + names + ".";
 }
 
-/// Opens the page with the desktop's default program.
-void EditorSession::read_page() {
+/// Opens context.requested_page with the desktop's default program.
+void EditorSession::open_page() {
 	const std::filesystem::path page = program.parent_path().parent_path() / context.requested_page;
 	if (!std::filesystem::exists(page)) {
-		fail("Page ", page, " is not there. It comes with the sources of the program.");
+		fail("Page ", page, " does not exist. It is part of the program's source tree.");
 	}
 	start_program({ "xdg-open", page.string() });
 	context.set_status(text("Opened ", page.string()));
@@ -204,36 +204,36 @@ void EditorSession::recover() {
 		const bool was_read = document.get_failure().empty();
 		document.recover();
 		if (!was_read) {
-			look_as_scene();
+			move_to_scene_camera();
 		}
 	});
 }
 
-void EditorSession::draw_questions() {
+void EditorSession::draw_dialogs() {
 	if (is_closing && !document.is_changed()) {
 		is_done = true;
 	} else if (is_closing) {
-		is_closing = !draw_question(make_closing_question());
+		is_closing = !draw_dialog(make_closing_dialog());
 		if (!is_closing && !is_done) {
 			next_path.clear(); // cancelled
 		}
 	} else if (prompts_recovery) {
-		prompts_recovery = !draw_question({ "Recover changes?",
-				"The editor ended without saving. What was changed was saved aside.", "Recover",
+		prompts_recovery = !draw_dialog({ "Recover changes?",
+				"The editor ended without saving. The changes are in a recovery file.", "Recover",
 				"Discard", [&] { recover(); }, [&] { document.discard_recovery(); } });
 	} else if (prompts_reload) {
-		prompts_reload = !draw_question({ "Read the file again?",
-				"Another program has written the file, and there are changes here.",
-				"Read it, drop the changes", "Keep the changes",
+		prompts_reload = !draw_dialog({ "Reload the file?",
+				"Another program has changed the file, and this scene has unsaved changes.",
+				"Reload, discard the changes", "Keep the changes",
 				[&] { context.attempt([&] { document.reload(); }); },
-				[&] { document.keep_over_file(); } });
+				[&] { document.ignore_newer_file(); } });
 	}
 }
 
-EditorSession::Question EditorSession::make_closing_question() {
+EditorSession::Dialog EditorSession::make_closing_dialog() {
 	const auto save = [&] {
 		if (document.is_file_newer()) {
-			prompts_reload = true; // first: which of both is to be saved
+			prompts_reload = true; // first ask which version to keep
 			return;
 		}
 		context.attempt([&] {
@@ -241,14 +241,14 @@ EditorSession::Question EditorSession::make_closing_question() {
 			is_done = true;
 		});
 	};
-	const auto drop = [&] {
+	const auto close_without_saving = [&] {
 		document.discard_own_recovery();
 		is_done = true;
 	};
 	return { "Save the changes?",
 		text(document.get_path().filename().string(), " has changes that are not saved.",
 				describe_staged()),
-		"Save and close", "Close without saving", save, drop, true };
+		"Save and close", "Close without saving", save, close_without_saving, true };
 }
 
 } // namespace gnomon

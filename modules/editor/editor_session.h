@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// Executes commands of keys and buttons, asks for confirmation where needed, and watches the file
-/// on disk: everything between opening and closing a scene except drawing.
+/// The session of one opened scene: executes commands, asks for confirmation where needed, and
+/// watches the file on disk. It does not draw the scene or the panels.
 class EditorSession {
 public:
 	using Clock = EditorDocument::Clock;
@@ -18,34 +18,38 @@ public:
 
 	/// Moves the viewport's camera to the scene's first camera, or so that the whole scene is
 	/// visible.
-	void look_as_scene();
-	/// Checks whether another program, such as Blender, has written the file.
-	void follow_file(Clock::time_point p_now);
+	void move_to_scene_camera();
+	/// Once a second, checks whether another program, such as Blender, has written the file. If so,
+	/// reloads it, or opens a dialog if there are unsaved changes.
+	void check_file(Clock::time_point p_now);
 	/// Executes the command that panels and keys requested in this frame.
 	void run_command();
-	void draw_questions();
-	/// Starts closing; prompts for unsaved changes if needed.
+	/// Draws the dialog that needs an answer, if any, and carries the answer out.
+	void draw_dialogs();
+	/// Starts closing the scene. draw_dialogs completes it, after a dialog if there are unsaved
+	/// changes.
 	void close() { is_closing = true; }
 
+	/// Whether a dialog is open.
 	bool is_prompting() const { return is_closing || prompts_recovery || prompts_reload; }
 	bool is_closed() const { return is_done; }
-	/// For a window that is not visible: closes if no prompt is needed.
-	void close_unseen() { is_done |= is_closing && !document.is_changed(); }
+	/// Completes closing without drawing, for a minimised window, if there are no unsaved changes.
+	void close_if_unchanged() { is_done |= is_closing && !document.is_changed(); }
 	/// Scene to open after this one is closed; empty: none.
 	const std::filesystem::path &get_next_path() const { return next_path; }
 
 private:
 	void run(EditorCommand p_command);
 	std::string describe_staged() const;
-	void read_page();
+	void open_page();
 	void recover();
-	struct Question;
-	bool draw_question(const Question &p_question);
-	Question make_closing_question();
+	struct Dialog;
+	bool draw_dialog(const Dialog &p_dialog);
+	Dialog make_closing_dialog();
 
 	EditorContext &context;
 	EditorDocument &document;
-	std::filesystem::path program;
+	std::filesystem::path program; // this program's executable
 	Clock::time_point next_file_check;
 	std::filesystem::path next_path;
 	bool prompts_recovery = false;

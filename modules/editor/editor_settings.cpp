@@ -15,9 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const uint32_t LEAST_WINDOW_PX = 320;
-const uint32_t GREATEST_SAMPLE_COUNT = 65536;
-const uint32_t GREATEST_AUTOSAVE_S = 600;
+const uint32_t MIN_WINDOW_PX = 320;
+const uint32_t MAX_SAMPLE_COUNT = 65536;
+const uint32_t MAX_AUTOSAVE_S = 600;
 
 std::filesystem::path get_path() {
 	return get_config_folder() / "editor.json";
@@ -29,30 +29,31 @@ template <typename T> void read(const Json &p_json, const char *p_name, T &r_val
 	}
 }
 
-/// Parsed as double, because a number in a file may exceed any other type.
+/// Reads a number. A value outside p_min..p_max is ignored. It is parsed as double, because
+/// a number in the file may not fit T.
 template <typename T>
-void read(const Json &p_json, const char *p_name, T &r_value, T p_least, T p_greatest) {
+void read(const Json &p_json, const char *p_name, T &r_value, T p_min, T p_max) {
 	double value = double(r_value);
 	read(p_json, p_name, value);
-	r_value = value >= double(p_least) && value <= double(p_greatest) ? T(value) : r_value;
+	r_value = value >= double(p_min) && value <= double(p_max) ? T(value) : r_value;
 }
 
 EditorSettings read_settings(const Json &p_json) {
 	EditorSettings settings;
 	EditorLayout &layout = settings.layout;
-	for (const auto &[name, share] : { std::pair<const char *, float *>("left", &layout.left),
+	for (const auto &[name, fraction] : { std::pair<const char *, float *>("left", &layout.left),
 				 { "right", &layout.right }, { "bottom", &layout.bottom } }) {
-		read(p_json, name, *share, EditorLayout::LEAST_SHARE, EditorLayout::GREATEST_SHARE);
+		read(p_json, name, *fraction, EditorLayout::MIN_FRACTION, EditorLayout::MAX_FRACTION);
 	}
-	read(p_json, "window_width", settings.window_size_px.x, LEAST_WINDOW_PX, MAX_IMAGE_SIZE_PX);
-	read(p_json, "window_height", settings.window_size_px.y, LEAST_WINDOW_PX, MAX_IMAGE_SIZE_PX);
+	read(p_json, "window_width", settings.window_size_px.x, MIN_WINDOW_PX, MAX_IMAGE_SIZE_PX);
+	read(p_json, "window_height", settings.window_size_px.y, MIN_WINDOW_PX, MAX_IMAGE_SIZE_PX);
 	read(p_json, "tab", settings.tab);
 	for (const char *name :
-			{ "truth_rays", "reference_rays" }) { // the first is of earlier versions
-		read(p_json, name, settings.sample_count, 1u, GREATEST_SAMPLE_COUNT);
+			{ "truth_rays", "reference_rays" }) { // earlier versions used the first name
+		read(p_json, name, settings.sample_count, 1u, MAX_SAMPLE_COUNT);
 	}
 	read(p_json, "shows_penumbra", settings.shows_penumbra);
-	read(p_json, "autosave_s", settings.autosave_s, 1u, GREATEST_AUTOSAVE_S);
+	read(p_json, "autosave_s", settings.autosave_s, 1u, MAX_AUTOSAVE_S);
 	read(p_json, "recent", settings.recent);
 	return settings;
 }
@@ -79,7 +80,7 @@ void EditorSettings::save() const {
 		{ "window_height", window_size_px.y }, { "tab", tab }, { "reference_rays", sample_count },
 		{ "shows_penumbra", shows_penumbra }, { "autosave_s", autosave_s }, { "recent", recent } };
 	try {
-		// A path need not be text in any encoding.
+		// Invalid UTF-8, which a path may contain, is replaced.
 		const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
 		save_file_atomically(get_path(), text + "\n");
 	} catch (const Error &error) {
@@ -101,7 +102,7 @@ void EditorSettings::add_recent(const std::filesystem::path &p_scene) {
 	const std::string scene = std::filesystem::absolute(p_scene).lexically_normal().string();
 	std::erase(recent, scene);
 	recent.insert(recent.begin(), scene);
-	recent.resize(std::min(recent.size(), MOST_RECENT));
+	recent.resize(std::min(recent.size(), MAX_RECENT_COUNT));
 }
 
 } // namespace gnomon

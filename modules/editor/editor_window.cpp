@@ -30,10 +30,11 @@ namespace {
 
 using Clock = EditorDocument::Clock;
 
-const std::chrono::milliseconds FRAME{ 16 };
-const uint32_t QUIET_FRAME_COUNT = 3; // after which the window shows all that there is
+const std::chrono::milliseconds FRAME{ 16 }; // minimum time per frame
+const uint32_t QUIET_FRAME_COUNT = 3; // frames without changes until EditorProgress::is_resting
 
-/// What a key requests, as in Godot and Blender; see doc/editor.md.
+/// Returns the command of a keyboard shortcut; NONE: the key is not a shortcut. The shortcuts
+/// follow Godot and Blender; see doc/editor.md.
 EditorCommand find_command(const Window::KeyPress &p_press) {
 	const bool has_control = (p_press.modifiers & GLFW_MOD_CONTROL) != 0;
 	const bool has_shift = (p_press.modifiers & GLFW_MOD_SHIFT) != 0;
@@ -65,6 +66,7 @@ EditorCommand find_command(const Window::KeyPress &p_press) {
 	}
 }
 
+/// The editor of one scene, with its window and GPU device.
 class Editor {
 public:
 	Editor(const EditorOptions &p_options, const std::filesystem::path &p_path,
@@ -78,7 +80,7 @@ public:
 			error_meter(*device, renderer),
 			shaders(*device, p_options.shaders), context{ document, device->get_info() },
 			session(context, p_options.program) {
-		session.look_as_scene();
+		session.move_to_scene_camera();
 		document.set_autosave_interval(std::chrono::seconds(settings.autosave_s));
 		settings.add_recent(document.get_path());
 		context.recent = settings.recent;
@@ -107,13 +109,13 @@ public:
 	std::filesystem::path run() {
 		try {
 			loop();
-			remember();
+			save_settings();
 			return session.get_next_path();
 		} catch (...) {
 			try {
-				document.save_aside();
+				document.save_recovery();
 			} catch (const std::exception &error) {
-				log_error("Changes cannot be saved aside: ", error.what());
+				log_error("Changes cannot be saved in the recovery file: ", error.what());
 			}
 			throw;
 		}
@@ -137,13 +139,13 @@ private:
 			}
 			if (window.get_size_px().x == 0 || window.get_size_px().y == 0) {
 				document.autosave(Clock::now());
-				session.close_unseen();
+				session.close_if_unchanged();
 				std::this_thread::sleep_for(FRAME);
 				continue;
 			}
-			session.follow_file(start);
+			session.check_file(start);
 			if (shaders.update(context, start)) {
-				viewport_renderer.forget_cached();
+				viewport_renderer.clear_caches();
 				error_meter.forget_cost();
 			}
 			if (document.get_timeline().advance(seconds)) {
@@ -172,14 +174,15 @@ private:
 		viewport_renderer.update(context);
 		guides.update(context, viewport_renderer.get_drawn_count());
 		if (viewport_renderer.is_sharp() || document.get_timeline().is_playing()) {
-			error_meter.update(context, viewport_renderer.get_count());
+			error_meter.update(context, viewport_renderer.get_sharp_count());
 		}
 		for (const std::string &line : sink.take()) {
-			context.complain(line);
+			context.report_error(line);
 		}
 	}
 
-	void remember() {
+	/// Stores the window's state in the user's settings.
+	void save_settings() {
 		if (const glm::uvec2 size_px = window.get_size_px(); size_px.x > 0 && size_px.y > 0) {
 			settings.window_size_px = size_px;
 		}
@@ -198,7 +201,7 @@ private:
 		return device_options;
 	}
 
-	/// Returns a handle for Dear ImGui, or null if there is no such texture yet.
+	/// Returns the ImTextureID of the texture that p_get returns, or null if there is none yet.
 	template <typename Get> void *show(const Get &p_get) {
 		return p_get() ? ui.add_texture(p_get) : nullptr;
 	}
@@ -213,7 +216,7 @@ private:
 		ui_context.begin_frame();
 		read_shortcuts();
 		draw_layout(context, settings.layout);
-		session.draw_questions();
+		session.draw_dialogs();
 		ImGui::Render();
 		window.set_title(text(document.get_path().filename().string(),
 				document.is_changed() ? " * - Gnomon" : " - Gnomon"));
@@ -231,7 +234,7 @@ private:
 		graph.execute(RenderGraph::Mode::QUEUE);
 	}
 
-	/// Writes the widget positions and the progress that tests read.
+	/// Writes the widgets' rectangles and the progress, for tests.
 	void write_items() {
 		if (options.items.empty()) {
 			return;
@@ -241,16 +244,17 @@ private:
 				!document.get_timeline().is_playing();
 		last_selected = document.get_selected();
 		quiet_count = is_quiet ? quiet_count + 1 : 0;
-		const std::string written = context.describe_items({ ++frame, viewport_renderer.get_count(),
-				quiet_count >= QUIET_FRAME_COUNT, answers_ms });
-		// Writes atomically, but does not wait for the disk as save_file_atomically does.
-		const std::filesystem::path made = options.items.string() + ".new";
-		std::ofstream stream(made);
+		const std::string written =
+				context.describe_items({ ++frame, viewport_renderer.get_sharp_count(),
+						quiet_count >= QUIET_FRAME_COUNT, answers_ms });
+		// Writes atomically, but without waiting for the disk, unlike save_file_atomically.
+		const std::filesystem::path temporary_path = options.items.string() + ".new";
+		std::ofstream stream(temporary_path);
 		stream << written;
 		stream.close();
 		if (std::error_code code; stream) {
 			// If renaming fails, the next frame writes the file again.
-			std::filesystem::rename(made, options.items, code);
+			std::filesystem::rename(temporary_path, options.items, code);
 		}
 		context.items.clear();
 	}
@@ -261,7 +265,7 @@ private:
 		}
 		for (const Window::KeyPress &press : window.get_key_presses()) {
 			const EditorCommand command = find_command(press);
-			// Where the keyboard has moved to a widget, Space presses that.
+			// During keyboard navigation, Space presses the focused widget.
 			if (command == EditorCommand::PLAY_ANIMATION && ImGui::GetIO().NavVisible) {
 				continue;
 			}
@@ -271,7 +275,7 @@ private:
 
 	const EditorOptions &options;
 	EditorSettings &settings;
-	StatusSink sink; // first: what cannot be read when the scene is opened is reported too
+	StatusSink sink; // declared before the document, to collect the errors of opening the scene
 	EditorDocument document;
 	Window window;
 	std::unique_ptr<RenderingDevice> device;
@@ -287,10 +291,10 @@ private:
 	EditorContext context;
 	EditorSession session;
 	uint64_t frame = 0;
-	const Node3D *last_selected = nullptr; // compared only
-	uint64_t seen_serial = 0;			   // of the history
+	const Node3D *last_selected = nullptr; // only compared, never dereferenced
+	uint64_t seen_serial = 0;			   // UndoHistory::get_serial of the last frame
 	std::vector<double> answers_ms;		   // see EditorProgress
-	uint32_t quiet_count = 0;			   // frames without anything to redraw
+	uint32_t quiet_count = 0;			   // successive frames without changes
 };
 
 } // namespace
@@ -301,7 +305,7 @@ void run_editor(const EditorOptions &p_options) {
 	if (path.empty()) {
 		path = settings.find_recent();
 		if (path.empty()) {
-			fail("No scene that was open before is still there. Name a project or a scene: gnomon "
+			fail("There is no recent scene that still exists. Name a project or a scene: gnomon "
 				 "edit PROJECT.");
 		}
 	}
@@ -309,7 +313,8 @@ void run_editor(const EditorOptions &p_options) {
 		path = Editor(p_options, path, settings).run();
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 			if (!module.is_enabled && module.can_disable) {
-				ModuleRegistry::set_enabled(module.name, true); // each project disables its own
+				// Undoes this project's choice; the next project disables its own modules.
+				ModuleRegistry::set_enabled(module.name, true);
 			}
 		}
 	}

@@ -11,12 +11,13 @@ namespace gnomon {
 
 namespace {
 
-// Frames that measure the cost; fewer for a slow technique.
+// The cost is measured over COST_FRAME_COUNT frames. For a slow technique it stops earlier: after
+// COST_TIME_LIMIT_MS, but not before MIN_COST_FRAME_COUNT frames.
 const uint32_t COST_FRAME_COUNT = 20;
-const uint32_t LEAST_COST_FRAME_COUNT = 3;
-const double COST_MS = 1500;
+const uint32_t MIN_COST_FRAME_COUNT = 3;
+const double COST_TIME_LIMIT_MS = 1500;
 
-/// Describes everything that the cost of a mask depends on.
+/// Returns a key that changes with everything that the cost of a mask depends on.
 std::string describe_cost(const LightSnapshot &p_light, uint64_t p_reference_hash) {
 	const ShadowTechniqueInfo *technique = choose_technique(p_light, {}).info;
 	std::string description =
@@ -37,7 +38,7 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 	const bool is_playing = r_context.document.get_timeline().is_playing();
 	if (!is_watched || state.is_stopped || is_playing) {
 		if (background_reference.is_running()) {
-			traced_sample_count = 0; // restarts when it is watched again; the result stays
+			traced_sample_count = 0; // restarts the trace later; the last result stays
 		}
 		background_reference.stop();
 	}
@@ -51,13 +52,13 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 	try {
 		const bool needs_reference = !state.is_stopped && state.refusal.empty() &&
 				(state.reference_hash == 0 || state.sample_count != traced_sample_count);
-		const bool is_other = r_context.find_light_name() != state.light;
-		if (p_image_count != measured_image || needs_reference || is_other) {
+		const bool is_other_light = r_context.find_light_name() != state.light;
+		if (p_image_count != measured_image || needs_reference || is_other_light) {
 			measured_image = p_image_count;
 			measure_mask(r_context);
 		} else if (!has_cost()) {
 			if (state.refusal.empty() &&
-					!background_reference.is_running()) { // while it runs all is slower
+					!background_reference.is_running()) { // a trace would slow the frames down
 				measure_cost(r_context);
 			}
 		} else if (requested_reference && !state.is_stopped) {
@@ -65,8 +66,8 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 					std::exchange(requested_reference, nullptr), state.sample_count);
 		}
 		std::optional<ReferenceRound> round = background_reference.take();
-		// After a restart, a round is used only if it has at least as many rays per pixel as the
-		// known reference.
+		// After a restart, a round replaces the current reference only if it has at least as many
+		// rays per pixel.
 		if (round && !(state.reference && round->sample_count < state.round.sample_count)) {
 			state.round = std::move(*round);
 			state.reference = std::make_shared<const ReferenceMask>(ReferenceMask{
@@ -86,15 +87,15 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 
 bool ErrorMeter::has_cost() const {
 	const uint32_t count = timings.get_frame_count();
-	return count >= COST_FRAME_COUNT || (count >= LEAST_COST_FRAME_COUNT && timed_ms > COST_MS);
+	return count >= COST_FRAME_COUNT ||
+			(count >= MIN_COST_FRAME_COUNT && timed_ms > COST_TIME_LIMIT_MS);
 }
 
 void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
 	background_reference.stop();
 	requested_reference = nullptr;
 	r_state.refusal = std::move(p_text);
-	is_error_stale |=
-			r_state.reference != nullptr; // once: without one there is nothing to take back
+	is_error_stale |= r_state.reference != nullptr; // without a reference, the view showed no error
 	r_state.reference_hash = 0;
 	r_state.reference.reset();
 	r_state.metrics.reset();
@@ -112,8 +113,8 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 	state.light = r_context.find_light_name();
 	if (node == nullptr) {
 		refuse(state,
-				"No light of the scene casts a shadow. Add one, or set shadow_enabled of one that "
-				"is there.");
+				"No light of the scene casts a shadow. Add one, or set shadow_enabled of an "
+				"existing one.");
 		return;
 	}
 	request = {};
@@ -161,17 +162,20 @@ void ErrorMeter::request_reference(EditorContext &r_context, RenderResult p_resu
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr || !reference->make_reference_source) {
 		refuse(r_context.error,
-				"There is no reference to compare with. Switch a module on that has one, in the "
-				"tab Modules.");
+				"There is no reference to compare with. Enable a module that has one, in the tab "
+				"Modules.");
 		return;
 	}
-	ReferenceQuestion question = { request.scene, light, request.size_px,
+	ReferenceRequest trace_request = { request.scene, light, request.size_px,
 		std::move(p_result.surfaces), std::move(p_result.receiver), find_surface_spread() };
 	requested_reference = [make = reference->make_reference_source,
-								  question = std::move(question)] { return make(question); };
+								  trace_request = std::move(trace_request)] {
+		return make(trace_request);
+	};
 }
 
-/// Measures a frame of the mask alone, pass by pass, as if the light had moved.
+/// Measures one frame of the light's mask passes, which run one at a time and reuse nothing from
+/// earlier frames, as if the light had moved.
 void ErrorMeter::measure_cost(EditorContext &r_context) {
 	RenderRequest timed = request;
 	timed.wants_mask = false;
@@ -188,13 +192,13 @@ void ErrorMeter::measure_cost(EditorContext &r_context) {
 }
 
 void ErrorMeter::compare(ErrorState &r_state) {
-	const MaskImage exact = { r_state.reference->size_px, r_state.reference->visibility,
+	const MaskImage reference_image = { r_state.reference->size_px, r_state.reference->visibility,
 		r_state.reference->receiver };
-	r_state.metrics = compute_mask_metrics(exact, r_state.mask);
-	reference_texture =
-			upload_texture("reference mask", exact.size_px, 1, compute_mask_pixels(exact));
-	error_texture =
-			upload_texture("error", exact.size_px, 3, compute_error_pixels(exact, r_state.mask));
+	r_state.metrics = compute_mask_metrics(reference_image, r_state.mask);
+	reference_texture = upload_texture(
+			"reference mask", reference_image.size_px, 1, compute_mask_pixels(reference_image));
+	error_texture = upload_texture("error", reference_image.size_px, 3,
+			compute_error_pixels(reference_image, r_state.mask));
 }
 
 OwnedTexture ErrorMeter::upload_texture(const std::string &p_name, glm::uvec2 p_size_px,

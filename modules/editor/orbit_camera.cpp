@@ -9,27 +9,28 @@ namespace gnomon {
 
 namespace {
 
-const double STEEPEST_RAD = 1.55;
-const double NEAREST_M = 1e-4;
-const double FARTHEST_M = 1e7;
+const double MAX_PITCH_RAD = 1.55;
+const double MIN_DISTANCE_M = 1e-4;
+const double MAX_DISTANCE_M = 1e7;
 
 } // namespace
 
 glm::dmat3 OrbitCamera::compute_axes() const {
-	const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), yaw_rad, glm::dvec3(0, 1, 0));
-	return glm::dmat3(glm::rotate(turned, pitch_rad, glm::dvec3(1, 0, 0)));
+	const glm::dmat4 yaw_rotation = glm::rotate(glm::dmat4(1.0), yaw_rad, glm::dvec3(0, 1, 0));
+	return glm::dmat3(glm::rotate(yaw_rotation, pitch_rad, glm::dvec3(1, 0, 0)));
 }
 
 glm::dvec3 OrbitCamera::compute_position() const {
 	return pivot_world + compute_axes()[2] * distance_m;
 }
 
-void OrbitCamera::look_as(const Camera3D &p_camera, double p_distance_m) {
+void OrbitCamera::move_to_camera(const Camera3D &p_camera, double p_distance_m) {
 	const glm::dmat4 world_from_camera = p_camera.compute_world_from_node();
 	const glm::dvec3 back = glm::normalize(glm::dvec3(world_from_camera[2]));
 	yaw_rad = std::atan2(back.x, back.z);
-	pitch_rad = std::clamp(-std::asin(std::clamp(back.y, -1.0, 1.0)), -STEEPEST_RAD, STEEPEST_RAD);
-	distance_m = std::clamp(p_distance_m, NEAREST_M, FARTHEST_M);
+	pitch_rad =
+			std::clamp(-std::asin(std::clamp(back.y, -1.0, 1.0)), -MAX_PITCH_RAD, MAX_PITCH_RAD);
+	distance_m = std::clamp(p_distance_m, MIN_DISTANCE_M, MAX_DISTANCE_M);
 	pivot_world = glm::dvec3(world_from_camera[3]) - compute_axes()[2] * distance_m;
 	vertical_fov_rad = p_camera.vertical_fov_rad;
 	near_m = p_camera.near_m;
@@ -38,11 +39,11 @@ void OrbitCamera::look_as(const Camera3D &p_camera, double p_distance_m) {
 
 void OrbitCamera::orbit(double p_yaw_rad, double p_pitch_rad) {
 	yaw_rad += p_yaw_rad;
-	pitch_rad = std::clamp(pitch_rad + p_pitch_rad, -STEEPEST_RAD, STEEPEST_RAD);
+	pitch_rad = std::clamp(pitch_rad + p_pitch_rad, -MAX_PITCH_RAD, MAX_PITCH_RAD);
 	++revision;
 }
 
-void OrbitCamera::turn(double p_yaw_rad, double p_pitch_rad) {
+void OrbitCamera::rotate_in_place(double p_yaw_rad, double p_pitch_rad) {
 	const glm::dvec3 position = compute_position();
 	orbit(p_yaw_rad, p_pitch_rad);
 	pivot_world = position - compute_axes()[2] * distance_m;
@@ -56,12 +57,12 @@ void OrbitCamera::pan(const glm::dvec2 &p_heights) {
 }
 
 void OrbitCamera::zoom(double p_factor) {
-	distance_m = std::clamp(distance_m * p_factor, NEAREST_M, FARTHEST_M);
+	distance_m = std::clamp(distance_m * p_factor, MIN_DISTANCE_M, MAX_DISTANCE_M);
 	++revision;
 }
 
-void OrbitCamera::move(const glm::dvec3 &p_way_m) {
-	pivot_world += compute_axes() * p_way_m;
+void OrbitCamera::move(const glm::dvec3 &p_offset_m) {
+	pivot_world += compute_axes() * p_offset_m;
 	++revision;
 }
 
@@ -73,7 +74,7 @@ void OrbitCamera::frame(const Bounds &p_bounds_world) {
 	const double radius_m = 0.5 * glm::length(p_bounds_world.maximum - p_bounds_world.minimum);
 	distance_m = std::clamp(
 			std::max(radius_m, 10.0 * double(near_m)) / std::sin(0.5 * double(vertical_fov_rad)),
-			NEAREST_M, FARTHEST_M);
+			MIN_DISTANCE_M, MAX_DISTANCE_M);
 	++revision;
 }
 

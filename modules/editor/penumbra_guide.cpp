@@ -9,17 +9,19 @@ namespace gnomon {
 
 namespace {
 
-// Fractions of a ray's length, so that its start and end points do not count as hits.
-const double AT_EDGE = 1e-3;
-const double AT_RECEIVER = 5e-3;
-/// A line longer than this many times its edge's image spans two receivers.
-const double LONGEST_LINE = 3.0;
+// Hits that are closer to a ray's start or end point than this fraction of its length are ignored.
+// For rays to a directional light it is a fraction of the scene size S.
+const double EDGE_EPSILON = 1e-3;
+const double RECEIVER_EPSILON = 5e-3;
+/// A line that is more than this many times as long as the projection of its edge is assumed to
+/// span two receivers, and is omitted.
+const double MAX_LINE_RATIO = 3.0;
 
-/// A silhouette edge in the world.
+/// A silhouette edge of a caster, in world space.
 struct CasterEdge {
 	const SceneRays::Instance *caster = nullptr;
 	glm::dvec3 ends[2] = {};
-	glm::dvec3 inside = glm::dvec3(0.0); // a point of the face that the light sees
+	glm::dvec3 inside = glm::dvec3(0.0); // third vertex of the edge's light-facing triangle
 };
 
 std::vector<CasterEdge> collect_edges(const SceneRays &p_rays, const LightSnapshot &p_light) {
@@ -54,77 +56,82 @@ std::vector<CasterEdge> collect_edges(const SceneRays &p_rays, const LightSnapsh
 	return edges;
 }
 
-/// Traces the rays of one light past the ends of edges.
+/// Casts the rays that touch the ends of silhouette edges, for one light.
 class PenumbraTracer {
 public:
 	PenumbraTracer(SceneRays &r_rays, const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
 			rays(r_rays), scene(p_scene), light(p_light),
 			is_directional(p_light.type == LightType::DIRECTIONAL) {}
 
-	/// Returns where the ray from the rim past an end of the edge hits a receiver: outwards of the
-	/// ray from the centre for p_width_m = r, inwards for -t. Returns nothing if it hits none, if
-	/// the end is hidden from the light, or if the hit is out of the light's reach or hidden from
-	/// the camera.
-	std::optional<glm::dvec3> find_end(
+	/// Returns the point of the penumbra's edge that an end of a silhouette edge casts on a
+	/// receiver. p_width_m: r for the outer edge, -t for the inner one, see find_penumbra_lines.
+	/// Returns nothing if the ray hits no receiver, if the end is hidden from the light, or if the
+	/// hit is outside the light's cone or range, or hidden from the camera.
+	std::optional<glm::dvec3> find_penumbra_point(
 			const CasterEdge &p_edge, const glm::dvec3 &p_end, double p_width_m) {
-		const glm::dvec3 way = get_way(p_end);
-		glm::dvec3 outwards = glm::cross(p_edge.ends[1] - p_edge.ends[0], way);
+		const glm::dvec3 from_light = get_light_vector(p_end);
+		glm::dvec3 outwards = glm::cross(p_edge.ends[1] - p_edge.ends[0], from_light);
 		const double length = glm::length(outwards);
-		if (!(length > 0.0) || is_hidden_from_light(p_end, way)) {
+		if (!(length > 0.0) || is_hidden_from_light(p_end, from_light)) {
 			return std::nullopt;
 		}
 		outwards /= glm::dot(outwards, p_edge.inside - p_end) > 0.0 ? -length : length;
-		// The ray passes through the edge from the opposite side of the rim.
-		const glm::dvec3 turned = is_directional
-				? way * scene.scene_size_m + p_width_m * outwards // R's tangent, times S
-				: way + p_width_m * outwards;
+		// To pass the edge in the direction of `outwards`, the ray starts on the opposite side of
+		// the light's centre.
+		const glm::dvec3 ray_direction = is_directional ? from_light * scene.scene_size_m +
+						p_width_m * outwards // tangent of the angle: width / S
+														: from_light + p_width_m * outwards;
 		const std::optional<SceneRays::Hit> hit =
-				rays.find_nearest(p_end, turned, AT_EDGE, p_edge.caster);
+				rays.find_nearest(p_end, ray_direction, EDGE_EPSILON, p_edge.caster);
 		if (!hit) {
 			return std::nullopt;
 		}
-		const glm::dvec3 position = p_end + hit->t * turned;
+		const glm::dvec3 position = p_end + hit->t * ray_direction;
 		return is_lit(position) && !is_hidden_from_camera(position) ? std::optional(position)
 																	: std::nullopt;
 	}
 
-	/// Whether the line is at most LONGEST_LINE times as long as the edge's image at that distance
-	/// from the light.
-	bool is_one_line(const CasterEdge &p_edge, const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
-		const double grown = is_directional ? 1.0
-											: glm::length(get_way(p_from)) /
-						std::max(glm::length(get_way(p_edge.ends[0])), 1e-30);
+	/// Whether the line is at most MAX_LINE_RATIO times as long as the edge projected from the
+	/// light to the line's distance.
+	bool spans_one_receiver(
+			const CasterEdge &p_edge, const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
+		const double scale = is_directional ? 1.0
+											: glm::length(get_light_vector(p_from)) /
+						std::max(glm::length(get_light_vector(p_edge.ends[0])), 1e-30);
 		return glm::length(p_to - p_from) <=
-				LONGEST_LINE * grown * glm::length(p_edge.ends[1] - p_edge.ends[0]);
+				MAX_LINE_RATIO * scale * glm::length(p_edge.ends[1] - p_edge.ends[0]);
 	}
 
 private:
-	/// Returns the way from the light's centre; for a directional light, a unit vector.
-	glm::dvec3 get_way(const glm::dvec3 &p_position) const {
+	/// Returns the vector from the light's centre to a point; for a directional light, its unit
+	/// direction.
+	glm::dvec3 get_light_vector(const glm::dvec3 &p_position) const {
 		return is_directional ? light.get_direction_world() : p_position - light.position_world;
 	}
-	bool is_hidden_from_light(const glm::dvec3 &p_position, const glm::dvec3 &p_way) {
+	bool is_hidden_from_light(const glm::dvec3 &p_position, const glm::dvec3 &p_from_light) {
 		if (is_directional) {
-			return rays.find_nearest(p_position, -p_way, AT_EDGE * scene.scene_size_m).has_value();
+			return rays.find_nearest(p_position, -p_from_light, EDGE_EPSILON * scene.scene_size_m)
+					.has_value();
 		}
-		const std::optional<SceneRays::Hit> hit = rays.find_nearest(light.position_world, p_way);
-		return hit && hit->t < 1.0 - AT_EDGE;
+		const std::optional<SceneRays::Hit> hit =
+				rays.find_nearest(light.position_world, p_from_light);
+		return hit && hit->t < 1.0 - EDGE_EPSILON;
 	}
 	bool is_hidden_from_camera(const glm::dvec3 &p_position) {
 		const glm::dvec3 &eye = scene.camera.position_world;
 		const std::optional<SceneRays::Hit> hit = rays.find_nearest(eye, p_position - eye);
-		return hit && hit->t < 1.0 - AT_RECEIVER;
+		return hit && hit->t < 1.0 - RECEIVER_EPSILON;
 	}
 	bool is_lit(const glm::dvec3 &p_position) const {
-		const glm::dvec3 way = get_way(p_position);
-		const double distance_m = glm::length(way);
+		const glm::dvec3 from_light = get_light_vector(p_position);
+		const double distance_m = glm::length(from_light);
 		if (is_directional || distance_m == 0.0) {
 			return true;
 		}
 		const bool is_in_range = light.range_m <= 0.0f || distance_m <= double(light.range_m);
 		return is_in_range &&
 				(light.type != LightType::SPOT ||
-						glm::dot(way, light.get_direction_world()) >=
+						glm::dot(from_light, light.get_direction_world()) >=
 								distance_m * std::cos(double(light.outer_cone_rad)));
 	}
 
@@ -151,10 +158,11 @@ std::vector<PenumbraLine> find_penumbra_lines(SceneRays &r_rays, const SceneSnap
 		const CasterEdge &edge = edges[index];
 		for (const bool is_outer : { true, false }) {
 			const double width_m = is_outer ? outer_m : -inner_m;
-			const std::optional<glm::dvec3> from = tracer.find_end(edge, edge.ends[0], width_m);
+			const std::optional<glm::dvec3> from =
+					tracer.find_penumbra_point(edge, edge.ends[0], width_m);
 			const std::optional<glm::dvec3> to =
-					from ? tracer.find_end(edge, edge.ends[1], width_m) : std::nullopt;
-			if (to && tracer.is_one_line(edge, *from, *to)) {
+					from ? tracer.find_penumbra_point(edge, edge.ends[1], width_m) : std::nullopt;
+			if (to && tracer.spans_one_receiver(edge, *from, *to)) {
 				lines.push_back({ *from, *to, is_outer });
 			}
 		}

@@ -7,17 +7,21 @@
 
 namespace gnomon {
 
-/// A segment of a penumbra's edge on a receiver.
+/// A line segment of a penumbra's edge on a receiver.
 struct PenumbraLine {
 	glm::dvec3 from_world = glm::dvec3(0.0);
 	glm::dvec3 to_world = glm::dvec3(0.0);
-	bool is_outer = false; // the lit side, from r; otherwise the umbra side, from t
+	bool is_outer = false; // true: edge on the lit side; false: edge on the umbra side
 };
 
-/// Finds the edges of a light's penumbra by casting rays from its rim, r (outer) and t (inner) from
-/// its centre, through the silhouette edges seen from the light's centre, to the receivers. With r
-/// = t = R these are the edges of the exact penumbra, per silhouette edge. Includes only what the
-/// camera sees; of more than p_edge_count silhouette edges, an evenly spaced subset is used.
+/// Finds the edges of a light's penumbra. Casts rays from points beside the light's centre past the
+/// silhouette edges, as seen from the centre, to the receivers. The points are at the distance r
+/// (penumbra_outer_width) for the outer edge and t (penumbra_inner_width) for the inner one; for a
+/// directional light, the rays are tilted by the angles with the tangents r / S and t / S instead,
+/// where S is the scene size. With r = t = R, the light's radius, each silhouette edge gives the
+/// edges of the exact penumbra. Lines are omitted where the camera does not see them, outside the
+/// light's cone or range, and for edges that are hidden from the light. If there are more than
+/// p_edge_count silhouette edges, an evenly spaced subset is used.
 std::vector<PenumbraLine> find_penumbra_lines(SceneRays &r_rays, const SceneSnapshot &p_scene,
 		const LightSnapshot &p_light, size_t p_edge_count);
 

@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-void SceneRays::follow(const Scene &p_scene) {
+void SceneRays::update_scene(const Scene &p_scene) {
 	instances.clear();
 	const WorldTransforms world_from_nodes = compute_world_transforms(*p_scene.root);
 	for (MeshInstance3D *node : p_scene.find_nodes<MeshInstance3D>()) {
@@ -19,7 +19,7 @@ void SceneRays::follow(const Scene &p_scene) {
 			try {
 				add_surface(*node, surface, world_from_node, world_from_nodes);
 			} catch (const Error &) {
-				// A pose that is refused: drawing the scene fails too, and reports why.
+				// The pose is invalid. Drawing the scene fails too, and reports why.
 			}
 		}
 	}
@@ -48,7 +48,7 @@ void SceneRays::add_surface(MeshInstance3D &r_node, const MeshInstance3D::Surfac
 		return;
 	}
 	if (p_surface.mesh->attributes.rig) {
-		// The pose that the snapshot has too.
+		// The same posed mesh as in the scene's snapshot.
 		mesh = r_node.get_pose_slot(p_surface.mesh)
 					   ->make_pose(std::move(transforms.joints), r_node.get_morph_weights(),
 							   text("Node \"", r_node.name, "\""))

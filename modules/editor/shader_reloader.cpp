@@ -7,19 +7,19 @@ namespace gnomon {
 
 namespace {
 
-const std::chrono::milliseconds LOOK_INTERVAL{ 500 };
+const std::chrono::milliseconds CHECK_INTERVAL{ 500 };
 
 } // namespace
 
 bool ShaderReloader::update(EditorContext &r_context, Clock::time_point p_now) {
-	if (p_now < next_look) {
+	if (p_now < next_check) {
 		return false;
 	}
-	next_look = p_now + LOOK_INTERVAL;
+	next_check = p_now + CHECK_INTERVAL;
 	std::map<std::string, std::string> &errors = r_context.shader_errors;
 	std::map<std::string, std::vector<uint32_t>> compiled;
-	const auto refuse = [&](const std::string &p_shader, const std::string &p_failure) {
-		r_context.complain(p_failure);
+	const auto report_failure = [&](const std::string &p_shader, const std::string &p_failure) {
+		r_context.report_error(p_failure);
 		errors[p_shader] = p_failure;
 	};
 	for (ShaderChange &change : watcher.poll()) {
@@ -27,16 +27,16 @@ bool ShaderReloader::update(EditorContext &r_context, Clock::time_point p_now) {
 		if (change.failure.empty()) {
 			compiled[change.name] = std::move(change.spirv);
 		} else {
-			refuse(change.name, change.failure);
+			report_failure(change.name, change.failure);
 		}
 	}
 	if (compiled.empty()) {
 		return false;
 	}
 	try {
-		device.replace_shaders(compiled); // all at once: stages must fit each other
+		device.replace_shaders(compiled); // all at once: a pipeline's stages must match
 	} catch (const Error &error) {
-		refuse(compiled.begin()->first, error.what());
+		report_failure(compiled.begin()->first, error.what());
 		return false;
 	}
 	r_context.viewport.needs_redraw = true;

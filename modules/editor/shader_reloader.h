@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// Reloads changed shader sources while the editor runs. Compile errors are shown in the viewport,
-/// and the last working version stays in use.
+/// Recompiles changed shader sources while the editor runs, and replaces the shaders. Errors are
+/// shown in the viewport, and the last working version stays in use.
 class ShaderReloader {
 public:
 	using Clock = std::chrono::steady_clock;
@@ -17,13 +17,14 @@ public:
 	ShaderReloader(RenderingDevice &p_device, const std::filesystem::path &p_folder) :
 			device(p_device), watcher(p_folder) {}
 
-	/// Checks twice a second. Returns true if shaders have been replaced.
+	/// Call it once a frame; it checks the files twice a second. Returns true if shaders have been
+	/// replaced.
 	bool update(EditorContext &r_context, Clock::time_point p_now);
 
 private:
 	RenderingDevice &device;
 	ShaderWatcher watcher;
-	Clock::time_point next_look;
+	Clock::time_point next_check;
 };
 
 } // namespace gnomon

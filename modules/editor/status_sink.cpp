@@ -5,8 +5,8 @@
 namespace gnomon {
 
 StatusSink::StatusSink() {
-	before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
-		forward_log(before, p_level, p_line);
+	previous_sink = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
+		forward_log(previous_sink, p_level, p_line);
 		if (p_level != LogLevel::INFO) {
 			const std::lock_guard lock(mutex);
 			lines.push_back(p_line);
@@ -15,7 +15,7 @@ StatusSink::StatusSink() {
 }
 
 StatusSink::~StatusSink() {
-	set_log_sink(before);
+	set_log_sink(previous_sink);
 }
 
 std::vector<std::string> StatusSink::take() {

@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// While it exists, errors and warnings of all modules are collected for the status bar, in
-/// addition to the previous log sink. They may come from any thread.
+/// While it exists, collects errors and warnings from the log for the status bar, and passes all
+/// lines on to the previous log sink. Lines may come from any thread.
 class StatusSink {
 public:
 	StatusSink();
@@ -21,7 +21,7 @@ public:
 	std::vector<std::string> take();
 
 private:
-	LogSink before;
+	LogSink previous_sink;
 	std::mutex mutex;
 	std::vector<std::string> lines;
 };

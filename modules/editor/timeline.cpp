@@ -7,7 +7,7 @@ namespace gnomon {
 
 namespace {
 
-/// Returns null if the scene has no animation of that name.
+/// Finds an animation by name. Returns null if there is none.
 std::shared_ptr<const Animation> find(const Scene &p_scene, const std::string &p_name) {
 	for (const std::shared_ptr<const Animation> &animation : p_scene.animations) {
 		if (animation->name == p_name) {
@@ -59,7 +59,7 @@ void Timeline::play() {
 						: find(*scene, default_name) ? default_name
 													 : first);
 	}
-	if (playback.animation->duration_s > 0) { // else it is one pose
+	if (playback.animation->duration_s > 0) { // otherwise it is a single pose
 		playback.play();
 	}
 }

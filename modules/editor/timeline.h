@@ -6,16 +6,18 @@
 
 namespace gnomon {
 
-/// Selects the animation of the edited scene and its time. It only poses nodes, which is neither
-/// saved nor undoable. A scene starts at rest, as loaded.
+/// Selects the animation of the edited scene and its time, and poses the nodes accordingly. Poses
+/// are neither saved nor undoable. Without an animation the scene is at rest: it shows the nodes'
+/// own transforms, as when it is opened.
 class Timeline {
 public:
-	/// p_default: name of the animation that play() chooses at rest; if the scene has none of that
-	/// name, its first.
+	/// p_default: name of the animation that play() chooses at rest before any was shown; if the
+	/// scene has none of that name, its first.
 	explicit Timeline(std::string p_default = {}) : default_name(std::move(p_default)) {}
 
-	/// Call it after a scene was loaded or reloaded. The animation of the same name is shown at the
-	/// same time if there is one; otherwise the scene is at rest. r_scene must outlive this object.
+	/// Call it after a scene was loaded or reloaded. If the scene has an animation of the shown
+	/// one's name, that is shown at the same time; otherwise the scene is at rest. r_scene must
+	/// outlive this object.
 	void set_scene(Scene &r_scene);
 	/// Chooses an animation by name, from its start; an empty or unknown name puts the scene at
 	/// rest, paused.
@@ -24,8 +26,8 @@ public:
 	void seek(double p_time_s);
 	void set_speed(double p_speed) { playback.speed = p_speed; }
 	void set_loops(bool p_loops) { playback.loops = p_loops; }
-	/// Starts playing. At rest it chooses the last shown animation, or the default. Without
-	/// animations it does nothing; one of zero length is shown but does not play.
+	/// Starts playing. At rest it chooses the last shown animation, or the default. Does nothing if
+	/// the scene has no animations. An animation of zero length is shown but does not play.
 	void play();
 	void pause() { playback.is_playing = false; }
 	/// Advances by p_seconds of real time if it is playing. Returns true if the pose has changed.
@@ -33,7 +35,7 @@ public:
 	/// Poses the scene again after its nodes have changed.
 	void pose();
 
-	/// Null: at rest.
+	/// Returns the shown animation; null: the scene is at rest.
 	const Animation *get_animation() const { return playback.animation.get(); }
 	double get_time_s() const { return playback.time_s; }
 	double get_speed() const { return playback.speed; }

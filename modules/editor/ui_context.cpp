@@ -13,21 +13,23 @@ namespace gnomon {
 
 namespace {
 
-// For names of nodes and files: Latin with accents, Greek, Cyrillic; and symbols of messages.
+// Pairs of first and last code point: Latin with accents, Greek and Cyrillic, for names of nodes
+// and files; punctuation, arrows and mathematical symbols, for messages. 0 ends the list.
 const ImWchar GLYPH_RANGES[] = { 0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2044, 0x20ac, 0x20ac, 0x2190,
 	0x21ff, 0x2200, 0x22ff, 0xfffd, 0xfffd, 0 };
 
-// Dear ImGui, of which there is one, reads the mouse's position once a frame, and gets the one that
-// it has by then, ahead of the events that were read. During a long frame a mouse that went on at
-// once would click on nothing, or drag on what it had let go. So the events' own positions count.
+// Dear ImGui's GLFW backend reads the current mouse position once a frame, which may be later than
+// the mouse events of that frame. After a long frame, a click would then act where the mouse is now
+// instead of where the button was pressed or released. So begin_frame uses the position at the time
+// of the events. The variables are global because the GLFW callbacks have no other state.
 std::optional<ImVec2> last_position;
-std::optional<ImVec2> button_position; // when a button went down or up since the last frame
+std::optional<ImVec2> button_position; // at the last press or release since the last frame
 
-void note_position(GLFWwindow * /*p_window*/, double p_x, double p_y) {
+void record_position(GLFWwindow * /*p_window*/, double p_x, double p_y) {
 	last_position = ImVec2(static_cast<float>(p_x), static_cast<float>(p_y));
 }
 
-void note_button(
+void record_button_position(
 		GLFWwindow * /*p_window*/, int /*p_button*/, int /*p_action*/, int /*p_modifiers*/) {
 	button_position = last_position;
 }
@@ -44,7 +46,7 @@ UiContext::UiContext(Window &p_window) {
 	ImFontConfig font;
 	font.FontDataOwnedByAtlas = false;
 	const std::span<const unsigned char> typeface = get_typeface();
-	// Only read, though the parameter is not const.
+	// ImGui only reads the data, although the parameter is not const.
 	io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char *>(typeface.data()),
 			static_cast<int>(typeface.size()), std::round(14.0f * scale), &font, GLYPH_RANGES);
 	ImGui::StyleColorsDark();
@@ -52,9 +54,9 @@ UiContext::UiContext(Window &p_window) {
 	ImGui::GetStyle().WindowRounding = 0.0f;
 	button_position.reset();
 	last_position.reset();
-	// Dear ImGui puts its own before these, and calls them.
-	glfwSetMouseButtonCallback(p_window.get_handle(), note_button);
-	glfwSetCursorPosCallback(p_window.get_handle(), note_position);
+	// Dear ImGui installs its own callbacks and calls these from them.
+	glfwSetMouseButtonCallback(p_window.get_handle(), record_button_position);
+	glfwSetCursorPosCallback(p_window.get_handle(), record_position);
 	ImGui_ImplGlfw_InitForOther(p_window.get_handle(), true);
 }
 
@@ -66,7 +68,7 @@ UiContext::~UiContext() {
 void UiContext::begin_frame() {
 	ImGui_ImplGlfw_NewFrame();
 	ImGuiIO &io = ImGui::GetIO();
-	if (last_position && ImGui::IsMousePosValid(&io.MousePos)) { // else it is not over the window
+	if (last_position && ImGui::IsMousePosValid(&io.MousePos)) { // false: not over the window
 		io.MousePos = button_position.value_or(*last_position);
 	}
 	button_position.reset();

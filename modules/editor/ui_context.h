@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// The Dear ImGui context of one window. Only one at a time.
+/// The Dear ImGui context of one window. Only one may exist at a time.
 class UiContext {
 public:
 	explicit UiContext(Window &p_window);

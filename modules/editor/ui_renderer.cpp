@@ -22,11 +22,11 @@ struct UiVertex {
 	glm::vec4 color; // sRGB-encoded, alpha not premultiplied
 };
 
-/// One draw call: a rectangle of the target, a texture and a range of the indices.
+/// One draw call: a scissor rectangle, a texture and a range of the indices.
 struct UiDraw {
 	glm::uvec2 offset_px = glm::uvec2(0);
 	glm::uvec2 size_px = glm::uvec2(0);
-	size_t texture = 0;
+	size_t texture = 0; // index in UiRenderer::textures
 	uint32_t first_index = 0;
 	uint32_t index_count = 0;
 };
@@ -50,14 +50,14 @@ void append_list(const ImDrawList &p_list, glm::vec2 p_size_px, UiGeometry &r_ge
 	}
 	for (const ImDrawCmd &command : p_list.CmdBuffer) {
 		GNOMON_ASSERT(command.UserCallback == nullptr, "the editor's windows use no callbacks");
-		const glm::vec2 least = glm::clamp(
+		const glm::vec2 clip_min = glm::clamp(
 				glm::vec2(command.ClipRect.x, command.ClipRect.y), glm::vec2(0.0f), p_size_px);
-		const glm::vec2 greatest = glm::clamp(
+		const glm::vec2 clip_max = glm::clamp(
 				glm::vec2(command.ClipRect.z, command.ClipRect.w), glm::vec2(0.0f), p_size_px);
-		if (greatest.x <= least.x || greatest.y <= least.y) {
+		if (clip_max.x <= clip_min.x || clip_max.y <= clip_min.y) {
 			continue;
 		}
-		r_geometry.draws.push_back({ glm::uvec2(least), glm::uvec2(greatest - least),
+		r_geometry.draws.push_back({ glm::uvec2(clip_min), glm::uvec2(clip_max - clip_min),
 				reinterpret_cast<size_t>(command.TextureId) - 1,
 				static_cast<uint32_t>(r_geometry.indices.size()), command.ElemCount });
 		for (uint32_t index = 0; index < command.ElemCount; ++index) {

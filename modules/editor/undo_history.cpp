@@ -18,7 +18,7 @@ bool is_same_state(const Node3D &p_left, const Node3D &p_right) {
 			return false;
 		}
 	}
-	// Fields cover only one of several materials; all of them may have changed.
+	// The fields only show one of a mesh's materials, but a change may affect all of them.
 	if (const auto *left = dynamic_cast<const MeshInstance3D *>(&p_left)) {
 		const auto &right = dynamic_cast<const MeshInstance3D &>(p_right);
 		if (!std::equal(left->surfaces.begin(), left->surfaces.end(), right.surfaces.begin(),
@@ -54,10 +54,10 @@ void UndoHistory::change(Node3D &r_node, const std::string &p_name, const std::s
 	if (is_same_state(*before, r_node)) {
 		return;
 	}
-	const bool joins = !p_key.empty() && p_key == open_key && step_index == steps.size() &&
+	const bool is_merged = !p_key.empty() && p_key == open_key && step_index == steps.size() &&
 			step_index > 0 && steps.back().node == &r_node && steps.back().key == p_key;
 	open_key = p_key;
-	if (joins) {
+	if (is_merged) {
 		steps.back().after = r_node.copy();
 		steps.back().serial = next_serial++;
 		return;
@@ -77,7 +77,7 @@ void UndoHistory::add(Node3D &r_parent, std::unique_ptr<Node3D> p_node, const st
 	step.node = p_node.get();
 	step.parent = &r_parent;
 	step.index = r_parent.children.size();
-	step.held = std::move(p_node);
+	step.detached_node = std::move(p_node);
 	apply(step, nullptr, true);
 	push(std::move(step));
 }
@@ -97,14 +97,14 @@ void UndoHistory::remove(Node3D &r_node, const std::string &p_name) {
 	push(std::move(step));
 }
 
-Node3D *UndoHistory::apply(Step &r_step, const Node3D *p_state, bool p_is_put_in) {
+Node3D *UndoHistory::apply(Step &r_step, const Node3D *p_state, bool p_inserts) {
 	close();
 	if (p_state != nullptr) {
 		r_step.node->assign(*p_state);
-	} else if (p_is_put_in) {
-		r_step.parent->insert_child(std::move(r_step.held), r_step.index);
+	} else if (p_inserts) {
+		r_step.parent->insert_child(std::move(r_step.detached_node), r_step.index);
 	} else {
-		r_step.held = r_step.parent->remove_child(*r_step.node);
+		r_step.detached_node = r_step.parent->remove_child(*r_step.node);
 	}
 	return r_step.node;
 }

@@ -6,8 +6,8 @@ namespace gnomon {
 
 namespace {
 
-// Maximum numbers of silhouette edges that are traced: fewer while something moves, so that it does
-// not have to wait for them.
+// Maximum numbers of silhouette edges that are traced: fewer while something moves, to keep the
+// frame time low.
 const size_t MOVING_EDGE_COUNT = 150;
 const size_t EDGE_COUNT = 1500;
 
@@ -16,30 +16,30 @@ const size_t EDGE_COUNT = 1500;
 void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 	ViewportState &viewport = r_context.viewport;
 	EditorDocument &document = r_context.document;
-	const bool is_changed = p_drawn_count != followed_count || viewport.is_guide_changed;
-	// Updated only when there is something to pick or trace, because it computes the posed
-	// vertices.
-	bool is_followed = false;
-	const auto follow = [&] {
-		if (!std::exchange(is_followed, true)) {
-			rays.follow(document.get_scene());
+	const bool is_changed = p_drawn_count != updated_count || viewport.is_guide_changed;
+	// The rays' scene is updated only if there is something to pick or trace, because that computes
+	// the posed vertices.
+	bool is_scene_updated = false;
+	const auto update_scene = [&] {
+		if (!std::exchange(is_scene_updated, true)) {
+			rays.update_scene(document.get_scene());
 		}
 	};
 	if (viewport.pick) {
 		const ViewportPick pick = *viewport.pick;
 		viewport.pick.reset();
-		follow();
+		update_scene();
 		const std::optional<SceneRays::Hit> hit =
 				rays.find_nearest(pick.origin_world, pick.direction_world);
 		document.select(hit ? hit->instance->node : nullptr);
 	}
 	const Node3D *selected = document.get_selected();
-	if (!is_changed && selected == guided_node) {
+	if (!is_changed && selected == last_selected) {
 		return;
 	}
-	followed_count = p_drawn_count;
+	updated_count = p_drawn_count;
 	viewport.is_guide_changed = false;
-	guided_node = selected;
+	last_selected = selected;
 	viewport.penumbra_lines.clear();
 	if (!viewport.shows_penumbra || dynamic_cast<const Light3D *>(selected) == nullptr) {
 		return;
@@ -49,7 +49,7 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 		if (const LightSnapshot *light = scene->find_light(selected->name)) {
 			const bool is_moving =
 					r_context.is_image_coarse || document.get_timeline().is_playing();
-			follow();
+			update_scene();
 			viewport.penumbra_lines = find_penumbra_lines(
 					rays, *scene, *light, is_moving ? MOVING_EDGE_COUNT : EDGE_COUNT);
 		}

@@ -5,8 +5,10 @@
 
 namespace gnomon {
 
-ViewportProjection::ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_least, ImVec2 p_size) :
-		least(p_least.x, p_least.y), size(p_size.x, p_size.y) {
+ViewportProjection::ViewportProjection(
+		const OrbitCamera &p_camera, ImVec2 p_top_left, ImVec2 p_size) :
+		top_left(p_top_left.x, p_top_left.y),
+		size(p_size.x, p_size.y) {
 	Camera3D camera;
 	p_camera.apply(camera);
 	world_from_camera = camera.parent_from_node;
@@ -21,12 +23,12 @@ std::optional<ImVec2> ViewportProjection::project(const glm::dvec3 &p_world) con
 		return std::nullopt;
 	}
 	const glm::dvec2 px =
-			least + 0.5 * size + glm::dvec2(position.x, -position.y) * (focal_px / -position.z);
+			top_left + 0.5 * size + glm::dvec2(position.x, -position.y) * (focal_px / -position.z);
 	return ImVec2(float(px.x), float(px.y));
 }
 
 bool ViewportProjection::is_inside(const ImVec2 &p_point) const {
-	const glm::dvec2 position = glm::dvec2(p_point.x, p_point.y) - least;
+	const glm::dvec2 position = glm::dvec2(p_point.x, p_point.y) - top_left;
 	return position.x >= 0.0 && position.y >= 0.0 && position.x < size.x && position.y < size.y;
 }
 
@@ -36,7 +38,7 @@ double ViewportProjection::compute_metres_per_px(const glm::dvec3 &p_world) cons
 }
 
 glm::dvec3 ViewportProjection::compute_direction(const ImVec2 &p_point) const {
-	const glm::dvec2 from_centre = glm::dvec2(p_point.x, p_point.y) - least - 0.5 * size;
+	const glm::dvec2 from_centre = glm::dvec2(p_point.x, p_point.y) - top_left - 0.5 * size;
 	return glm::dvec3(world_from_camera *
 			glm::dvec4(from_centre.x / focal_px, -from_centre.y / focal_px, -1.0, 0.0));
 }

@@ -10,15 +10,17 @@ namespace gnomon {
 
 namespace {
 
-const std::chrono::milliseconds REST{ 250 }; // without change, before the image is sharpened
-// How much coarser, by how long the last coarse image took.
-const uint32_t LEAST_DIVISOR = 2;
-const uint32_t GREATEST_DIVISOR = 4;
+// Time without a change after which an image of full resolution is drawn.
+const std::chrono::milliseconds SHARPEN_DELAY{ 250 };
+// The reduced resolution adapts to the time of the last coarse image: its divisor grows above
+// SLOW_MS and shrinks below QUICK_MS.
+const uint32_t MIN_DIVISOR = 2;
+const uint32_t MAX_DIVISOR = 4;
 const double QUICK_MS = 25;
 const double SLOW_MS = 70;
 
-/// Makes the request for a debug view of the light in question, or for the lit image if
-/// p_debug_view is empty or does not exist.
+/// Makes the request for a debug view of the active light (EditorContext::find_light), or for the
+/// lit image if p_debug_view is empty or does not exist.
 RenderRequest make_request(
 		const EditorContext &p_context, glm::uvec2 p_size_px, const std::string &p_debug_view) {
 	RenderRequest request;
@@ -45,7 +47,7 @@ void ViewportRenderer::update(EditorContext &r_context) {
 	if (viewport.wants_debug_views) {
 		r_context.attempt([&] { list_debug_views(r_context); });
 	}
-	const bool sharpens = is_coarse && now - last_change > REST;
+	const bool sharpens = is_coarse && now - last_change > SHARPEN_DELAY;
 	if ((!viewport.needs_redraw && !sharpens) || viewport.size_px == glm::uvec2(0)) {
 		return;
 	}
@@ -55,18 +57,18 @@ void ViewportRenderer::update(EditorContext &r_context) {
 	try {
 		draw(r_context, glm::max(viewport.size_px / (is_coarse ? divisor : 1u), glm::uvec2(1)));
 		if (is_coarse && r_context.shown_ms > SLOW_MS) {
-			divisor = std::min(divisor + 1, GREATEST_DIVISOR);
+			divisor = std::min(divisor + 1, MAX_DIVISOR);
 		} else if (is_coarse && r_context.shown_ms < QUICK_MS) {
-			divisor = std::max(divisor - 1, LEAST_DIVISOR);
+			divisor = std::max(divisor - 1, MIN_DIVISOR);
 		}
 	} catch (const std::exception &error) {
-		r_context.complain(describe_failure(error));
+		r_context.report_error(describe_failure(error));
 		is_coarse = false;
 	}
 }
 
-void ViewportRenderer::forget_cached() {
-	renderer.forget_cached();
+void ViewportRenderer::clear_caches() {
+	renderer.clear_caches();
 	compared_renderer.reset();
 }
 
@@ -89,8 +91,8 @@ void ViewportRenderer::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	try {
 		draw_compared(r_context, request);
 	} catch (const std::exception &failure) {
-		compared_image.reset(); // it would show something else than the one next to it
-		r_context.complain(describe_failure(failure));
+		compared_image.reset(); // it is older than the image next to it
+		r_context.report_error(describe_failure(failure));
 	}
 	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 	if (!r_context.shown.debug_views.empty()) {
@@ -98,12 +100,12 @@ void ViewportRenderer::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	}
 }
 
-/// Draws the scene with the compared technique for the light in question.
+/// Draws the scene with the compared technique for the request's debug_light.
 void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_request) {
 	std::string &technique = r_context.viewport.compared_technique;
 	if (!technique.empty() && ShadowRegistry::find(technique) == nullptr) {
-		r_context.complain(text("Technique \"", technique,
-				"\" is there no more: its module is switched off. Choose another one to compare."));
+		r_context.report_error(text("Technique \"", technique,
+				"\" no longer exists: its module is disabled. Choose another one to compare."));
 		technique.clear();
 	}
 	if (technique.empty()) {
@@ -124,25 +126,25 @@ void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_r
 	draw_into(compared_image, std::move(p_request), *compared_renderer);
 }
 
-/// r_image is recreated if its size has changed, and is left unchanged on an Error.
+/// Renders into r_image. It is recreated if its size has changed, and stays unchanged on an Error.
 RenderResult ViewportRenderer::draw_into(
 		OwnedTexture &r_image, RenderRequest p_request, Renderer &r_renderer) {
-	OwnedTexture made;
+	OwnedTexture new_texture;
 	if (!r_image || device.get_desc(r_image.get()).size_px != p_request.size_px) {
-		made = OwnedTexture(device,
+		new_texture = OwnedTexture(device,
 				device.create_texture({ "viewport", Format::RGBA8_UNORM, p_request.size_px, 1,
 						TextureUsage::SAMPLED | TextureUsage::COPY_TARGET }));
 	}
-	p_request.image_target = made ? made.get() : r_image.get();
+	p_request.image_target = new_texture ? new_texture.get() : r_image.get();
 	RenderResult result = r_renderer.render(p_request);
-	if (made) {
-		r_image = std::move(made);
+	if (new_texture) {
+		r_image = std::move(new_texture);
 	}
 	return result;
 }
 
-/// Techniques make their intermediate images only when one is requested, so a tiny frame requests
-/// one.
+/// Updates ViewportState::debug_views. Techniques create their intermediate images only if one is
+/// requested, so this renders a small frame that requests one.
 void ViewportRenderer::list_debug_views(EditorContext &r_context) {
 	const glm::uvec2 LIST_SIZE_PX(32);
 	r_context.viewport.wants_debug_views = false;

@@ -8,29 +8,35 @@
 
 namespace gnomon {
 
-/// Another type and size for a light of a scene.
+/// The type and size that a scene's light gets for a measurement.
 struct LightVariant {
 	LightType type = LightType::SPOT;
-	/// R in metres, 0..1e4. A directional light gets the apparent diameter of a disc of this radius
-	/// at a distance of 1.5 S, as in the study's scenes; R is then at most 1.5 S (90 degrees).
+	/// Radius R of the light in metres, 0..1e4. A directional light gets the apparent diameter of a
+	/// disc of radius R at a distance of 1.5 S (S: scene size); R is then at most 1.5 S, which is
+	/// 90 degrees. This matches the benchmark scenes (doc/benchmarks.md, "The study's scenes").
 	double size_m = 0;
 };
 
-/// The size of a variant that leaves the light as it is.
+/// Returns the LightVariant::size_m that corresponds to the light's current size.
 double compute_own_size(const Light3D &p_light, double p_scene_size_m);
 
-/// A snapshot of the scene with one light changed. A light whose type changes keeps its position
-/// and looks at the casters' centre; one that was directional is placed 1.5 S away from it.
-/// p_properties replace those of the light. The scene itself is restored before return.
+/// Builds a snapshot of the scene with one light changed. If the type changes, the light is aimed
+/// at the centre of the shadow casters' bounds, its range becomes unlimited, and its cone contains
+/// their bounding sphere where possible. It keeps its position, except that a formerly directional
+/// light is placed 1.5 S from that centre. p_properties override the light's properties, also its
+/// size. The scene itself is restored before the function returns or throws. Throws an Error for a
+/// property out of range, and if the type changes in a scene without casters.
 std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const Camera3D &p_camera,
 		Light3D &r_light, const LightVariant &p_variant, const PropertyValues &p_properties);
 
-/// The light with that name in a snapshot; it must exist.
+/// Returns the light with that name. An unknown name is a programming error.
 const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &p_name);
 
-/// True when no part of the light's disc is below the surface's horizon: the pixels that the study
-/// measures (doc/benchmarks.md, the study's scenes). Positions in the same space; p_normal is unit.
-bool sees_whole_disc(const LightSnapshot &p_light, const glm::vec3 &p_light_position,
+/// Returns true if the light's disc, which faces the surface point p_position, is entirely above
+/// the tangent plane of the surface there. Positions and the unit normal are in the same space. For
+/// a directional light p_light_position is ignored. ReportError::whole_light contains only such
+/// pixels.
+bool is_light_disc_above_horizon(const LightSnapshot &p_light, const glm::vec3 &p_light_position,
 		const glm::vec3 &p_position, const glm::vec3 &p_normal);
 
 } // namespace gnomon

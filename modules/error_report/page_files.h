@@ -5,13 +5,13 @@
 
 namespace gnomon {
 
-/// A file of page/, embedded by the build. Its name is its path below page/.
+/// A file of the folder page/ (HTML, CSS, JavaScript, licences), embedded by the build.
 struct PageFile {
-	std::string_view name;
-	std::string_view text;
+	std::string_view name; // path relative to page/
+	std::string_view text; // content
 };
 
-/// Ordered by name.
+/// Returns all files, sorted by name.
 std::span<const PageFile> get_page_files();
 
 } // namespace gnomon

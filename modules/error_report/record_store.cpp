@@ -16,13 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Messages may contain file names, which need not be UTF-8.
+/// Serializes JSON on one line. Replaces bytes that are not UTF-8, since messages may contain file
+/// names in another encoding.
 std::string dump_content(const Json &p_json) {
 	return p_json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// True for names that end in a dash and 16 hash digits, as the plan names records. Only such files
-/// are removed.
+/// Returns true for names that end in a dash and 16 hexadecimal digits, as report_plan.cpp names
+/// records. Only such files are deleted.
 bool is_record_name(const std::string &p_stem) {
 	const size_t dash = p_stem.rfind('-');
 	return dash != std::string::npos && p_stem.size() == dash + 17 &&
@@ -42,7 +43,7 @@ RecordStore::RecordStore(fs::path p_folder) : folder(std::move(p_folder)) {
 
 void RecordStore::save(
 		const std::string &p_name, const Json &p_content, std::span<const uint8_t> p_image) {
-	// The image is written first, so that an existing record is complete.
+	// The image is written before the JSON, so that a record whose JSON exists is complete.
 	if (!p_image.empty()) {
 		save_file_atomically(folder / (p_name + ".png"), p_image);
 	}

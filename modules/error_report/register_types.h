@@ -1,3 +1,3 @@
 #pragma once
 
-// This module registers nothing: the command line calls its functions.
+// This module registers nothing; the module main calls its functions.

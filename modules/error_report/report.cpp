@@ -41,7 +41,7 @@ const ReportCell *Report::find_baseline(const ReportCell &p_cell) const {
 
 std::optional<double> Report::compute_time_ratio(const ReportCell &p_cell) const {
 	const ReportCell *baseline = find_baseline(p_cell);
-	// Two machines' times have no ratio.
+	// Times of different machines are not comparable.
 	if (!baseline || !p_cell.is_ok() || baseline->machine_index != p_cell.machine_index ||
 			baseline->time.cost_ms <= 0) {
 		return std::nullopt;

@@ -13,9 +13,9 @@
 
 namespace gnomon {
 
-// The data that `gnomon report` measures and writes; doc/report_format.md describes the file.
+// The data of a report. doc/report_format.md describes report.json, which has the same structure.
 
-/// The machine that measured.
+/// The machine on which cells were measured.
 struct ReportMachine {
 	std::string device;
 	std::string driver;
@@ -25,154 +25,172 @@ struct ReportMachine {
 	bool operator==(const ReportMachine &) const = default;
 };
 
+/// A technique or mask filter of the report.
 struct ReportTechnique {
 	std::string id;
 	std::string name;
 	std::string source;
 	std::string color;		  // "#rrggbb"
-	bool is_baseline = false; // the fallback technique, to which time ratios refer
+	bool is_baseline = false; // the fallback technique; time ratios are relative to its time
 };
 
+/// MISSING: not measured yet, or measured by another shard.
 enum class ReportStatus { OK, FAILED, MISSING };
-/// "ok", "failed", "missing".
+/// Returns "ok", "failed" or "missing".
 const char *get_name(ReportStatus p_status);
 
-/// The exact mask of a configuration, as far as the report keeps it.
+/// Data of a configuration's reference mask. The mask itself is an image file.
 struct ReportReference {
-	double standard_error = 0;
-	bool is_double = false; // of a stability sweep: in double, as float32 was not enough
-	double wall_ms = 0;		// time to trace it, or to load it from the cache
-	std::string image;		// grey and alpha (0 = no receiver); empty where there is none
+	double standard_error = 0; // of visibility
+	/// Only in stability sweeps: traced in double precision, because float32 was too inaccurate.
+	bool is_double = false;
+	double wall_ms = 0; // time to trace the mask or to load it from the cache
+	std::string image;	// name of a PNG with grey and alpha (0 = no receiver); empty: none
 	uint64_t receiver_pixel_count = 0;
 	uint64_t penumbra_pixel_count = 0;
 };
 
-/// Names of the groups of configurations that ReportConfiguration::group distinguishes.
+/// Values of ReportConfiguration::group. The matrix is all combinations of scene, light, light
+/// size, technique and setting; the next four are scaling curves (scaling_scenes.h).
 inline constexpr const char *MATRIX_GROUP = "matrix";
 inline constexpr const char *TRIANGLES_GROUP = "triangles";
 inline constexpr const char *LIGHT_SIZE_GROUP = "light_size";
 inline constexpr const char *LIGHTS_GROUP = "lights";
 inline constexpr const char *RESOLUTION_GROUP = "resolution";
-inline constexpr const char *ANIMATION_GROUP = "animation"; // value: the time in s
-inline constexpr const char *STABILITY_GROUP = "stability"; // points of sweeps, see StabilitySweep
+inline constexpr const char *ANIMATION_GROUP = "animation"; // see AnimationPart
+inline constexpr const char *STABILITY_GROUP = "stability"; // see StabilitySweep
 
-/// A scene, a light and its size: one task for all techniques.
+/// A scene with a light of one size, for which all techniques are measured.
 struct ReportConfiguration {
 	std::string id;		// unique in the report
-	std::string record; // of its reference, see RecordStore; empty without one
+	std::string record; // name of its reference in the RecordStore; empty without a reference
 	std::string group = MATRIX_GROUP;
-	double value = 0;  // abscissa of its group: R in m, triangles, lights, image side in px
-	std::string sweep; // stability group: the sweep that `value` belongs to; else empty
-	std::string scene;
-	std::string light;
+	/// Abscissa in plots. By group: light radius in metres (matrix, light size), number of
+	/// triangles or lights, image width in pixels, time in s (animation), or the quantity of the
+	/// sweep.
+	double value = 0;
+	std::string sweep;					   // id of the stability sweep; empty in other groups
+	std::string scene;					   // name
+	std::string light;					   // name; empty: all lights
 	std::string light_type;				   // "spot", "omni", "directional"
-	double light_size_m = 0;			   // R; 0 for directional
-	double light_angular_distance_deg = 0; // apparent diameter; directional
+	double light_size_m = 0;			   // R, the radius; 0 for directional lights
+	double light_angular_distance_deg = 0; // apparent diameter; 0 for other lights
 	uint32_t light_count = 1;
-	double scene_size_m = 0; // S
+	double scene_size_m = 0; // S, see SceneSnapshot::scene_size_m
 	glm::uvec2 size_px = glm::uvec2(0u);
-	uint64_t triangle_count = 0;
-	uint64_t edge_count = 0;
-	ReportStatus status = ReportStatus::MISSING; // of its reference
-	std::string message;						 // why it failed
+	uint64_t triangle_count = 0;				 // of the shadow casters
+	uint64_t edge_count = 0;					 // of the shadow casters
+	ReportStatus status = ReportStatus::MISSING; // of the reference; OK if none is needed
+	std::string message;						 // error message if the status is FAILED
 	ReportReference reference;
 
 	bool is_matrix() const { return group == MATRIX_GROUP; }
 	bool is_stability() const { return group == STABILITY_GROUP; }
-	/// False for the scaling curves, which only measure cost.
+	/// False for the scaling curves, which measure only run time.
 	bool has_reference() const {
 		return group != TRIANGLES_GROUP && group != LIGHT_SIZE_GROUP && group != LIGHTS_GROUP &&
 				group != RESOLUTION_GROUP;
 	}
 };
 
-/// Errors over all receivers, and over those for which the whole light is above their horizon.
+/// Errors over all receiver pixels, and over those with the whole light above their horizon (see
+/// is_light_disc_above_horizon).
 struct ReportError {
 	MaskMetrics all;
 	MaskMetrics whole_light;
 };
 
-/// The cause of an error.
+/// The cause of a technique's error, see VisibilityCondition.
 enum class ErrorCause {
-	METHOD,	   // exact arithmetic would leave it
-	ROUNDING,  // the question itself changes as much when its input is rounded to float32
-	REFERENCE, // the reference in float32 is off by as much
+	METHOD,	   // the method itself: exact arithmetic would not reduce the error
+	ROUNDING,  // ill-conditioned: rounding the receiver position to float32 changes v as much
+	REFERENCE, // the float32 reference has an error of this size
 };
-/// "method", "rounding", "reference_mask".
+/// Returns "method", "rounding" or "reference_mask".
 const char *get_name(ErrorCause p_cause);
 
-/// The condition of visibility v at some points, in double precision: means over the points.
+/// How sensitive visibility v is to rounding at some points, computed in double precision. All
+/// values are means over the points.
 struct VisibilityCondition {
 	/// Condition number: change of v divided by the relative change of the receiver's position P,
 	/// |dv| rho / |dP|, with rho the distance to the light (directional: S).
 	double number = 0;
-	double rounding = 0;		// change of v when P moves by the rounding of float32
+	double rounding = 0;		// change of v when P moves by a float32 rounding error
 	double reference_error = 0; // |v in double - v of the reference|
 	double error = 0;			// |v of the technique - v of the reference|
 	ErrorCause cause = ErrorCause::METHOD;
 };
 
-/// Additional results of a point of a stability sweep or an animation, filled in by a ReportPart.
+/// Additional results of a cell of a stability sweep or an animation, set by the ReportPart.
 struct ReportStability {
-	/// RMS error of the change over penumbra pixels when the light moves by R / 1000 (directional:
-	/// turns by a thousandth of its angular radius), or an animation advances by a frame: see
-	/// TemporalMetrics. None when the image is too large to trace twice, or the receivers change.
+	/// Temporal error over penumbra pixels (TemporalMetrics::penumbra_rmse) between two frames. In
+	/// a stability sweep the light moves by R / 1000 (a directional one rotates by a thousandth of
+	/// its angular radius); in an animation the scene advances by 1/30 s. Unset if the image is too
+	/// large to trace two references, or if the set of receiver pixels changes.
 	std::optional<double> temporal_rmse;
-	/// Fraction of the receivers whose reference visibility is 0 or 1 and whose error exceeds 0.5.
+	/// Fraction, 0..1, of all receivers: those that are fully lit or fully hidden in the reference
+	/// (not is_penumbra) and whose error exceeds 0.5.
 	double wrong_share = 0;
-	std::vector<std::string> warnings; // that the program gave
-	std::string refusal; // the error with which it refused to draw; then there are no numbers
-	std::optional<VisibilityCondition> condition; // where the error is far above the centre's
+	std::vector<std::string> warnings; // logged while drawing
+	/// The Error with which the technique refused to draw; then there are no other results. Empty
+	/// if it did draw.
+	std::string refusal;
+	/// Set only if the error is more than twice that of the sweep's centre, or the mask is nonsense
+	/// (see StabilityState).
+	std::optional<VisibilityCondition> condition;
 };
 
 /// One technique with one setting in one configuration.
 struct ReportCell {
 	size_t configuration_index = 0;
 	std::string technique;
-	std::string setting; // its name
-	std::string record;	 // see RecordStore
-	std::map<std::string, std::string> properties;
+	std::string setting;						   // name of the quality setting
+	std::string record;							   // name in the RecordStore
+	std::map<std::string, std::string> properties; // light properties that the setting changes
 	ReportStatus status = ReportStatus::MISSING;
-	std::string message; // why it failed
-	size_t machine_index = 0;
-	std::optional<ReportError> error;
-	std::optional<ReportStability> stability;
-	MaskTiming time;
-	uint64_t bytes = 0;
-	std::string image; // grey
+	std::string message;					  // error message if the status is FAILED
+	size_t machine_index = 0;				  // in Report::machines
+	std::optional<ReportError> error;		  // unset in scaling curves
+	std::optional<ReportStability> stability; // stability and animation groups only
+	MaskTiming time;						  // not measured if `stability` is set
+	uint64_t bytes = 0;						  // device memory in use while measured
+	std::string image;						  // name of a grey PNG; empty: none
 
 	bool is_ok() const { return status == ReportStatus::OK; }
 };
 
-/// A scene as its camera sees it, for the page.
+/// A lit image of a scene as its camera sees it, for the HTML page.
 struct ReportSceneImage {
 	std::string scene;
-	bool has_shadows = true; // true: all lights as in the file; false: none cast shadows
-	std::string record;		 // see RecordStore
+	bool has_shadows = true; // true: all lights as in the file; false: no light casts shadows
+	std::string record;		 // name in the RecordStore
 	ReportStatus status = ReportStatus::MISSING;
-	std::string message; // why it failed
-	std::string image;	 // colours
+	std::string message; // error message if the status is FAILED
+	std::string image;	 // name of an RGBA PNG; empty: none
 };
 
+/// A whole report, complete or in progress.
 struct Report {
 	std::string project;
-	std::string program;		  // version and hash of the program that measured
-	uint32_t sample_count = 0;	  // of the references
-	double precision_percent = 0; // requested precision of median times; 0: that of 20 frames
+	std::string program;	   // version and hash of the program, see describe_program
+	uint32_t sample_count = 0; // rays per pixel of the references
+	/// Timing of a cell ends once the standard error of its median is below this; 0: never early.
+	double precision_percent = 0;
 	std::vector<ReportMachine> machines;
 	std::vector<ReportTechnique> techniques;
 	std::vector<ReportSceneImage> scene_images;
 	std::vector<ReportConfiguration> configurations;
 	std::vector<ReportCell> cells;
 
-	/// Indices of the cells of one configuration, in order.
+	/// Returns the indices of the cells of a configuration, ascending.
 	std::vector<size_t> find_cells(size_t p_configuration) const;
-	/// The baseline's cell in the same configuration; null when it was not measured.
+	/// Returns the cell of the baseline technique in the same configuration; null if it was not
+	/// measured successfully.
 	const ReportCell *find_baseline(const ReportCell &p_cell) const;
-	/// Cost as a multiple of the baseline's; none when either was not measured, or by another
-	/// machine.
+	/// Returns cost_ms divided by that of find_baseline; nullopt if one of the two was not
+	/// measured, if they were measured on different machines, or if the baseline's is 0.
 	std::optional<double> compute_time_ratio(const ReportCell &p_cell) const;
-	/// Number of cells, references and scene images with that status.
+	/// Returns the number of cells, references and scene images with that status.
 	size_t count(ReportStatus p_status) const;
 };
 

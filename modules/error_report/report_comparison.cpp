@@ -17,11 +17,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const double ERROR_MARGIN = 0.0005;		// rounding differences between devices are smaller
-const double ERROR_MARGIN_SHARE = 0.01; // fraction of the old error
-const double RATIO_MARGIN_SHARE = 0.15; // repeated runs on one machine mostly differ by less
-const double TIME_MARGIN_SHARE = 0.3;	// for times in ms, which also vary with the machine's load
+// Changes up to these margins are noise, see compare_reports.
+const double ERROR_MARGIN = 0.0005;		   // rounding differences between devices are smaller
+const double ERROR_MARGIN_FRACTION = 0.01; // of the old error
+const double RATIO_MARGIN_FRACTION = 0.15; // repeated runs on one machine mostly differ by less
+const double TIME_MARGIN_FRACTION = 0.3; // for times in ms, which also vary with the machine's load
 
+/// Identifies a cell: configuration, technique, setting, width, height.
 using Key = std::tuple<std::string, std::string, std::string, uint32_t, uint32_t>;
 
 Key make_key(const Report &p_report, const ReportCell &p_cell) {
@@ -29,8 +31,8 @@ Key make_key(const Report &p_report, const ReportCell &p_cell) {
 	return { at.id, p_cell.technique, p_cell.setting, at.size_px.x, at.size_px.y };
 }
 
-/// The 90th percentile minus the median, as a fraction of the median, of the GPU time where that is
-/// at least half of the cost, else of the wall time.
+/// Returns the 90th percentile minus the median, divided by the median, of the cell's GPU time; of
+/// its wall time if less than half of cost_ms is GPU time.
 double compute_spread(const ReportCell &p_cell) {
 	const FrameCost &total = p_cell.time.total;
 	const bool is_on_gpu = total.gpu_ms >= 0.5 * p_cell.time.cost_ms && total.gpu_ms > 0;
@@ -38,7 +40,7 @@ double compute_spread(const ReportCell &p_cell) {
 	return median_ms > 0 ? (is_on_gpu ? total.gpu_ms_p90 : total.wall_ms_p90) / median_ms - 1.0 : 0;
 }
 
-/// Rounds for display; report.json has all digits.
+/// Formats a value with 4 significant digits for the console; report.json has all digits.
 std::string format_value(double p_value) {
 	char digits[32];
 	std::snprintf(digits, sizeof(digits), "%.4g", p_value);
@@ -81,7 +83,7 @@ private:
 			return;
 		}
 		++comparison.compared_count;
-		compare_part(p_old, p_new);
+		compare_usability(p_old, p_new);
 		if (p_old.error && p_new.error) {
 			const MaskMetrics &before = p_old.error->all;
 			const MaskMetrics &after = p_new.error->all;
@@ -91,8 +93,8 @@ private:
 		compare_times(p_old, p_new);
 	}
 
-	/// Reports cells that were usable and are now refused or unusable, and vice versa.
-	void compare_part(const ReportCell &p_old, const ReportCell &p_new) {
+	/// Adds a difference if a cell was usable before and is unusable now, or vice versa.
+	void compare_usability(const ReportCell &p_old, const ReportCell &p_new) {
 		const ReportPart *part = ReportPartRegistry::find_part(
 				new_report.configurations[p_new.configuration_index].group);
 		if (part == nullptr || !p_old.stability || !p_new.stability) {
@@ -107,7 +109,7 @@ private:
 
 	void compare_errors(const ReportCell &p_old, const ReportCell &p_new, const char *p_what,
 			const ErrorMetrics &p_before, const ErrorMetrics &p_after) {
-		double margin = ERROR_MARGIN + ERROR_MARGIN_SHARE * p_before.mae;
+		double margin = ERROR_MARGIN + ERROR_MARGIN_FRACTION * p_before.mae;
 		if (old_report.sample_count != new_report.sample_count) {
 			margin +=
 					old_report.configurations[p_old.configuration_index].reference.standard_error +
@@ -127,17 +129,17 @@ private:
 		if (old_ratio && new_ratio && new_baseline != &p_new) {
 			spread += compute_spread(*old_baseline) + compute_spread(*new_baseline);
 			compare_times(p_new, "time ratio", *old_ratio, *new_ratio,
-					std::max(RATIO_MARGIN_SHARE, spread));
+					std::max(RATIO_MARGIN_FRACTION, spread));
 		} else if (old_report.machines[p_old.machine_index] ==
 				new_report.machines[p_new.machine_index]) {
 			compare_times(p_new, "time", p_old.time.cost_ms, p_new.time.cost_ms,
-					std::max(TIME_MARGIN_SHARE, spread));
+					std::max(TIME_MARGIN_FRACTION, spread));
 		}
 	}
 
 	void compare_times(const ReportCell &p_new, const char *p_what, double p_before, double p_after,
-			double p_margin_share) {
-		if (p_before > 0 && std::abs(p_after / p_before - 1.0) > p_margin_share) {
+			double p_margin_fraction) {
+		if (p_before > 0 && std::abs(p_after / p_before - 1.0) > p_margin_fraction) {
 			add(p_new, p_what, p_before, p_after, p_after > p_before);
 		}
 	}

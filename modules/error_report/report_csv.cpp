@@ -7,6 +7,7 @@ namespace gnomon {
 
 namespace {
 
+/// Quotes a field as RFC 4180 requires.
 std::string quote(const std::string &p_text) {
 	if (p_text.find_first_of(",\"\r\n") == std::string::npos) {
 		return p_text;

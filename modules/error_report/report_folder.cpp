@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// A record that cannot be read counts as absent.
+/// Calls p_read with the content of a record, unless it is absent or its name is empty. If p_read
+/// throws an Error, it is logged and the record is treated as absent.
 template <typename Read>
 void read_record(const RecordStore &p_store, const std::string &p_name, Read p_read) {
 	if (p_name.empty()) {
@@ -36,8 +37,8 @@ bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
 	return fs::equivalent(p_first, p_second, code) && !code;
 }
 
-/// The store from which to take the record of that name: the first with a record that did not fail,
-/// else the first with a record.
+/// Returns the first store in which the record did not fail, else the first that has the record;
+/// null if none has it.
 const RecordStore *choose_store(
 		const std::vector<RecordStore> &p_stores, const std::string &p_name) {
 	const RecordStore *failed = nullptr;
@@ -120,24 +121,24 @@ Report collect_report(
 Report merge_reports(const std::vector<fs::path> &p_folders, const fs::path &p_out) {
 	GNOMON_ASSERT(!p_folders.empty(), "nothing to merge");
 	const Report plan = load_report(get_plan_path(p_folders.front()));
-	std::vector<RecordStore> parts;
-	bool is_one_of_parts = false; // the whole is one of the parts
+	std::vector<RecordStore> stores;
+	bool is_output_an_input = false; // p_out is also one of p_folders
 	for (const fs::path &folder : p_folders) {
 		if (dump_json(to_json(load_report(get_plan_path(folder)))) != dump_json(to_json(plan))) {
 			fail("Reports ", p_folders.front(), " and ", folder,
 					" were not planned alike. Run all shards with the same program, project and ",
 					"options.");
 		}
-		parts.emplace_back(get_record_folder(folder));
-		is_one_of_parts = is_one_of_parts || is_same_folder(folder, p_out);
+		stores.emplace_back(get_record_folder(folder));
+		is_output_an_input = is_output_an_input || is_same_folder(folder, p_out);
 	}
 	RecordStore merged(get_record_folder(p_out));
 	for (const std::string &name : list_records(plan)) {
-		const RecordStore *part = choose_store(parts, name);
-		if (part && !is_same_folder(part->get_folder(), merged.get_folder())) {
-			merged.copy_from(*part, name);
-		} else if (!part && !is_one_of_parts) {
-			merged.remove(name); // of an earlier merge
+		const RecordStore *store = choose_store(stores, name);
+		if (store && !is_same_folder(store->get_folder(), merged.get_folder())) {
+			merged.copy_from(*store, name);
+		} else if (!store && !is_output_an_input) {
+			merged.remove(name); // left from an earlier merge
 		}
 	}
 	save_plan(p_out, plan);

@@ -17,17 +17,18 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// T is const when the value is written.
+/// Matches Plain and const Plain: a Writer visits const values, a Reader non-const ones.
 template <typename T, typename Plain>
-concept Either = std::same_as<std::remove_const_t<T>, Plain>;
+concept MaybeConst = std::same_as<std::remove_const_t<T>, Plain>;
 
-/// Writes JSON. Each format names its fields once, in describe(), for the Writer and the Reader.
+/// Writes fields to JSON. Writer and Reader are visitors with the same interface: each overload of
+/// describe() below lists the fields of a struct once, for both directions.
 struct Writer {
 	Json &json;
 
-	/// Whether an optional field is written: when it is set.
+	/// Returns whether an optional field is written: if it is set.
 	bool has(const char * /*p_name*/, bool p_is_set) const { return p_is_set; }
-	/// Adds a derived value, which is not read.
+	/// Writes a derived value, which the Reader ignores.
 	void add_computed(const char *p_name, const Json &p_value) const { json[p_name] = p_value; }
 
 	template <typename Describe> void part(const char *p_name, Describe p_describe) const {
@@ -58,6 +59,7 @@ struct Writer {
 	}
 };
 
+/// Reads fields from JSON. A missing field or another type is a Json::exception.
 struct Reader {
 	const Json &json;
 
@@ -93,7 +95,7 @@ struct Reader {
 	}
 
 private:
-	/// All enums of the format have three values.
+	/// Returns the enum value with that name. All enums of the format have three values.
 	template <typename T> static T find_value(const char *p_field, const std::string &p_name) {
 		for (const T value : { T(0), T(1), T(2) }) {
 			if (p_name == get_name(value)) {
@@ -105,29 +107,30 @@ private:
 	}
 };
 
-/// Describes fields; the arguments are alternating names and fields.
-template <typename Form, typename Value, typename... Rest>
-void describe_fields(const Form &p_form, const char *p_name, Value &r_value, Rest &...r_rest) {
-	p_form(p_name, r_value);
+/// Visits several fields; the arguments are names and fields in turn.
+template <typename Visitor, typename Value, typename... Rest>
+void describe_fields(
+		const Visitor &p_visitor, const char *p_name, Value &r_value, Rest &...r_rest) {
+	p_visitor(p_name, r_value);
 	if constexpr (sizeof...(Rest) > 0) {
-		describe_fields(p_form, r_rest...);
+		describe_fields(p_visitor, r_rest...);
 	}
 }
 
-void describe_values(const auto &p_form, Either<ErrorMetrics> auto &r_metrics) {
-	describe_fields(p_form, "mae", r_metrics.mae, "rmse", r_metrics.rmse, "p99", r_metrics.p99,
+void describe_values(const auto &p_visitor, MaybeConst<ErrorMetrics> auto &r_metrics) {
+	describe_fields(p_visitor, "mae", r_metrics.mae, "rmse", r_metrics.rmse, "p99", r_metrics.p99,
 			"bias", r_metrics.bias, "wrong", r_metrics.wrong); // absent in older reports
 }
 
-/// As `gnomon compare` prints it, but without the numbers of an empty set.
-void describe(const auto &p_form, Either<MaskMetrics> auto &r_metrics) {
-	p_form("pixels", r_metrics.receiver.pixel_count);
-	if (p_form.has("receiver", r_metrics.receiver.pixel_count > 0)) {
-		p_form.part("receiver",
+/// The form that `gnomon compare` prints, but without the metrics of an empty set of pixels.
+void describe(const auto &p_visitor, MaybeConst<MaskMetrics> auto &r_metrics) {
+	p_visitor("pixels", r_metrics.receiver.pixel_count);
+	if (p_visitor.has("receiver", r_metrics.receiver.pixel_count > 0)) {
+		p_visitor.part("receiver",
 				[&](const auto &p_part) { describe_values(p_part, r_metrics.receiver); });
 	}
-	if (p_form.has("penumbra", r_metrics.penumbra.pixel_count > 0)) {
-		p_form.part("penumbra", [&](const auto &p_part) {
+	if (p_visitor.has("penumbra", r_metrics.penumbra.pixel_count > 0)) {
+		p_visitor.part("penumbra", [&](const auto &p_part) {
 			p_part("pixels", r_metrics.penumbra.pixel_count);
 			describe_values(p_part, r_metrics.penumbra);
 			p_part("umbra_over", r_metrics.umbra_over);
@@ -135,78 +138,79 @@ void describe(const auto &p_form, Either<MaskMetrics> auto &r_metrics) {
 	}
 }
 
-void describe(const auto &p_form, Either<ReportError> auto &r_error) {
-	describe_fields(p_form, "all", r_error.all, "whole_light", r_error.whole_light);
+void describe(const auto &p_visitor, MaybeConst<ReportError> auto &r_error) {
+	describe_fields(p_visitor, "all", r_error.all, "whole_light", r_error.whole_light);
 }
 
-void describe(const auto &p_form, Either<FrameCost> auto &r_cost) {
-	describe_fields(p_form, "gpu_ms", r_cost.gpu_ms, "gpu_ms_p90", r_cost.gpu_ms_p90, "wall_ms",
+void describe(const auto &p_visitor, MaybeConst<FrameCost> auto &r_cost) {
+	describe_fields(p_visitor, "gpu_ms", r_cost.gpu_ms, "gpu_ms_p90", r_cost.gpu_ms_p90, "wall_ms",
 			r_cost.wall_ms, "wall_ms_p90", r_cost.wall_ms_p90);
 }
 
-void describe(const auto &p_form, Either<PassMedians> auto &r_pass) {
-	p_form("name", r_pass.name);
-	describe(p_form, r_pass.cost);
-	p_form("is_on_host", r_pass.is_on_host);
+void describe(const auto &p_visitor, MaybeConst<PassMedians> auto &r_pass) {
+	p_visitor("name", r_pass.name);
+	describe(p_visitor, r_pass.cost);
+	p_visitor("is_on_host", r_pass.is_on_host);
 }
 
-void describe(const auto &p_form, Either<MaskTiming> auto &r_time) {
-	describe_fields(p_form, "frames", r_time.frame_count, "cost_ms", r_time.cost_ms);
-	describe(p_form, r_time.total);
-	p_form("passes", r_time.passes);
+void describe(const auto &p_visitor, MaybeConst<MaskTiming> auto &r_time) {
+	describe_fields(p_visitor, "frames", r_time.frame_count, "cost_ms", r_time.cost_ms);
+	describe(p_visitor, r_time.total);
+	p_visitor("passes", r_time.passes);
 }
 
-void describe(const auto &p_form, Either<ReportMachine> auto &r_machine) {
-	describe_fields(p_form, "device", r_machine.device, "driver", r_machine.driver, "cpu",
+void describe(const auto &p_visitor, MaybeConst<ReportMachine> auto &r_machine) {
+	describe_fields(p_visitor, "device", r_machine.device, "driver", r_machine.driver, "cpu",
 			r_machine.cpu, "threads", r_machine.threads);
 }
 
-void describe(const auto &p_form, Either<ReportTechnique> auto &r_technique) {
-	describe_fields(p_form, "id", r_technique.id, "name", r_technique.name, "source",
+void describe(const auto &p_visitor, MaybeConst<ReportTechnique> auto &r_technique) {
+	describe_fields(p_visitor, "id", r_technique.id, "name", r_technique.name, "source",
 			r_technique.source, "color", r_technique.color, "is_baseline", r_technique.is_baseline);
 }
 
-void describe(const auto &p_form, Either<VisibilityCondition> auto &r_condition) {
-	describe_fields(p_form, "number", r_condition.number, "rounding", r_condition.rounding,
+void describe(const auto &p_visitor, MaybeConst<VisibilityCondition> auto &r_condition) {
+	describe_fields(p_visitor, "number", r_condition.number, "rounding", r_condition.rounding,
 			"reference_error", r_condition.reference_error, "error", r_condition.error, "cause",
 			r_condition.cause);
 }
 
-void describe(const auto &p_form, Either<ReportStability> auto &r_stability) {
-	describe_fields(p_form, "wrong_share", r_stability.wrong_share, "warnings",
+void describe(const auto &p_visitor, MaybeConst<ReportStability> auto &r_stability) {
+	describe_fields(p_visitor, "wrong_share", r_stability.wrong_share, "warnings",
 			r_stability.warnings, "refusal", r_stability.refusal, "temporal_rmse",
 			r_stability.temporal_rmse, "condition", r_stability.condition);
 }
 
-/// The results of a cell, without what identifies it.
-void describe_result(const auto &p_form, Either<ReportCell> auto &r_cell) {
-	describe_fields(p_form, "status", r_cell.status, "message", r_cell.message, "error",
+/// The fields of a cell that its record contains: results, without the identification.
+void describe_result(const auto &p_visitor, MaybeConst<ReportCell> auto &r_cell) {
+	describe_fields(p_visitor, "status", r_cell.status, "message", r_cell.message, "error",
 			r_cell.error, "stability", r_cell.stability);
-	if (r_cell.is_ok() && !r_cell.stability) { // a sweep's points are drawn, not timed
-		describe_fields(p_form, "time", r_cell.time, "bytes", r_cell.bytes);
+	if (r_cell.is_ok() && !r_cell.stability) { // cells with `stability` are not timed
+		describe_fields(p_visitor, "time", r_cell.time, "bytes", r_cell.bytes);
 	}
 	if (r_cell.is_ok()) {
-		p_form("image", r_cell.image);
+		p_visitor("image", r_cell.image);
 	}
 }
 
-void describe(const auto &p_form, Either<ReportCell> auto &r_cell) {
-	describe_fields(p_form, "configuration", r_cell.configuration_index, "technique",
+void describe(const auto &p_visitor, MaybeConst<ReportCell> auto &r_cell) {
+	describe_fields(p_visitor, "configuration", r_cell.configuration_index, "technique",
 			r_cell.technique, "setting", r_cell.setting, "properties", r_cell.properties, "record",
 			r_cell.record, "machine", r_cell.machine_index);
-	describe_result(p_form, r_cell);
+	describe_result(p_visitor, r_cell);
 }
 
-/// The results of a configuration's reference.
-void describe_result(const auto &p_form, Either<ReportConfiguration> auto &r_configuration) {
-	describe_fields(p_form, "status", r_configuration.status, "message", r_configuration.message);
+/// The fields of a configuration that the record of its reference contains.
+void describe_result(const auto &p_visitor, MaybeConst<ReportConfiguration> auto &r_configuration) {
+	describe_fields(
+			p_visitor, "status", r_configuration.status, "message", r_configuration.message);
 	const bool has_reference =
 			r_configuration.has_reference() && r_configuration.status == ReportStatus::OK;
-	if (p_form.has("reference_mask", has_reference)) {
+	if (p_visitor.has("reference_mask", has_reference)) {
 		auto &reference = r_configuration.reference;
-		describe_fields(p_form, "receiver_pixels", reference.receiver_pixel_count,
+		describe_fields(p_visitor, "receiver_pixels", reference.receiver_pixel_count,
 				"penumbra_pixels", reference.penumbra_pixel_count);
-		p_form.part("reference_mask", [&](const auto &p_part) {
+		p_visitor.part("reference_mask", [&](const auto &p_part) {
 			describe_fields(p_part, "standard_error", reference.standard_error, "wall_ms",
 					reference.wall_ms, "image", reference.image);
 			if (p_part.has("is_double", reference.is_double)) {
@@ -216,42 +220,42 @@ void describe_result(const auto &p_form, Either<ReportConfiguration> auto &r_con
 	}
 }
 
-void describe(const auto &p_form, Either<ReportConfiguration> auto &r_configuration) {
-	describe_fields(p_form, "id", r_configuration.id, "group", r_configuration.group);
-	if (p_form.has("sweep", true)) { // absent in older reports
-		p_form("sweep", r_configuration.sweep);
+void describe(const auto &p_visitor, MaybeConst<ReportConfiguration> auto &r_configuration) {
+	describe_fields(p_visitor, "id", r_configuration.id, "group", r_configuration.group);
+	if (p_visitor.has("sweep", true)) { // absent in older reports
+		p_visitor("sweep", r_configuration.sweep);
 	}
-	describe_fields(p_form, "value", r_configuration.value, "scene", r_configuration.scene, "light",
-			r_configuration.light, "light_type", r_configuration.light_type, "light_size_m",
-			r_configuration.light_size_m, "light_angular_distance_deg",
+	describe_fields(p_visitor, "value", r_configuration.value, "scene", r_configuration.scene,
+			"light", r_configuration.light, "light_type", r_configuration.light_type,
+			"light_size_m", r_configuration.light_size_m, "light_angular_distance_deg",
 			r_configuration.light_angular_distance_deg, "light_count", r_configuration.light_count,
 			"scene_size_m", r_configuration.scene_size_m, "size_px", r_configuration.size_px,
 			"triangles", r_configuration.triangle_count, "edges", r_configuration.edge_count,
 			"record", r_configuration.record);
-	describe_result(p_form, r_configuration);
+	describe_result(p_visitor, r_configuration);
 }
 
-/// The result of a scene's image.
-void describe_result(const auto &p_form, Either<ReportSceneImage> auto &r_image) {
-	describe_fields(
-			p_form, "status", r_image.status, "message", r_image.message, "image", r_image.image);
+/// The fields of a scene image that its record contains.
+void describe_result(const auto &p_visitor, MaybeConst<ReportSceneImage> auto &r_image) {
+	describe_fields(p_visitor, "status", r_image.status, "message", r_image.message, "image",
+			r_image.image);
 }
 
-void describe(const auto &p_form, Either<ReportSceneImage> auto &r_image) {
-	describe_fields(p_form, "scene", r_image.scene, "has_shadows", r_image.has_shadows, "record",
+void describe(const auto &p_visitor, MaybeConst<ReportSceneImage> auto &r_image) {
+	describe_fields(p_visitor, "scene", r_image.scene, "has_shadows", r_image.has_shadows, "record",
 			r_image.record);
-	describe_result(p_form, r_image);
+	describe_result(p_visitor, r_image);
 }
 
-void describe(const auto &p_form, Either<Report> auto &r_report) {
-	describe_fields(p_form, "project", r_report.project, "samples", r_report.sample_count,
+void describe(const auto &p_visitor, MaybeConst<Report> auto &r_report) {
+	describe_fields(p_visitor, "project", r_report.project, "samples", r_report.sample_count,
 			"precision_percent", r_report.precision_percent, "program", r_report.program);
-	p_form.add_computed("failed_count", r_report.count(ReportStatus::FAILED));
-	p_form.add_computed("missing_count", r_report.count(ReportStatus::MISSING));
-	if (p_form.has("scene_images", true)) { // absent in version 1
-		p_form("scene_images", r_report.scene_images);
+	p_visitor.add_computed("failed_count", r_report.count(ReportStatus::FAILED));
+	p_visitor.add_computed("missing_count", r_report.count(ReportStatus::MISSING));
+	if (p_visitor.has("scene_images", true)) { // absent in version 1
+		p_visitor("scene_images", r_report.scene_images);
 	}
-	describe_fields(p_form, "machines", r_report.machines, "techniques", r_report.techniques,
+	describe_fields(p_visitor, "machines", r_report.machines, "techniques", r_report.techniques,
 			"configurations", r_report.configurations, "cells", r_report.cells);
 }
 
@@ -262,7 +266,7 @@ void rename_key(Json &r_json, const char *p_old, const char *p_new) {
 	}
 }
 
-/// Renames the reference's fields of version 1, in a record or a whole report.
+/// Converts a record or a whole report of version 1, which called the reference "truth".
 void upgrade(Json &r_json) {
 	rename_key(r_json, "truth", "reference_mask");
 	if (!r_json.is_object()) {
@@ -305,8 +309,8 @@ Report read_report(Json p_json) {
 	return report;
 }
 
-/// Reads the results of a cell, configuration or scene image. When they cannot be read, throws an
-/// Error and leaves it unchanged.
+/// Reads the results of a cell, configuration or scene image into r_owner. If the JSON has another
+/// format, throws an Error and leaves r_owner unchanged.
 template <typename Owner> void read_result(Json p_json, Owner &r_owner) {
 	try {
 		upgrade(p_json);

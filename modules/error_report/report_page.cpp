@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Enough that neighbouring colours look the same.
+/// So many that neighbouring colours look the same; odd, so that the middle one is error 0.
 const uint32_t HEAT_MAP_COLOR_COUNT = 129;
 
 std::string encode_base64(std::span<const uint8_t> p_bytes) {
@@ -55,19 +55,19 @@ std::string escape_html(const std::string &p_text) {
 	return replace_all(replace_all(replace_all(p_text, "&", "&amp;"), "<", "&lt;"), ">", "&gt;");
 }
 
-/// The concatenated embedded files of a folder with an extension, ordered by name.
-std::string join_files(std::string_view p_folder, std::string_view p_ending) {
+/// Concatenates the embedded files of a folder that have the extension p_extension, sorted by name.
+std::string join_files(std::string_view p_folder, std::string_view p_extension) {
 	std::string joined;
 	for (const PageFile &file : get_page_files()) {
 		const size_t slash = file.name.rfind('/');
 		const std::string_view folder =
 				slash == std::string_view::npos ? std::string_view() : file.name.substr(0, slash);
-		if (folder == p_folder && file.name.ends_with(p_ending)) {
+		if (folder == p_folder && file.name.ends_with(p_extension)) {
 			joined += file.text;
 			joined += "\n";
 		}
 	}
-	GNOMON_ASSERT(!joined.empty(), "no page file in ", p_folder, " ends with ", p_ending);
+	GNOMON_ASSERT(!joined.empty(), "no page file in ", p_folder, " ends with ", p_extension);
 	return joined;
 }
 
@@ -98,7 +98,7 @@ void add_image(const Json &p_owner, const RecordStore &p_store, Json &r_images) 
 std::string build_report_page(const Json &p_report, const RecordStore &p_store) {
 	Json data = p_report;
 	Json images = Json::object();
-	std::set<size_t> with_images; // configurations
+	std::set<size_t> with_images; // indices of configurations whose cells have images
 	for (const Json &cell : p_report.at("cells")) {
 		add_image(cell, p_store, images);
 		if (!cell.value("image", "").empty()) {
@@ -108,7 +108,8 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	const Json &configurations = p_report.at("configurations");
 	for (size_t index = 0; index < configurations.size(); ++index) {
 		const Json &configuration = configurations[index];
-		// Only few points of a stability sweep have images of their techniques.
+		// Most points of stability sweeps have no images of techniques; their references are
+		// omitted.
 		if (configuration.contains("reference_mask") &&
 				(configuration.value("group", "") != STABILITY_GROUP ||
 						with_images.count(index) != 0)) {
@@ -127,7 +128,7 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 		{ "no_receiver", HEAT_MAP_NO_RECEIVER } };
 
 	std::string page = join_files("", ".html");
-	// The data last: it may hold anything, markers too.
+	// The data is inserted last, because it may contain the text of a marker.
 	replace_marker("{{TITLE}}",
 			escape_html("Error against run time: " + p_report.value("project", "")), page);
 	replace_marker("{{LICENSES}}", join_licenses(), page);
@@ -135,7 +136,7 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	replace_marker("{{LIBRARIES}}", join_files("third_party", ".js"), page);
 	replace_marker("{{SCRIPT}}", join_files("", ".js"), page);
 	const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-	replace_marker("{{DATA}}", replace_all(json, "<", "\\u003c"), page); // it is in a script
+	replace_marker("{{DATA}}", replace_all(json, "<", "\\u003c"), page); // "<" could end the script
 	return page;
 }
 

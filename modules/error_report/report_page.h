@@ -8,8 +8,9 @@
 
 namespace gnomon {
 
-/// The page of a report: one self-contained HTML file with its plotting library, data and images.
-/// p_report: report.json; p_store holds the images that it names.
+/// Returns the HTML page of a report: one self-contained file with the plotting library, the data
+/// and the images. p_report: the content of report.json. p_store: contains the images that it
+/// names.
 std::string build_report_page(const nlohmann::ordered_json &p_report, const RecordStore &p_store);
 
 } // namespace gnomon

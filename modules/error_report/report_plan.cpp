@@ -14,15 +14,17 @@ namespace gnomon {
 
 namespace {
 
-/// Default R as fractions of S: those of the study's scenes, 0.08, 0.4 and 1.2 m at S = 4 m.
+/// Default light radii R as fractions of the scene size S. In the benchmark scenes (S = 4 m) they
+/// are 0.08, 0.4 and 1.2 m.
 const double DEFAULT_SIZES[] = { 0.02, 0.1, 0.3 };
 const char *const SCALING_SCENE_NAME = "torus_knot, generated";
 
 using SceneCache = LastValue<ScalingScene, std::shared_ptr<const Scene>>;
 
+/// Whether a configuration has cells of settings with QualitySetting::is_expensive.
 enum class ExpensiveSettings { MEASURED, SKIPPED };
 
-/// Reduces a name to letters, digits and underscores, for file names.
+/// Returns a name as part of a file name: at most 40 letters, digits and underscores.
 std::string make_slug(const std::string &p_text) {
 	std::string slug;
 	for (const char letter : p_text) {
@@ -36,7 +38,7 @@ std::string make_record_name(
 	return make_slug(p_scene) + "-" + make_slug(p_what) + "-" + format_hash(p_hash);
 }
 
-uint64_t add_light(const LightSnapshot &p_light, uint64_t p_hash) {
+uint64_t hash_light(const LightSnapshot &p_light, uint64_t p_hash) {
 	p_hash = p_light.compute_hash(p_hash);
 	for (const float value : { p_light.inner_cone_rad, p_light.penumbra_outer_width_m,
 				 p_light.penumbra_inner_width_m }) {
@@ -49,7 +51,7 @@ uint64_t add_light(const LightSnapshot &p_light, uint64_t p_hash) {
 	return p_hash;
 }
 
-uint64_t add_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
+uint64_t hash_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
 	p_hash = p_instance.compute_hash(p_hash);
 	p_hash = compute_value_hash(p_instance.is_planar_receiver, p_hash);
 	p_hash = compute_value_hash(p_instance.material->scatter, p_hash);
@@ -57,30 +59,59 @@ uint64_t add_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
 	return compute_value_hash(p_instance.material->is_double_sided, p_hash);
 }
 
-/// 64-bit hash of everything that the mask may depend on: the casters and their transforms, the
-/// scattering materials, the camera, the light (all lights when the question names none) with all
-/// its properties, and the size of the image.
-uint64_t compute_question_hash(const MaskQuestion &p_question) {
-	const SceneSnapshot &scene = *p_question.scene;
+/// Hashes what only a lit image depends on: colours of lights and materials. Textures count by
+/// their materials' other values only.
+uint64_t hash_appearance(const SceneSnapshot &p_scene, uint64_t p_hash) {
+	for (const LightSnapshot &light : p_scene.lights) {
+		p_hash = compute_value_hash(light.color, p_hash);
+		p_hash = compute_value_hash(light.intensity, p_hash);
+	}
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		const Material &material = *instance.material;
+		p_hash = compute_value_hash(material.base_color, p_hash);
+		p_hash = compute_value_hash(material.emissive, p_hash);
+		p_hash = compute_value_hash(material.metallic, p_hash);
+		p_hash = compute_value_hash(material.roughness, p_hash);
+	}
+	return p_hash;
+}
+
+/// Returns a 64-bit hash of everything that the mask may depend on: meshes and their transforms,
+/// scattering and transmission of materials, the camera, the scene size S, the light with all its
+/// properties, mask filters and the size of the image; if next_scene is set also the meshes, lights
+/// and camera one frame later. If the task names no light, it is for a lit image, which depends on
+/// all lights and on the colours.
+uint64_t compute_task_hash(const MaskTask &p_task) {
+	const SceneSnapshot &scene = *p_task.scene;
 	uint64_t hash = scene.camera.compute_hash(1);
 	hash = compute_value_hash(scene.scene_size_m, hash);
 	for (const InstanceSnapshot &instance : scene.instances) {
-		hash = add_instance(instance, hash);
+		hash = hash_instance(instance, hash);
 	}
 	for (const LightSnapshot &light : scene.lights) {
-		if (p_question.light.empty() || light.name == p_question.light) {
-			hash = add_light(light, hash);
+		if (p_task.light.empty() || light.name == p_task.light) {
+			hash = hash_light(light, hash);
 		}
 	}
-	for (size_t index = 0; p_question.next_scene && index < p_question.next_scene->instances.size();
-			++index) {
-		hash = add_instance(p_question.next_scene->instances[index], hash);
+	if (p_task.light.empty()) {
+		hash = hash_appearance(scene, hash);
 	}
-	hash = compute_value_hash(p_question.filter_hash, hash);
-	return compute_value_hash(p_question.size_px, hash);
+	for (size_t index = 0; p_task.next_scene && index < p_task.next_scene->instances.size();
+			++index) {
+		hash = hash_instance(p_task.next_scene->instances[index], hash);
+	}
+	if (p_task.next_scene) {
+		hash = p_task.next_scene->camera.compute_hash(hash);
+		for (const LightSnapshot &light : p_task.next_scene->lights) {
+			hash = hash_light(light, hash);
+		}
+	}
+	hash = compute_value_hash(p_task.filter_hash, hash);
+	return compute_value_hash(p_task.size_px, hash);
 }
 
-PropertyValues derive_widths() {
+/// Returns the value -1 for both penumbra widths, r and t: it derives them from the light's size.
+PropertyValues make_derived_widths() {
 	return { { "penumbra_outer_width", -1.0 }, { "penumbra_inner_width", -1.0 } };
 }
 
@@ -88,15 +119,16 @@ bool casts_shadow(const Light3D &p_light) {
 	return get_bool(Light3D::get_property_list(), p_light.properties, "shadow_enabled");
 }
 
+/// Builds a ReportPlan, see make_report_plan.
 class Planner {
 public:
-	Planner(const ReportOptions &p_options, const std::vector<TechniqueSource> &p_techniques) :
+	Planner(const ReportOptions &p_options, const std::vector<MeasurableTechnique> &p_techniques) :
 			options(p_options), techniques(p_techniques) {
 		plan.report.project = options.project;
 		plan.report.program = options.program;
 		plan.report.sample_count = options.sample_count;
 		plan.report.precision_percent = options.precision_percent;
-		for (const TechniqueSource &technique : techniques) {
+		for (const MeasurableTechnique &technique : techniques) {
 			plan.report.techniques.push_back(technique.info);
 		}
 	}
@@ -121,9 +153,8 @@ public:
 	void add_parts() {
 		for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
 			info.part->plan(options,
-					[this](ReportConfiguration p_configuration,
-							ReportPlan::MakeQuestion p_make_question) {
-						add_configuration(std::move(p_configuration), std::move(p_make_question),
+					[this](ReportConfiguration p_configuration, ReportPlan::MakeTask p_make_task) {
+						add_configuration(std::move(p_configuration), std::move(p_make_task),
 								ExpensiveSettings::SKIPPED);
 					});
 		}
@@ -136,8 +167,7 @@ private:
 		p_configuration.status = ReportStatus::FAILED;
 		p_configuration.message = p_message;
 		plan.report.configurations.push_back(std::move(p_configuration));
-		plan.questions.push_back(
-				[p_message](const PropertyValues &) -> MaskQuestion { fail(p_message); });
+		plan.tasks.push_back([p_message](const PropertyValues &) -> MaskTask { fail(p_message); });
 	}
 
 	/// Adds a failed configuration for a scene that cannot be measured at all.
@@ -176,7 +206,7 @@ private:
 		}
 	}
 
-	/// The scene as its camera sees it, with the shadows of all its lights or without any.
+	/// Plans a lit image of the scene, with the shadows of all its lights or without any shadows.
 	void add_scene_image(const std::string &p_scene,
 			const std::shared_ptr<const SceneSnapshot> &p_snapshot, bool p_has_shadows) {
 		auto shown = std::make_shared<SceneSnapshot>(*p_snapshot);
@@ -187,7 +217,7 @@ private:
 		image.scene = p_scene;
 		image.has_shadows = p_has_shadows;
 		const uint64_t hash = compute_value_hash(p_has_shadows,
-				compute_question_hash({ p_snapshot, "", options.size_px, options.filter_hash }));
+				compute_task_hash({ p_snapshot, "", options.size_px, options.filter_hash }));
 		image.record = make_record_name(p_scene, p_has_shadows ? "with_shadows" : "without_shadows",
 				compute_text_hash(options.program, hash));
 		plan.report.scene_images.push_back(std::move(image));
@@ -212,8 +242,8 @@ private:
 					configuration,
 					[=, &p_camera, &r_light, filter_hash = options.filter_hash](
 							const PropertyValues &p_properties) {
-						return MaskQuestion{ build_variant(*p_scene, p_camera, r_light, variant,
-													 p_properties),
+						return MaskTask{ build_variant(*p_scene, p_camera, r_light, variant,
+												 p_properties),
 							r_light.name, size_px, filter_hash };
 					},
 					index == p_sizes_m.size() / 2 ? ExpensiveSettings::MEASURED
@@ -248,26 +278,25 @@ private:
 				[=](const PropertyValues &) {
 					const auto scene = p_cache->get(
 							description, [&] { return make_scaling_scene(description); });
-					return MaskQuestion{ build_snapshot(
-												 *scene, *scene->find_nodes<Camera3D>().front()),
+					return MaskTask{ build_snapshot(*scene, *scene->find_nodes<Camera3D>().front()),
 						has_many ? "" : "Light 1", size_px };
 				},
 				ExpensiveSettings::SKIPPED);
 	}
 
-	/// Fills in the scene's data and plans the cells.
-	void add_configuration(ReportConfiguration p_configuration,
-			ReportPlan::MakeQuestion p_make_question, ExpensiveSettings p_expensive) {
-		MaskQuestion question;
+	/// Sets the data of the configuration that follow from its scene, and plans its cells.
+	void add_configuration(ReportConfiguration p_configuration, ReportPlan::MakeTask p_make_task,
+			ExpensiveSettings p_expensive) {
+		MaskTask task;
 		try {
-			question = p_make_question(derive_widths());
+			task = p_make_task(make_derived_widths());
 		} catch (const Error &error) {
 			add_failure(std::move(p_configuration), error.what());
 			return;
 		}
 		const LightSnapshot &light = p_configuration.light.empty()
-				? question.scene->lights.front()
-				: get_light(*question.scene, p_configuration.light);
+				? task.scene->lights.front()
+				: get_light(*task.scene, p_configuration.light);
 		p_configuration.light_type = get_light_type_name(light.type);
 		if (light.type == LightType::DIRECTIONAL) {
 			p_configuration.light_angular_distance_deg = light.light_angular_distance_deg;
@@ -277,24 +306,24 @@ private:
 					? p_configuration.value
 					: light.light_size_m;
 		}
-		p_configuration.scene_size_m = question.scene->scene_size_m;
-		const CasterCounts casters = count_casters(*question.scene, &light);
+		p_configuration.scene_size_m = task.scene->scene_size_m;
+		const CasterCounts casters = count_casters(*task.scene, &light);
 		p_configuration.triangle_count = casters.triangle_count;
 		p_configuration.edge_count = casters.edge_count;
-		// Configurations without a reference need none.
+		// A configuration without a reference has nothing to trace, so it is never MISSING.
 		p_configuration.status =
 				p_configuration.has_reference() ? ReportStatus::MISSING : ReportStatus::OK;
 		if (p_configuration.has_reference()) {
 			const uint64_t hash =
-					compute_text_hash(text(options.sample_count), compute_question_hash(question));
+					compute_text_hash(text(options.sample_count), compute_task_hash(task));
 			p_configuration.record = make_record_name(p_configuration.scene, "reference_mask",
 					compute_text_hash(options.program, hash));
 		}
 		const size_t index = plan.report.configurations.size();
 		plan.report.configurations.push_back(p_configuration);
-		plan.questions.push_back(p_make_question);
-		for (const TechniqueSource &technique : techniques) {
-			if (technique.applies && !technique.applies(question)) {
+		plan.tasks.push_back(p_make_task);
+		for (const MeasurableTechnique &technique : techniques) {
+			if (technique.applies && !technique.applies(task)) {
 				continue;
 			}
 			std::vector<QualitySetting> settings = technique.get_settings(light);
@@ -302,7 +331,8 @@ private:
 				settings.clear();
 			}
 			if (!p_configuration.is_matrix()) {
-				// Expensive settings mean brute force: many times the cost of other techniques.
+				// Outside the matrix only default settings are measured. A technique with expensive
+				// settings is a brute-force one; quick scaling curves omit it.
 				const bool is_expensive = std::any_of(settings.begin(), settings.end(),
 						[](const QualitySetting &p_setting) { return p_setting.is_expensive; });
 				if (is_expensive && !p_configuration.has_reference() &&
@@ -325,8 +355,9 @@ private:
 	void add_cell(size_t p_configuration, const std::string &p_technique,
 			const QualitySetting &p_setting) {
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
+		// Stability scenes set the penumbra widths themselves (sweep "fin_width").
 		PropertyValues properties =
-				configuration.is_stability() ? PropertyValues() : derive_widths();
+				configuration.is_stability() ? PropertyValues() : make_derived_widths();
 		ReportCell cell;
 		cell.configuration_index = p_configuration;
 		cell.technique = p_technique;
@@ -335,7 +366,7 @@ private:
 			properties[name] = value;
 			cell.properties[name] = format_property(value);
 		}
-		uint64_t hash = compute_question_hash(plan.questions[p_configuration](properties));
+		uint64_t hash = compute_task_hash(plan.tasks[p_configuration](properties));
 		for (const std::string &part : { p_technique, p_setting.name, options.program,
 					 text(options.precision_percent),
 					 configuration.has_reference() ? text(options.sample_count) : std::string() }) {
@@ -347,7 +378,7 @@ private:
 	}
 
 	const ReportOptions &options;
-	const std::vector<TechniqueSource> &techniques;
+	const std::vector<MeasurableTechnique> &techniques;
 	ReportPlan plan;
 };
 
@@ -377,7 +408,7 @@ ReportView find_report_view(const ReportScene &p_scene) {
 
 ReportPlan make_report_plan(const ReportOptions &p_options,
 		const std::vector<ReportScene> &p_scenes,
-		const std::vector<TechniqueSource> &p_techniques) {
+		const std::vector<MeasurableTechnique> &p_techniques) {
 	Planner planner(p_options, p_techniques);
 	for (const ReportScene &scene : p_scenes) {
 		planner.add_scene(scene);

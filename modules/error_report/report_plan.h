@@ -13,61 +13,69 @@
 
 namespace gnomon {
 
-inline constexpr const char *PROJECT_SCENES_SWEEP = "scenes"; // see ReportOptions::stability_scenes
+/// Id of the stability sweep over ReportOptions::stability_scenes.
+inline constexpr const char *PROJECT_SCENES_SWEEP = "scenes";
 
-/// A scene of a project, or why it could not be loaded.
+/// A scene of a project, or the reason why it could not be loaded.
 struct ReportScene {
 	std::string name;
-	std::shared_ptr<const Scene> scene;
-	std::string failure;
+	std::shared_ptr<const Scene> scene; // null: loading failed
+	std::string failure;				// error message if loading failed
 };
 
-/// The camera and the lights of a scene that are measured.
+/// The camera of a scene and the lights whose masks are measured.
 struct ReportView {
-	Camera3D *camera = nullptr;
-	std::vector<Light3D *> lights; // those that cast shadows; at least one
+	Camera3D *camera = nullptr;	   // the first of the scene
+	std::vector<Light3D *> lights; // all that cast shadows; at least one
 };
-/// Throws an Error when the scene was not loaded, has no camera, or no light that casts shadows.
+/// Throws an Error if the scene was not loaded, has no camera, or has no light that casts shadows.
 ReportView find_report_view(const ReportScene &p_scene);
 
+/// Selects what a report measures.
 struct ReportOptions {
-	std::string project;
-	std::string program;			   // version and hash; other programs measure again
-	std::vector<double> sizes_m;	   // R in metres; empty: 0.02, 0.1 and 0.3 S of each scene
-	bool has_own_sizes = false;		   // instead of those: the size that each light has
-	bool has_default_settings = false; // true: only each technique's default quality level
-	/// Types that the first shadow-casting light of each scene takes in turn. Empty: all lights
-	/// that cast shadows, as they are.
+	std::string project;			   // name
+	std::string program;			   // version and hash; records of other programs are not reused
+	std::vector<double> sizes_m;	   // light radii R in metres; empty: 0.02, 0.1 and 0.3 S
+	bool has_own_sizes = false;		   // true: each light's own size, instead of sizes_m
+	bool has_default_settings = false; // true: only the default quality of each technique
+	/// The first shadow-casting light of each scene is measured once with each of these types.
+	/// Empty: all shadow-casting lights with their own types.
 	std::vector<LightType> light_types;
 	glm::uvec2 size_px = glm::uvec2(256u);
-	uint32_t sample_count = 1024; // of the reference
-	double precision_percent = 5; // see Report; a third of what a comparison calls a change
-	uint64_t filter_hash = 0;	  // see MaskQuestion
+	uint32_t sample_count = 1024; // rays per pixel of the references
+	/// See Report::precision_percent. A third of the 15 % that compare_reports treats as noise.
+	double precision_percent = 5;
+	uint64_t filter_hash = 0; // see MaskTask::filter_hash
 	ReportExtent scaling = ReportExtent::QUICK;
-	ReportExtent stability = ReportExtent::QUICK; // NONE where no module adds the sweeps
-	std::vector<std::string> sweeps;			  // of stability; empty: all
-	std::vector<ReportScene> stability_scenes;	  // of the sweep "scenes"
-	ReportExtent animation = ReportExtent::QUICK;
-	std::vector<ReportScene> animated_scenes; // those without an animation are skipped
+	ReportExtent stability = ReportExtent::QUICK; // NONE if the build has no stability_report
+	std::vector<std::string> sweeps;			  // ids of stability sweeps; empty: all
+	std::vector<ReportScene> stability_scenes;	  // scenes of the sweep PROJECT_SCENES_SWEEP
+	ReportExtent animation = ReportExtent::QUICK; // of ANIMATION_GROUP; the option --change
+	std::vector<ReportScene> animated_scenes;	  // scenes without an animation are skipped
 
+	/// Returns whether the stability sweep is to be measured.
 	bool has_sweep(const std::string &p_id) const;
 };
 
-/// The planned measurements: a report whose references and cells are still missing, and how to
-/// compute each. Questions are built on demand, since a scene may have a million triangles.
+/// The planned measurements: a report whose references and cells are MISSING, and functions that
+/// build the scenes to measure. The scenes are built on demand, since each may have a million
+/// triangles.
 struct ReportPlan {
 	Report report;
-	std::vector<std::shared_ptr<const SceneSnapshot>> shown_scenes; // of Report::scene_images
-	/// One per configuration; throws an Error where the scene cannot be shown. The properties
-	/// replace those of the light.
-	using MakeQuestion = std::function<MaskQuestion(const PropertyValues &)>;
-	std::vector<MakeQuestion> questions;
-	std::vector<PropertyValues> settings; // one per cell
+	std::vector<std::shared_ptr<const SceneSnapshot>> shown_scenes; // one per Report::scene_images
+	/// Builds the task of a configuration; the argument overrides properties of the light.
+	/// Throws an Error if the scene could not be loaded or the light is invalid.
+	using MakeTask = std::function<MaskTask(const PropertyValues &)>;
+	std::vector<MakeTask> tasks;		  // one per configuration
+	std::vector<PropertyValues> settings; // one per cell: the argument for its MakeTask
 };
 
-/// Plans the whole matrix in a fixed order: scenes, lights, sizes, techniques, settings. Names each
-/// record after what it depends on, so that a later run finds it again.
+/// Plans all measurements in a fixed order: the matrix (scenes, lights, sizes, techniques,
+/// settings), the scaling curves and the report parts. A record's name contains a hash of
+/// everything that its result depends on, so that a resumed run finds it. Scenes that cannot be
+/// measured become configurations with the status FAILED.
 ReportPlan make_report_plan(const ReportOptions &p_options,
-		const std::vector<ReportScene> &p_scenes, const std::vector<TechniqueSource> &p_techniques);
+		const std::vector<ReportScene> &p_scenes,
+		const std::vector<MeasurableTechnique> &p_techniques);
 
 } // namespace gnomon

@@ -16,6 +16,7 @@ namespace {
 
 const char *const BEST_IN_EACH = "best in each";
 
+/// Returns whether a cell has an error over penumbra pixels.
 bool is_comparable(const ReportCell &p_cell) {
 	return p_cell.is_ok() && p_cell.error && p_cell.error->all.penumbra.pixel_count > 0;
 }
@@ -28,10 +29,10 @@ double get_mae(const ReportCell &p_cell) {
 	return p_cell.error->all.penumbra.mae;
 }
 
-/// The sum plus p_share of the value; absent when either is absent.
-std::optional<double> add_share(
-		const std::optional<double> &p_sum, const std::optional<double> &p_value, double p_share) {
-	return p_sum && p_value ? std::optional(*p_sum + *p_value * p_share) : std::nullopt;
+/// Returns p_sum + p_value * p_weight; nullopt if either is unset.
+std::optional<double> add_weighted(
+		const std::optional<double> &p_sum, const std::optional<double> &p_value, double p_weight) {
+	return p_sum && p_value ? std::optional(*p_sum + *p_value * p_weight) : std::nullopt;
 }
 
 RankingRow summarize(const Report &p_report, const std::string &p_technique,
@@ -49,14 +50,14 @@ RankingRow summarize(const Report &p_report, const std::string &p_technique,
 	for (const size_t index : p_cells) {
 		const ReportCell &cell = p_report.cells[index];
 		const MaskMetrics &all = cell.error->all;
-		const double share = 1.0 / double(p_cells.size());
-		row.penumbra_mae += all.penumbra.mae * share;
-		row.penumbra_rmse += all.penumbra.rmse * share;
-		row.penumbra_p99 += all.penumbra.p99 * share;
-		row.penumbra_bias += all.penumbra.bias * share;
-		row.penumbra_wrong = add_share(row.penumbra_wrong, all.penumbra.wrong, share);
-		row.receiver_wrong = add_share(row.receiver_wrong, all.receiver.wrong, share);
-		row.umbra_over += all.umbra_over * share;
+		const double weight = 1.0 / double(p_cells.size());
+		row.penumbra_mae += all.penumbra.mae * weight;
+		row.penumbra_rmse += all.penumbra.rmse * weight;
+		row.penumbra_p99 += all.penumbra.p99 * weight;
+		row.penumbra_bias += all.penumbra.bias * weight;
+		row.penumbra_wrong = add_weighted(row.penumbra_wrong, all.penumbra.wrong, weight);
+		row.receiver_wrong = add_weighted(row.receiver_wrong, all.receiver.wrong, weight);
+		row.umbra_over += all.umbra_over * weight;
 		if (cell.error->whole_light.penumbra.pixel_count > 0) {
 			whole_light_sum += cell.error->whole_light.penumbra.mae;
 			++whole_light_count;
@@ -76,7 +77,8 @@ RankingRow summarize(const Report &p_report, const std::string &p_technique,
 	return row;
 }
 
-/// Rows by ascending error, from lists of cells keyed by technique and setting.
+/// Returns the rows in ascending order of penumbra_mae. p_lists: cell indices by technique and
+/// setting.
 std::vector<RankingRow> summarize_all(const Report &p_report,
 		const std::map<std::pair<std::string, std::string>, std::vector<size_t>> &p_lists) {
 	std::vector<RankingRow> rows;

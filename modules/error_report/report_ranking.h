@@ -10,39 +10,43 @@
 
 namespace gnomon {
 
-/// One technique with one setting over all the configurations in which it was measured. Errors are
-/// means, times medians.
+/// Summary of one technique with one setting over all configurations in which it was measured.
+/// Errors are means, cost_ms and time_ratio are medians.
 struct RankingRow {
 	std::string technique;
-	std::string setting; // "best in each" where it is chosen separately in each configuration
+	std::string setting; // "best in each" if chosen separately in each configuration
 	size_t configuration_count = 0;
 	double penumbra_mae = 0;
 	double penumbra_rmse = 0;
 	double penumbra_p99 = 0;
 	double penumbra_bias = 0;
-	/// ErrorMetrics::wrong; absent when a cell comes from a report without it.
+	/// Means of ErrorMetrics::wrong; unset if a cell has no such value (from an older report).
 	std::optional<double> penumbra_wrong;
 	std::optional<double> receiver_wrong;
-	double umbra_over = 0;
-	std::optional<double> whole_light_penumbra_mae; // absent when there are no such pixels
+	double umbra_over = 0;							// see MaskMetrics
+	std::optional<double> whole_light_penumbra_mae; // unset if there are no such pixels
 	double cost_ms = 0;
-	std::optional<double> time_ratio;
+	std::optional<double> time_ratio; // see Report::compute_time_ratio; unset without a baseline
 };
 
-/// Settings, sorted by ascending mean error over the configurations of the matrix.
+/// Returns one row per technique and setting over the configurations of the matrix, sorted by
+/// ascending penumbra_mae. Cells without an error or without penumbra pixels are ignored.
 std::vector<RankingRow> rank_settings(const Report &p_report);
-/// Techniques, sorted in the same way, each with the setting of least error per configuration.
+/// Returns one row per technique, sorted in the same way. In each configuration the setting with
+/// the lowest penumbra error is used.
 std::vector<RankingRow> rank_best_settings(const Report &p_report);
 
-/// The Pareto front of a configuration: cells for which no other is both cheaper and closer to the
-/// reference, by ascending cost. Cells without error or time are not on it.
+/// Returns the Pareto front of a configuration as cell indices in ascending order of cost_ms: the
+/// cells for which no other cell is both cheaper and closer to the reference. Cells without an
+/// error or without penumbra pixels are ignored.
 std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configuration);
-/// The cell of least error whose cost is within the budget; none when there is no such cell.
+/// Returns the cell with the lowest penumbra error among those with cost_ms <= p_budget_ms; nullopt
+/// if there is none.
 std::optional<size_t> find_within_budget(
 		const Report &p_report, size_t p_configuration, double p_budget_ms);
 
+// Return the values of "ranking" and "best_settings", and of "scaling", in report.json.
 nlohmann::ordered_json to_json(const std::vector<RankingRow> &p_rows);
-/// One plot for each group of the scaling curves that was measured, points by rising value.
 nlohmann::ordered_json scaling_to_json(const Report &p_report);
 
 } // namespace gnomon

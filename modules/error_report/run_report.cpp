@@ -20,9 +20,10 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask of a part
+/// Masks of report parts (stability sweeps) with more pixels are not stored as images.
+const size_t MAX_SHOWN_PIXEL_COUNT = size_t(1) << 20;
 
-/// The mask with only those receivers whose pixel is not 0 in p_is_included.
+/// Returns the mask without the receivers whose p_is_included is 0.
 MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_included) {
 	MaskImage restricted = p_mask;
 	for (size_t index = 0; index < restricted.receiver.size(); ++index) {
@@ -34,7 +35,7 @@ MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_i
 	return restricted;
 }
 
-/// Grey and alpha; pixels without a receiver are transparent.
+/// Encodes a mask as a PNG with grey and alpha; pixels without a receiver are transparent.
 std::vector<uint8_t> encode_reference_png(const MaskImage &p_mask) {
 	const std::vector<uint8_t> grey = compute_mask_pixels(p_mask);
 	std::vector<uint8_t> pixels;
@@ -45,20 +46,22 @@ std::vector<uint8_t> encode_reference_png(const MaskImage &p_mask) {
 	return encode_png(p_mask.size_px, 2, pixels);
 }
 
-/// Runs a task that may fail; returns its error message, or nothing on success. A lost device is
-/// thrown on.
-template <typename Work> std::optional<std::string> find_failure(Work p_work) {
+/// Calls p_work and returns the message of its exception, or nullopt on success. DeviceLost is
+/// rethrown.
+template <typename Work> std::optional<std::string> try_run(Work p_work) {
 	try {
 		p_work();
 		return std::nullopt;
 	} catch (const DeviceLost &error) {
-		// All remaining tasks would fail too. They are not marked, so that a resume measures them.
+		// All remaining cells would fail too. They stay MISSING, so that a resumed run measures
+		// them.
 		throw DeviceLost(text(error.what(), " What was measured is saved: go on with --resume."));
 	} catch (const std::exception &error) {
 		return describe_failure(error);
 	}
 }
 
+/// Measures a plan, see run_report.
 class Runner {
 public:
 	Runner(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
@@ -68,9 +71,9 @@ public:
 			machine(r_source.get_machine()) {}
 
 	Report run() {
-		load_earlier();
+		load_existing_records();
 		for (size_t index = 0; index < report.configurations.size(); ++index) {
-			if (is_mine(index)) {
+			if (is_in_shard(index)) {
 				run_scene_images(report.configurations[index].scene);
 				run_configuration(index);
 			}
@@ -79,22 +82,25 @@ public:
 	}
 
 private:
-	bool is_mine(size_t p_configuration) const {
+	/// Returns whether this shard measures the configuration.
+	bool is_in_shard(size_t p_configuration) const {
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
 		if (configuration.is_stability()) {
-			// Shards get whole curves, since a curve's points are judged by its centre.
+			// A shard gets whole curves, since points are compared with the centre of their curve.
 			const uint64_t hash = compute_text_hash(
 					configuration.light_type, compute_text_hash(configuration.sweep, 1));
 			return hash % options.shard_count == options.shard_index;
 		}
-		// Shards are diagonals of the matrix: a light's sizes follow each other in the plan, and
-		// the middle ones have the expensive settings.
+		// In each block of shard_count configurations, the shards are rotated by one. The sizes of
+		// a light are adjacent in the plan, and only the middle one has expensive settings: with
+		// plain index modulo count, some shards might get all of these.
 		return (p_configuration + p_configuration / options.shard_count) % options.shard_count ==
 				options.shard_index;
 	}
 
-	/// Loads the existing records or removes those of this shard, and counts the remaining cells.
-	void load_earlier() {
+	/// Loads the existing records (resume) or deletes those of this shard, and counts the cells of
+	/// this shard that remain to be measured.
+	void load_existing_records() {
 		if (options.resumes) {
 			report = collect_report(plan.report, store, &machine);
 			retry_failures();
@@ -103,24 +109,26 @@ private:
 		}
 		size_t present_count = 0;
 		for (const ReportCell &cell : report.cells) {
-			if (is_mine(cell.configuration_index)) {
-				(cell.status == ReportStatus::MISSING ? left_count : present_count) += 1;
+			if (is_in_shard(cell.configuration_index)) {
+				(cell.status == ReportStatus::MISSING ? remaining_count : present_count) += 1;
 			}
 		}
 		if (options.resumes) {
-			log_info("Resuming: ", present_count, " cells are there, ", left_count, " are left.");
+			log_info("Resuming: ", present_count, " cells are there, ", remaining_count,
+					" are left.");
 		}
 	}
 
-	/// Removes this shard's reference and cell records, except those that other shards need too.
+	/// Deletes this shard's records of references and cells, except those that a configuration of
+	/// another shard shares.
 	void remove_own_records() {
 		std::set<std::string> own;
 		std::set<std::string> others;
 		for (size_t index = 0; index < report.configurations.size(); ++index) {
-			(is_mine(index) ? own : others).insert(report.configurations[index].record);
+			(is_in_shard(index) ? own : others).insert(report.configurations[index].record);
 		}
 		for (const ReportCell &cell : report.cells) {
-			(is_mine(cell.configuration_index) ? own : others).insert(cell.record);
+			(is_in_shard(cell.configuration_index) ? own : others).insert(cell.record);
 		}
 		for (const std::string &record : own) {
 			if (others.count(record) == 0) {
@@ -129,7 +137,8 @@ private:
 		}
 	}
 
-	/// Resets what failed to its planned state, so that it runs again: the cause may be gone.
+	/// Resets failed references, images and cells to their planned state, so that they are measured
+	/// again: the cause of the failure may be gone.
 	void retry_failures() {
 		const auto retry = [](auto &r_items, const auto &p_planned) {
 			for (size_t index = 0; index < r_items.size(); ++index) {
@@ -143,7 +152,7 @@ private:
 		retry(report.cells, plan.report.cells);
 	}
 
-	/// Draws the missing images of a scene. Called before each configuration of the scene.
+	/// Draws the images of a scene that are still missing.
 	void run_scene_images(const std::string &p_scene) {
 		for (size_t index = 0; index < report.scene_images.size(); ++index) {
 			ReportSceneImage &shown = report.scene_images[index];
@@ -152,7 +161,7 @@ private:
 			}
 			std::vector<uint8_t> image;
 			const glm::uvec2 size_px = find_scene_size(p_scene);
-			const std::optional<std::string> failure = find_failure([&] {
+			const std::optional<std::string> failure = try_run([&] {
 				image = encode_png(
 						size_px, 4, source.draw_scene(plan.shown_scenes[index], size_px));
 			});
@@ -187,7 +196,7 @@ private:
 		for (const size_t cell : missing) {
 			run_cell(cell);
 			++done_count;
-			progress.update(double(done_count) / double(left_count));
+			progress.update(double(done_count) / double(remaining_count));
 		}
 		if (options.on_progress && !missing.empty()) {
 			options.on_progress(report);
@@ -197,12 +206,12 @@ private:
 	void run_reference(size_t p_index) {
 		ReportConfiguration &configuration = report.configurations[p_index];
 		std::vector<uint8_t> image;
-		const std::optional<std::string> failure = find_failure([&] {
-			const MaskQuestion question = plan.questions[p_index]({});
+		const std::optional<std::string> failure = try_run([&] {
+			const MaskTask task = plan.tasks[p_index]({});
 			if (const ReportPart *part = ReportPartRegistry::find_part(configuration.group)) {
-				references = part->trace_references(source, question, report.sample_count);
+				references = part->trace_references(source, task, report.sample_count);
 			} else {
-				references.push_back(source.trace_reference(question, report.sample_count));
+				references.push_back(source.trace_reference(task, report.sample_count));
 			}
 			image = encode_reference_png(references.front().mask);
 		});
@@ -219,7 +228,7 @@ private:
 				configuration.record + ".png", metrics.receiver.pixel_count,
 				metrics.penumbra.pixel_count };
 		} else {
-			return; // measured by the interrupted run
+			return; // an earlier run stored it; it was traced again only to measure cells
 		}
 		store.save(configuration.record, reference_result_to_json(configuration), image);
 	}
@@ -227,7 +236,7 @@ private:
 	void run_cell(size_t p_index) {
 		ReportCell &cell = report.cells[p_index];
 		const ReportConfiguration &configuration = report.configurations[cell.configuration_index];
-		// One question may be on several curves; it is measured once.
+		// Curves may have a point in common; its record is measured only once.
 		if (measured.count(cell.record) != 0) {
 			if (const std::optional<Json> content = store.load(cell.record)) {
 				read_cell_result(*content, report, cell);
@@ -235,7 +244,7 @@ private:
 			}
 		}
 		std::vector<uint8_t> image;
-		const std::optional<std::string> failure = find_failure([&] {
+		const std::optional<std::string> failure = try_run([&] {
 			if (configuration.has_reference() && configuration.status != ReportStatus::OK) {
 				fail("Its reference failed: ", configuration.message);
 			}
@@ -251,25 +260,24 @@ private:
 		}
 		const Json content = cell_result_to_json(cell, machine);
 		store.save(cell.record, content, image);
-		read_cell_result(content, report, cell);
+		read_cell_result(content, report, cell); // also sets the index of this run's machine
 		measured.insert(cell.record);
 	}
 
 	void measure(ReportCell &r_cell, std::vector<uint8_t> &r_image) {
 		const size_t index = size_t(&r_cell - report.cells.data());
-		const MaskQuestion question =
-				plan.questions[r_cell.configuration_index](plan.settings[index]);
+		const MaskTask task = plan.tasks[r_cell.configuration_index](plan.settings[index]);
 		const ReportConfiguration &configuration =
 				report.configurations[r_cell.configuration_index];
 		if (const ReportPart *part = ReportPartRegistry::find_part(configuration.group)) {
-			const MaskImage mask = part->run_cell(source, question, references, report, index);
-			if (mask.get_pixel_count() > 0 && mask.get_pixel_count() <= MOST_SHOWN_PIXELS) {
-				r_image = encode_png(question.size_px, 1, compute_mask_pixels(mask));
+			const MaskImage mask = part->run_cell(source, task, references, report, index);
+			if (mask.get_pixel_count() > 0 && mask.get_pixel_count() <= MAX_SHOWN_PIXEL_COUNT) {
+				r_image = encode_png(task.size_px, 1, compute_mask_pixels(mask));
 				r_cell.image = r_cell.record + ".png";
 			}
 			return;
 		}
-		const MeasuredMask measured_mask = source.measure(question, r_cell.technique);
+		const MeasuredMask measured_mask = source.measure(task, r_cell.technique);
 		if (configuration.has_reference()) {
 			const TracedReference &reference = references.front();
 			r_cell.error = ReportError{
@@ -277,7 +285,7 @@ private:
 				compute_mask_metrics(restrict_mask(reference.mask, reference.sees_whole_light),
 						restrict_mask(measured_mask.mask, reference.sees_whole_light)),
 			};
-			r_image = encode_png(question.size_px, 1, compute_mask_pixels(measured_mask.mask));
+			r_image = encode_png(task.size_px, 1, compute_mask_pixels(measured_mask.mask));
 			r_cell.image = r_cell.record + ".png";
 		}
 		r_cell.time = measured_mask.time;
@@ -290,10 +298,10 @@ private:
 	const ReportRunOptions &options;
 	Report report;
 	const ReportMachine machine;
-	std::vector<TracedReference> references; // of the configuration that is running, its own first
-	std::set<std::string> measured;			 // records of this run
-	size_t left_count = 0;
-	size_t done_count = 0;
+	std::vector<TracedReference> references; // see ReportPart::trace_references
+	std::set<std::string> measured;			 // names of the records that this run has stored
+	size_t remaining_count = 0;				 // cells that this run has to measure
+	size_t done_count = 0;					 // of these, measured so far
 	Progress progress{ "Report" };
 };
 

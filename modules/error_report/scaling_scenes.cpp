@@ -12,11 +12,11 @@ namespace gnomon {
 
 namespace {
 
-// Numbers of the study's torus_knot (doc/benchmarks.md, scaling), in metres.
+// Dimensions of the scene torus_knot as demo_project/scenes/make_scenes.py builds it, in metres.
 const double KNOT_SCALE_M = 0.36;
-const glm::dvec3 KNOT_MIDDLE(0.0, 1.4, 0.0);
+const glm::dvec3 KNOT_CENTER(0.0, 1.4, 0.0);
 const double TUBE_RADIUS_M = 0.16;
-const double ALONG_PER_AROUND = 500.0 / 30.0;
+const double ALONG_TO_AROUND_RATIO = 500.0 / 30.0; // quads along the tube per quad around it
 const uint32_t GROUND_TRIANGLE_COUNT = 12;
 const glm::vec3 GROUND_HALF_SIZE_M(4.2f, 0.2f, 4.2f);
 const glm::dvec3 LIGHT_POSITION(1.8, 6.0, 1.2);
@@ -26,32 +26,33 @@ const glm::dvec3 CAMERA_POSITION(-3.2, 4.6, 4.6);
 const glm::dvec3 CAMERA_TARGET(-0.3, 0.45, -0.2);
 const double CAMERA_FOV_RAD = 0.64350110879; // 36.87 degrees
 
-glm::dvec3 compute_knot_point(double p_turn) {
-	const double t = p_turn * 2.0 * std::numbers::pi;
+/// Returns a point on the knot's centre line. p_revolutions: position along the line, period 1.
+glm::dvec3 compute_knot_point(double p_revolutions) {
+	const double t = p_revolutions * 2.0 * std::numbers::pi;
 	const double ring = 2.0 + std::cos(3.0 * t);
-	return KNOT_MIDDLE +
+	return KNOT_CENTER +
 			KNOT_SCALE_M *
 			glm::dvec3(ring * std::cos(2.0 * t), -std::sin(3.0 * t), ring * std::sin(2.0 * t));
 }
 
 std::shared_ptr<const Mesh> make_knot(uint32_t p_triangle_count) {
-	const double around = std::sqrt(p_triangle_count * 0.5 / ALONG_PER_AROUND);
+	const double around = std::sqrt(p_triangle_count * 0.5 / ALONG_TO_AROUND_RATIO);
 	const uint32_t around_count = std::max(3u, static_cast<uint32_t>(std::lround(around)));
 	const uint32_t along_count =
 			std::max(3u, static_cast<uint32_t>(std::lround(p_triangle_count * 0.5 / around_count)));
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
 	for (uint32_t along = 0; along < along_count; ++along) {
-		const double turn = double(along) / along_count;
-		const glm::dvec3 middle = compute_knot_point(turn);
-		const glm::dvec3 forward =
-				glm::normalize(compute_knot_point(turn + 1e-4) - compute_knot_point(turn - 1e-4));
+		const double revolutions = double(along) / along_count;
+		const glm::dvec3 center = compute_knot_point(revolutions);
+		const glm::dvec3 forward = glm::normalize(
+				compute_knot_point(revolutions + 1e-4) - compute_knot_point(revolutions - 1e-4));
 		const glm::dvec3 side = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
 		const glm::dvec3 up = glm::cross(side, forward);
 		for (uint32_t step = 0; step < around_count; ++step) {
 			const double angle = 2.0 * std::numbers::pi * step / around_count;
 			positions.push_back(glm::vec3(
-					middle + TUBE_RADIUS_M * (std::cos(angle) * side + std::sin(angle) * up)));
+					center + TUBE_RADIUS_M * (std::cos(angle) * side + std::sin(angle) * up)));
 			const uint32_t next_along = (along + 1) % along_count;
 			const uint32_t next_step = (step + 1) % around_count;
 			const uint32_t a = along * around_count + step;
@@ -64,6 +65,7 @@ std::shared_ptr<const Mesh> make_knot(uint32_t p_triangle_count) {
 	return make_mesh("knot", std::move(positions), {}, std::move(indices));
 }
 
+/// Returns world_from_node of a node at p_position that looks along -Z at p_target.
 glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
 	return glm::inverse(glm::lookAtRH(p_position, p_target, glm::dvec3(0, 1, 0)));
 }
@@ -86,7 +88,7 @@ void add_lights(Node3D &r_root, const ScalingScene &p_description) {
 	}
 }
 
-/// By extent.
+/// Indexed by ReportExtent.
 const std::vector<ScalingSeries> SERIES[] = {
 	{},
 	{ { TRIANGLES_GROUP, { 2000, 30000, 120000 } }, { LIGHT_SIZE_GROUP, { 0.08, 0.4, 1.2 } },

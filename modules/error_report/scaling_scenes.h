@@ -10,44 +10,51 @@
 
 namespace gnomon {
 
-/// The extent to which a part of the report is measured.
+/// How much of a part of the report is measured.
 enum class ReportExtent {
 	NONE,
-	/// Scaling: three points per curve that a software device draws in seconds, no expensive
-	/// technique. Stability: the ends and the centre of each sweep, at 64 x 64 pixels.
+	/// Scaling: three points per curve, cheap enough for a software device, without techniques that
+	/// have expensive settings. Stability: two or three values of each sweep, the centre among them
+	/// (all values of "guards"), at 64 x 64 pixels and with one type of light ("light_size": with
+	/// all). Animation: 4 moments of each animation.
 	QUICK,
-	FULL, // scaling: 2k to 1M triangles, 1 to 64 lights, 128 to 2048 pixels
+	/// Scaling: 2000 to 1 million triangles, 1 to 64 lights, 128 to 2048 pixels. Stability: all
+	/// values of each sweep, at 128 x 128 pixels. Animation: 16 moments of each animation.
+	FULL,
 };
 
-/// One curve: a group of configurations and the values of its abscissa.
+/// A scaling curve: run time against one quantity.
 struct ScalingSeries {
-	const char *group;
-	std::vector<double> values;
+	const char *group;			// see ReportConfiguration::group
+	std::vector<double> values; // of the quantity, ascending
 };
+/// Returns the curves of that extent; none for NONE.
 const std::vector<ScalingSeries> &get_scaling_series(ReportExtent p_extent);
 
 /// The parameters that the scaling curves vary, one at a time.
 struct ScalingScene {
 	uint32_t triangle_count = 30000; // 1000..2000000; met within 2 %
 	uint32_t light_count = 1;		 // 1..1024
-	double light_size_m = 0.4;		 // R
+	double light_size_m = 0.4;		 // radius R of each light
 
 	bool operator==(const ScalingScene &) const = default;
 };
 
-/// The study's knot over its ground under its spot light, with the requested number of triangles.
-/// Further lights of the same kind are on a circle around it, each aimed at the knot. Lights are
-/// named "Light 1" and so on, the camera "Camera". S is 4 m.
+/// Builds the benchmark scene torus_knot (doc/benchmarks.md), with the requested number of
+/// triangles and lights: a knot above a ground, under spot lights. The lights are evenly spaced on
+/// a horizontal circle and aimed at the same point below the knot. They are named "Light 1", "Light
+/// 2", ..., the camera "Camera". The scene size S is 4 m.
 std::unique_ptr<Scene> make_scaling_scene(const ScalingScene &p_description);
 
-/// Caches the last value: the techniques of one configuration draw the same meshes, whose topology
-/// is then built only once.
+/// A cache with a single entry. The techniques of one configuration use the same scene in
+/// succession, so that the topology of its meshes is built only once.
 template <typename Key, typename Value> class LastValue {
 public:
+	/// Returns the value of the last call if that had the same key, else p_make().
 	template <typename Make> const Value &get(const Key &p_key, Make p_make) {
 		if (key != p_key) {
 			key.reset();
-			value = {}; // before the next one takes memory
+			value = {}; // frees its memory before the next value is built
 			value = p_make();
 			key = p_key;
 		}

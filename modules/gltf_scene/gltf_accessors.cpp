@@ -9,13 +9,15 @@ namespace gnomon {
 
 namespace {
 
-// Reading the same vertices again and again costs a hostile file nothing; it ends here.
+// Limit on all elements read together: a small hostile file could reference the same data many
+// times.
 const uint64_t MAX_DECODED_COUNT = 4 * GLTF_MAX_INDEX_COUNT;
-// Zeros need no bytes in the file, so that nothing else bounds them.
+// Limit on the elements of an accessor without bufferView. They are all zero and need no bytes in
+// the file, so that nothing else limits their number.
 const uint64_t MAX_ZERO_COUNT = uint64_t(1) << 22;
 const char NEXT_STEP[] = "Export the file again.";
 
-bool is_vector_type(int p_component_type) {
+bool is_attribute_type(int p_component_type) {
 	return p_component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
 			(p_component_type >= TINYGLTF_COMPONENT_TYPE_BYTE &&
 					p_component_type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
@@ -35,14 +37,16 @@ std::string describe_type(int p_type) {
 										  : text("\"VEC", count, "\"");
 }
 
-/// "\"VEC3\" or \"VEC4\""
-std::string describe_types(int p_fewest, int p_most) {
+/// Returns for example "\"VEC3\" or \"VEC4\"".
+std::string describe_types(int p_min_components, int p_max_components) {
 	const auto describe = [](int p_count) {
 		return describe_type(p_count == 1 ? TINYGLTF_TYPE_SCALAR
 						: p_count == 16	  ? TINYGLTF_TYPE_MAT4
 										  : p_count);
 	};
-	return p_fewest == p_most ? describe(p_most) : describe(p_fewest) + " or " + describe(p_most);
+	return p_min_components == p_max_components
+			? describe(p_max_components)
+			: describe(p_min_components) + " or " + describe(p_max_components);
 }
 
 size_t get_component_bytes(int p_component_type) {
@@ -52,7 +56,7 @@ size_t get_component_bytes(int p_component_type) {
 
 template <typename T> T load(const uint8_t *p_bytes) {
 	T value;
-	std::memcpy(&value, p_bytes, sizeof(value)); // accessors of careless exporters are not aligned
+	std::memcpy(&value, p_bytes, sizeof(value)); // some exporters do not align accessors
 	return value;
 }
 
@@ -93,7 +97,7 @@ uint32_t read_index(const uint8_t *p_bytes, int p_component_type) {
 } // namespace
 
 struct GltfAccessors::Layout {
-	std::span<const uint8_t> bytes; // from the first element; empty = all zero
+	std::span<const uint8_t> bytes; // from the first element; empty: all elements are zero
 	uint64_t count = 0;
 	int component_type = 0;
 	size_t component_bytes = 0;
@@ -112,7 +116,7 @@ GltfAccessors::GltfAccessors(
 		model(p_model),
 		buffers(p_buffers), messages(p_messages) {}
 
-void GltfAccessors::find_bytes(
+void GltfAccessors::locate_elements(
 		int p_view, size_t p_offset, const std::string &p_path, Layout &r_layout) {
 	const size_t view_index = static_cast<size_t>(p_view);
 	const auto view_bytes = buffers.load_view(model, view_index);
@@ -135,19 +139,19 @@ void GltfAccessors::find_bytes(
 }
 
 GltfAccessors::Layout GltfAccessors::read_layout(
-		size_t p_index, int p_fewest, int p_most, Components p_components) {
+		size_t p_index, int p_min_components, int p_max_components, ComponentTypes p_components) {
 	const tinygltf::Accessor &accessor = model.accessors[p_index];
 	const std::string path = text("accessors[", p_index, "]");
-	const bool is_index = p_components == Components::INDICES;
+	const bool is_index = p_components == ComponentTypes::INDICES;
 	const int component_count = accessor.type == TINYGLTF_TYPE_SCALAR ? 1
 			: accessor.type == TINYGLTF_TYPE_MAT4					  ? 16
 			: accessor.type <= TINYGLTF_TYPE_VEC4					  ? accessor.type
 																	  : 0;
-	if (component_count < p_fewest || component_count > p_most) {
-		messages.fail_value(
-				path + ".type", describe_type(accessor.type), describe_types(p_fewest, p_most));
+	if (component_count < p_min_components || component_count > p_max_components) {
+		messages.fail_value(path + ".type", describe_type(accessor.type),
+				describe_types(p_min_components, p_max_components));
 	}
-	if (!(is_index ? is_index_type : is_vector_type)(accessor.componentType)) {
+	if (!(is_index ? is_index_type : is_attribute_type)(accessor.componentType)) {
 		messages.fail_value(path + ".componentType", text(accessor.componentType),
 				is_index ? "5121, 5123 or 5125" : "5120..5123 or 5126");
 	}
@@ -165,7 +169,7 @@ GltfAccessors::Layout GltfAccessors::read_layout(
 						" elements in all meshes. Split the scene."));
 	}
 	if (accessor.bufferView >= 0) {
-		find_bytes(accessor.bufferView, accessor.byteOffset, path, layout);
+		locate_elements(accessor.bufferView, accessor.byteOffset, path, layout);
 	} else if (layout.count > MAX_ZERO_COUNT) {
 		messages.fail_value(path + ".count", text(layout.count),
 				text("1..", MAX_ZERO_COUNT, " without a bufferView"));
@@ -173,7 +177,8 @@ GltfAccessors::Layout GltfAccessors::read_layout(
 	return layout;
 }
 
-/// Calls p_convert(element index, bytes or null for zero) for all elements, then for sparse ones.
+/// Calls p_convert(element index, pointer to its bytes or null if it is zero) for all elements, and
+/// then again for those that the sparse part replaces.
 template <typename Convert>
 void GltfAccessors::read_elements(
 		size_t p_index, const Layout &p_layout, const Convert &p_convert) {
@@ -193,11 +198,11 @@ void GltfAccessors::read_elements(
 	targets.count = static_cast<uint64_t>(sparse.count);
 	targets.component_type = sparse.indices.componentType;
 	targets.element_bytes = get_component_bytes(targets.component_type);
-	find_bytes(sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset),
+	locate_elements(sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset),
 			path + ".indices", targets);
 	Layout values = p_layout;
 	values.count = targets.count;
-	find_bytes(sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset),
+	locate_elements(sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset),
 			path + ".values", values);
 	for (size_t index = 0; index < targets.count; ++index) {
 		const uint32_t target = read_index(targets.get_element(index), targets.component_type);
@@ -235,14 +240,14 @@ std::shared_ptr<const std::vector<glm::vec3>> GltfAccessors::read_vectors(size_t
 					layout.component_type, layout.is_normalized);
 		}
 	});
-	cache[oldest_entry] = { p_accessor_index, vectors };
-	oldest_entry = 1 - oldest_entry;
+	cache[oldest_entry_index] = { p_accessor_index, vectors };
+	oldest_entry_index = 1 - oldest_entry_index;
 	return vectors;
 }
 
 std::vector<glm::vec4> GltfAccessors::read_attribute(
-		size_t p_accessor_index, int p_fewest, int p_most) {
-	const Layout layout = read_layout(p_accessor_index, p_fewest, p_most);
+		size_t p_accessor_index, int p_min_components, int p_max_components) {
+	const Layout layout = read_layout(p_accessor_index, p_min_components, p_max_components);
 	if (layout.count > GLTF_MAX_VERTEX_COUNT) {
 		messages.fail_value(text("accessors[", p_accessor_index, "].count"), text(layout.count),
 				text("1..", GLTF_MAX_VERTEX_COUNT));
@@ -275,7 +280,7 @@ std::vector<float> GltfAccessors::read_floats(size_t p_accessor_index, int p_com
 }
 
 std::vector<uint32_t> GltfAccessors::read_indices(size_t p_accessor_index, size_t p_vertex_count) {
-	const Layout layout = read_layout(p_accessor_index, 1, 1, Components::INDICES);
+	const Layout layout = read_layout(p_accessor_index, 1, 1, ComponentTypes::INDICES);
 	std::vector<uint32_t> indices(layout.count, 0);
 	read_elements(p_accessor_index, layout, [&](size_t p_index, const uint8_t *p_bytes) {
 		indices[p_index] = p_bytes ? read_index(p_bytes, layout.component_type) : 0;

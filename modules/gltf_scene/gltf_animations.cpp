@@ -11,7 +11,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t MAX_KEY_VALUE_COUNT = uint64_t(1) << 26; // floats of all channels; 0.3 GB
+const uint64_t MAX_KEY_VALUE_COUNT = uint64_t(1) << 26; // floats in all channels together; 0.3 GB
 
 class AnimationReader {
 public:
@@ -31,16 +31,18 @@ private:
 	bool read_channel(const tinygltf::Animation &p_animation, size_t p_channel,
 			const std::string &p_path, AnimationChannel &r_channel);
 	uint32_t count_components(AnimatedPath p_path, const tinygltf::Node &p_node) const;
-	bool refuse(const std::string &p_path, const std::string &p_problem);
+	bool reject_channel(const std::string &p_path, const std::string &p_problem);
 };
 
-bool AnimationReader::refuse(const std::string &p_path, const std::string &p_problem) {
+/// Logs the problem of a channel as an error and returns false.
+bool AnimationReader::reject_channel(const std::string &p_path, const std::string &p_problem) {
 	messages.report(messages.describe(
 			p_path, p_problem + "; this channel is skipped. Correct it or export the file again."));
 	return false;
 }
 
-/// 0: the node has no morph targets.
+/// Returns the number of floats per key. For weights this is the number of morph targets of the
+/// node's mesh, which may be 0.
 uint32_t AnimationReader::count_components(
 		AnimatedPath p_path, const tinygltf::Node &p_node) const {
 	if (p_path != AnimatedPath::WEIGHTS) {
@@ -74,13 +76,14 @@ bool AnimationReader::read_channel(const tinygltf::Animation &p_animation, size_
 	sampler.component_count =
 			count_components(r_channel.path, model.nodes[static_cast<size_t>(channel.target_node)]);
 	if (sampler.component_count == 0) {
-		return refuse(text(p_path, ".channels[", p_channel, "].target.path"),
+		return reject_channel(text(p_path, ".channels[", p_channel, "].target.path"),
 				text("is \"weights\", but the mesh of nodes[", channel.target_node,
 						"] has no morph targets"));
 	}
 	sampler.times_s = accessors.read_floats(static_cast<size_t>(source.input), 1);
-	const int shape = r_channel.path == AnimatedPath::WEIGHTS ? 1 : int(sampler.component_count);
-	sampler.values = accessors.read_floats(static_cast<size_t>(source.output), shape);
+	const int accessor_components =
+			r_channel.path == AnimatedPath::WEIGHTS ? 1 : int(sampler.component_count);
+	sampler.values = accessors.read_floats(static_cast<size_t>(source.output), accessor_components);
 	value_count += sampler.times_s.size() + sampler.values.size();
 	if (value_count > MAX_KEY_VALUE_COUNT) {
 		messages.fail(path + ".output",
@@ -90,21 +93,21 @@ bool AnimationReader::read_channel(const tinygltf::Animation &p_animation, size_
 	for (size_t key = 0; key < sampler.times_s.size(); ++key) {
 		const float time_s = sampler.times_s[key];
 		if (!std::isfinite(time_s) || (key > 0 && time_s <= sampler.times_s[key - 1])) {
-			return refuse(path + ".input",
-					text("has ", time_s, " at ", key, ", must be finite times in s that grow"));
+			return reject_channel(path + ".input",
+					text("has ", time_s, " at ", key, ", must be finite times in s that ascend"));
 		}
 	}
-	const size_t parts = sampler.interpolation == Interpolation::CUBIC_SPLINE ? 3 : 1;
-	const size_t expected = sampler.times_s.size() * sampler.component_count * parts;
+	const size_t values_per_key = sampler.interpolation == Interpolation::CUBIC_SPLINE ? 3 : 1;
+	const size_t expected = sampler.times_s.size() * sampler.component_count * values_per_key;
 	if (sampler.values.size() != expected) {
-		return refuse(path + ".output",
+		return reject_channel(path + ".output",
 				text("has ", sampler.values.size(), " numbers, must be ", expected, ", for ",
 						sampler.times_s.size(), " times"));
 	}
 	const auto bad = std::find_if_not(sampler.values.begin(), sampler.values.end(),
 			[](float p_value) { return std::isfinite(p_value); });
 	if (bad != sampler.values.end()) {
-		return refuse(path + ".output",
+		return reject_channel(path + ".output",
 				text("has a number that is not finite at ", bad - sampler.values.begin()));
 	}
 	return true;
@@ -114,7 +117,7 @@ std::shared_ptr<const Animation> AnimationReader::read(size_t p_index, const std
 	const tinygltf::Animation &source = model.animations[p_index];
 	auto animation = std::make_shared<Animation>();
 	animation->name = p_name;
-	std::set<int> moved;
+	std::set<int> animated_nodes;
 	for (size_t index = 0; index < source.channels.size(); ++index) {
 		AnimationChannel channel;
 		if (source.channels[index].target_path.empty() ||
@@ -123,10 +126,10 @@ std::shared_ptr<const Animation> AnimationReader::read(size_t p_index, const std
 		}
 		animation->duration_s =
 				std::max(animation->duration_s, double(channel.sampler.times_s.back()));
-		if (moved.insert(channel.node).second) {
-			// If a node with a matrix is animated nevertheless, pose_scene decomposes the matrix.
-			animation->nodes.push_back(
-					{ channel.node, read_parts(model.nodes[static_cast<size_t>(channel.node)]) });
+		if (animated_nodes.insert(channel.node).second) {
+			// glTF does not allow a matrix here. If there is one, pose_scene decomposes it.
+			animation->nodes.push_back({ channel.node,
+					read_node_transform(model.nodes[static_cast<size_t>(channel.node)]) });
 		}
 		animation->channels.push_back(std::move(channel));
 	}

@@ -23,7 +23,7 @@ std::optional<int> parse_hex_digit(char p_digit) {
 	return std::nullopt;
 }
 
-/// Decodes %20 and the like; returns nothing if an escape is invalid.
+/// Decodes % escapes such as %20. Returns nothing if an escape is invalid.
 std::optional<std::string> decode_percent(std::string_view p_uri) {
 	std::string decoded;
 	for (size_t index = 0; index < p_uri.size(); ++index) {
@@ -45,7 +45,8 @@ std::optional<std::string> decode_percent(std::string_view p_uri) {
 	return decoded;
 }
 
-/// "http:", "file:": letters, digits, + - . before the first colon (RFC 3986, 3.1).
+/// Returns whether the URI begins with a scheme, such as "http:" or "file:": a letter, then
+/// letters, digits, "+", "-" or "." up to the first colon (RFC 3986, 3.1).
 bool has_scheme(std::string_view p_uri) {
 	const size_t colon = p_uri.find(':');
 	if (colon == std::string_view::npos || colon == 0 || !std::isalpha(uint8_t(p_uri[0]))) {
@@ -67,33 +68,33 @@ bool is_data_uri(std::string_view p_uri) {
 
 fs::path resolve_uri(
 		std::string_view p_uri, const GltfLocation &p_location, const GltfObject &p_object) {
-	const auto refuse = [&](const char *p_problem) {
+	const auto reject = [&](const char *p_problem) {
 		p_object.fail_at("uri",
 				text("is \"", to_one_line(p_uri), "\", ", p_problem,
 						". Put the file next to the scene and name it alone."));
 	};
 	if (has_scheme(p_uri)) {
-		refuse("must be a file's relative path");
+		reject("must be a file's relative path");
 	}
 	const std::optional<std::string> decoded = decode_percent(p_uri);
 	if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos) {
-		refuse("must be a path with valid % escapes");
+		reject("must be a path with valid % escapes");
 	}
 	fs::path relative(*decoded);
 	std::error_code code;
 	if (decoded->find('\\') != std::string::npos &&
 			!fs::exists(p_location.folder / relative, code)) {
-		// Converters write the paths of Windows, against the standard.
+		// Some converters write Windows paths with backslashes, which glTF does not allow.
 		std::string separated = *decoded;
 		std::replace(separated.begin(), separated.end(), '\\', '/');
 		relative = separated;
 	}
 	if (relative.is_absolute()) {
-		refuse("must not be an absolute path");
+		reject("must not be an absolute path");
 	}
 	const fs::path path = p_location.folder / relative;
 	if (!is_inside_folder(path, p_location.project_folder)) {
-		refuse("which leads out of the project folder");
+		reject("which leads out of the project folder");
 	}
 	return path;
 }
@@ -145,7 +146,7 @@ std::span<const uint8_t> GltfBuffers::load_buffer(size_t p_index) {
 	if (bytes.size() < length_bytes) {
 		buffer.fail_at("byteLength",
 				text("is ", length_bytes, ", must be at most ", bytes.size(),
-						", the bytes there are. Export the file again."));
+						", the size of its data. Export the file again."));
 	}
 	return bytes.first(length_bytes);
 }
@@ -175,7 +176,8 @@ std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_object, const std
 			p_object.fail_at("uri", text("cannot be read: ", error.what()));
 		}
 	}
-	// tinygltf knows the encoding for a fixed set of media types only; the type means nothing here.
+	// tinygltf decodes only a fixed set of media types. The type does not matter here, so it
+	// is replaced by one of them.
 	const size_t comma = p_uri.find(',');
 	std::vector<uint8_t> bytes;
 	std::string media_type;

@@ -19,24 +19,26 @@ namespace {
 const double MAX_NEAR_M = 1e9;
 const double MIN_NEAR_M = 1e-6;
 const double MAX_FOV_RAD = 3.14159;
-const double MIN_FOV_RAD = 1e-4;						 // narrower, and one pixel sees nothing
+const double MIN_FOV_RAD = 1e-4;						 // a narrower view would show nothing
 const double DEFAULT_OUTER_CONE_RAD = 0.785398163397448; // KHR_lights_punctual: pi / 4
 const double MAX_CONE_RAD = 1.57079632679490 + 1e-6; // exporters round pi / 2 up as often as down
-const double MAX_EMISSIVE_CD_M2 = 1e9;				 // the sun's disc
-const double LAST_ROW_TOLERANCE = 1e-6;				 // exporters that compute in float
-const uint64_t MAX_OFFSET_BYTES = INT32_MAX;		 // tinygltf's
-const uint64_t MAX_STRIDE_BYTES = 252;
-const double MAX_TRANSFORM = 1e6; // of texture coordinates; floats hold them, and the rest is noise
+const double MAX_EMISSIVE_CD_M2 = 1e9;				 // about the luminance of the sun's disc
+const double LAST_ROW_TOLERANCE = 1e-6;				 // for exporters that compute in float
+const uint64_t MAX_OFFSET_BYTES = INT32_MAX;		 // tinygltf's limit
+const uint64_t MAX_STRIDE_BYTES = 252;				 // limit of glTF 2.0
+const double MAX_UV_TRANSFORM =
+		1e6; // for texture coordinates; a float has no useful precision above
 const char NEXT_STEP[] = "Correct it or export the file again.";
 
-/// Extensions that change nothing that is read here, or are read.
-bool is_known_extension(std::string_view p_name) {
+/// Returns whether a file may require the extension: it is supported, or (other KHR_materials_
+/// extensions) only affects how surfaces look, and is ignored.
+bool is_supported_extension(std::string_view p_name) {
 	return p_name == GLTF_PUNCTUAL || p_name == GLTF_AREA || p_name.starts_with("KHR_materials_") ||
 			p_name == GLTF_TEXTURE_TRANSFORM || p_name == "KHR_mesh_quantization";
 }
 
-/// Checks a number of a light, camera or material: an invalid one is reported, and the default is
-/// used.
+/// Checks a number of a light, camera or material. An invalid one is reported and replaced by the
+/// default.
 void check_number(const GltfObject &p_object, std::string_view p_key, double p_default,
 		double p_minimum, double p_maximum, std::string_view p_unit = "") {
 	if (p_object.find(p_key)) {
@@ -57,21 +59,23 @@ void check_bool(const GltfObject &p_object, std::string_view p_key) {
 	}
 }
 
-/// Checks a reference of a texture: an invalid one is reported and removed.
-void check_reference(const GltfObject &p_object, std::string_view p_key, size_t p_count,
-		std::string_view p_otherwise) {
+/// Checks an index in the definition of a texture. An invalid one is reported and removed.
+/// p_fallback: what is used instead, for the message.
+void check_texture_index(const GltfObject &p_object, std::string_view p_key, size_t p_count,
+		std::string_view p_fallback) {
 	const std::optional<uint64_t> index = p_object.find_whole_number(p_key);
 	if (index && *index < p_count) {
 		p_object.set(p_key, *index);
 	} else if (p_object.find(p_key)) {
 		p_object.report_value(p_key,
 				p_count == 0 ? "absent, as there is nothing to refer to" : text("0..", p_count - 1),
-				p_otherwise);
+				p_fallback);
 		p_object.erase(p_key);
 	}
 }
 
-/// Checks for one of a few whole numbers: any other value is reported and removed.
+/// Checks that a number is one of p_choices. Any other value is reported and removed. p_default:
+/// what is used instead, for the message.
 void check_choice(const GltfObject &p_object, std::string_view p_key,
 		std::initializer_list<uint64_t> p_choices, const char *p_default) {
 	const std::optional<uint64_t> number = p_object.find_whole_number(p_key);
@@ -87,17 +91,18 @@ void check_choice(const GltfObject &p_object, std::string_view p_key,
 	}
 }
 
-/// Checks two numbers of KHR_texture_transform: any other value is reported and removed.
+/// Checks a pair of numbers of KHR_texture_transform. Any other value is reported and removed.
+/// p_default: what is used instead, for the message.
 void check_pair(const GltfObject &p_object, std::string_view p_key, const char *p_default) {
 	const Json *value = p_object.find(p_key);
 	const auto is_good = [](const Json &p_number) {
-		return p_number.is_number() && std::abs(p_number.get<double>()) <= MAX_TRANSFORM;
+		return p_number.is_number() && std::abs(p_number.get<double>()) <= MAX_UV_TRANSFORM;
 	};
 	if (value &&
 			!(value->is_array() && value->size() == 2 && is_good((*value)[0]) &&
 					is_good((*value)[1]))) {
-		p_object.report_value(
-				p_key, text("two numbers in -", MAX_TRANSFORM, "..", MAX_TRANSFORM), p_default);
+		p_object.report_value(p_key,
+				text("two numbers in -", MAX_UV_TRANSFORM, "..", MAX_UV_TRANSFORM), p_default);
 		p_object.erase(p_key);
 	}
 }
@@ -110,7 +115,7 @@ public:
 private:
 	size_t count(const char *p_list) const { return root.get_count(p_list); }
 	void check_header() const;
-	void check_bytes() const;
+	void check_buffers_and_textures() const;
 	void check_accessor(const GltfObject &p_accessor) const;
 	void check_mesh(const GltfObject &p_mesh) const;
 	void check_attributes(const GltfObject &p_attributes) const;
@@ -127,7 +132,7 @@ private:
 
 void GltfChecker::check() {
 	check_header();
-	check_bytes();
+	check_buffers_and_textures();
 	check_elements(
 			root, "accessors", [&](const GltfObject &p_accessor) { check_accessor(p_accessor); });
 	check_elements(root, "meshes", [&](const GltfObject &p_mesh) { check_mesh(p_mesh); });
@@ -139,8 +144,8 @@ void GltfChecker::check() {
 	}
 	if (const auto area = root.find_extension(GLTF_AREA)) {
 		check_elements(*area, "lights", [](const GltfObject &p_light) {
-			p_light.set("type",
-					p_light.get_text("type")); // tinygltf drops empty objects, and indices shift
+			// tinygltf drops empty objects, which would shift the indices.
+			p_light.set("type", p_light.get_text("type"));
 		});
 	}
 	if (count("nodes") > GLTF_MAX_NODE_COUNT) {
@@ -170,7 +175,7 @@ void GltfChecker::check_header() const {
 	const size_t required_count = root.get_count("extensionsRequired");
 	for (size_t index = 0; index < required_count; ++index) {
 		const Json &name = (*root.find("extensionsRequired"))[index];
-		if (!name.is_string() || !is_known_extension(name.get_ref<const std::string &>())) {
+		if (!name.is_string() || !is_supported_extension(name.get_ref<const std::string &>())) {
 			root.fail_at(text("extensionsRequired[", index, "]"),
 					text("is ", describe_json(name),
 							", which is not supported. Export the file without it."));
@@ -178,8 +183,9 @@ void GltfChecker::check_header() const {
 	}
 }
 
-/// Whether the bytes are there is known only once a buffer is loaded.
-void GltfChecker::check_bytes() const {
+/// Checks buffers, buffer views, images, samplers and textures. Whether a buffer has enough bytes
+/// is checked when it is loaded.
+void GltfChecker::check_buffers_and_textures() const {
 	check_elements(root, "buffers", [](const GltfObject &p_buffer) {
 		require_integer(p_buffer, "byteLength", 1, GLTF_MAX_BUFFER_BYTES);
 		if (const Json *uri = p_buffer.find("uri"); uri && !uri->is_string()) {
@@ -216,8 +222,9 @@ void GltfChecker::check_bytes() const {
 				"interpolation with mip maps");
 	});
 	check_elements(root, "textures", [&](const GltfObject &p_texture) {
-		check_reference(p_texture, "sampler", count("samplers"), "repetition with interpolation");
-		check_reference(p_texture, "source", count("images"), "no image");
+		check_texture_index(
+				p_texture, "sampler", count("samplers"), "repetition with interpolation");
+		check_texture_index(p_texture, "source", count("images"), "no image");
 	});
 }
 
@@ -267,8 +274,8 @@ void GltfChecker::check_mesh(const GltfObject &p_mesh) const {
 		check_index(p_primitive, "indices", count("accessors"));
 		if (const auto indices = p_primitive.find_index("indices", count("accessors"))) {
 			const GltfObject accessor = root.get_element("accessors", *indices);
-			if (!accessor.find("bufferView")) { // tinygltf's rule
-				accessor.fail_value("bufferView", "set, as indices are read from here");
+			if (!accessor.find("bufferView")) { // tinygltf needs it
+				accessor.fail_value("bufferView", "set, because indices are read from here");
 			}
 		}
 	});
@@ -285,7 +292,7 @@ void GltfChecker::check_texture(const GltfObject &p_parent, const char *p_key) c
 		return;
 	}
 	const GltfObject info = *p_parent.find_object(p_key);
-	check_reference(info, "index", count("textures"), "no texture");
+	check_texture_index(info, "index", count("textures"), "no texture");
 	if (!info.find("index")) {
 		p_parent.erase(p_key);
 		return;
@@ -300,7 +307,7 @@ void GltfChecker::check_texture(const GltfObject &p_parent, const char *p_key) c
 		check_choice(*transform, "texCoord", { 0, 1 }, "that of the texture");
 		check_pair(*transform, "offset", "0, 0");
 		check_pair(*transform, "scale", "1, 1");
-		check_number(*transform, "rotation", 0, -MAX_TRANSFORM, MAX_TRANSFORM, "rad");
+		check_number(*transform, "rotation", 0, -MAX_UV_TRANSFORM, MAX_UV_TRANSFORM, "rad");
 	}
 	check_number(info, "scale", 1, -FLT_MAX, FLT_MAX);
 	check_number(info, "strength", 1, 0, 1);
@@ -354,9 +361,9 @@ void GltfChecker::check_material(const GltfObject &p_material) const {
 void GltfChecker::check_transform(const GltfObject &p_node) {
 	double matrix[16];
 	if (p_node.find_numbers("matrix", matrix)) {
-		const double off = std::abs(matrix[3]) + std::abs(matrix[7]) + std::abs(matrix[11]) +
-				std::abs(matrix[15] - 1);
-		if (off > LAST_ROW_TOLERANCE) {
+		const double last_row_error = std::abs(matrix[3]) + std::abs(matrix[7]) +
+				std::abs(matrix[11]) + std::abs(matrix[15] - 1);
+		if (last_row_error > LAST_ROW_TOLERANCE) {
 			p_node.fail_value("matrix", "affine: its last row 0, 0, 0, 1");
 		}
 		return;
@@ -364,10 +371,10 @@ void GltfChecker::check_transform(const GltfObject &p_node) {
 	double vector[3];
 	p_node.find_numbers("translation", vector);
 	p_node.find_numbers("scale", vector);
-	double turn[4];
-	if (p_node.find_numbers("rotation", turn)) {
-		const double length =
-				std::hypot(std::hypot(turn[0], turn[1]), std::hypot(turn[2], turn[3]));
+	double quaternion[4];
+	if (p_node.find_numbers("rotation", quaternion)) {
+		const double length = std::hypot(
+				std::hypot(quaternion[0], quaternion[1]), std::hypot(quaternion[2], quaternion[3]));
 		if (!(length > 1e-6) || !std::isfinite(length)) {
 			p_node.fail_value("rotation", "a unit quaternion");
 		}
@@ -394,18 +401,18 @@ void GltfChecker::check_camera(const GltfObject &p_camera) {
 	if (p_camera.get_text("type") != "perspective" || !perspective) {
 		p_camera.get_messages().warn(
 				"camera", p_camera.get_path(), "is not perspective; it is skipped.");
-		// One that tinygltf takes whatever is there.
+		// A camera that tinygltf accepts and the reader skips.
 		p_camera.set("type", "orthographic");
 		p_camera.set(
 				"orthographic", { { "xmag", 1 }, { "ymag", 1 }, { "zfar", 1 }, { "znear", 0 } });
 		return;
 	}
-	const Camera3D fresh;
+	const Camera3D defaults;
 	perspective->set("yfov",
 			perspective->read_number(
-					"yfov", fresh.vertical_fov_rad, MIN_FOV_RAD, MAX_FOV_RAD, "rad"));
-	perspective->set(
-			"znear", perspective->read_number("znear", fresh.near_m, MIN_NEAR_M, MAX_NEAR_M, "m"));
+					"yfov", defaults.vertical_fov_rad, MIN_FOV_RAD, MAX_FOV_RAD, "rad"));
+	perspective->set("znear",
+			perspective->read_number("znear", defaults.near_m, MIN_NEAR_M, MAX_NEAR_M, "m"));
 }
 
 void GltfChecker::check_cones(const GltfObject &p_light) {
@@ -413,7 +420,7 @@ void GltfChecker::check_cones(const GltfObject &p_light) {
 		p_light.report_value("spot", "an object", "the default");
 		p_light.erase("spot");
 	}
-	if (!p_light.find("spot")) { // the defaults are meant
+	if (!p_light.find("spot")) { // the defaults apply
 		p_light.set("spot", Json::object());
 	}
 	const GltfObject spot = *p_light.find_object("spot");

@@ -7,9 +7,10 @@
 
 namespace gnomon {
 
-// Helpers of the document checks: each converts a value to a form that tinygltf accepts, or fails.
+// Helpers of the document checks. Those that check a value convert it to a form that tinygltf
+// accepts, or throw an Error with the value's JSON path and allowed range.
 
-/// Checks the elements of a list of the document, or of one of its objects.
+/// Calls p_check with each element of the list p_key of p_parent, if there is one.
 template <typename Check>
 void check_elements(const GltfObject &p_parent, std::string_view p_key, const Check &p_check) {
 	const size_t count = p_parent.get_count(p_key);
@@ -18,14 +19,16 @@ void check_elements(const GltfObject &p_parent, std::string_view p_key, const Ch
 	}
 }
 
-/// Checks a whole number, which may be written with a fraction of zero ("3.0"); tinygltf rejects
-/// that form, so it is rewritten.
+/// Checks a whole number in p_minimum..p_maximum. The check_ functions accept a missing value, the
+/// require_ functions do not. A number written as "3.0" is rewritten, because tinygltf rejects it.
 void check_integer(
 		const GltfObject &p_object, std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum);
 void require_integer(
 		const GltfObject &p_object, std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum);
+/// Checks an index into an array of p_count elements.
 void check_index(const GltfObject &p_object, std::string_view p_key, size_t p_count);
 void require_index(const GltfObject &p_object, std::string_view p_key, size_t p_count);
+/// Checks an array of such indices, which may be missing.
 void check_indices(const GltfObject &p_object, std::string_view p_key, size_t p_count);
 
 } // namespace gnomon

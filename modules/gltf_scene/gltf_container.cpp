@@ -9,7 +9,8 @@ namespace gnomon {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "glTF is little-endian, and read as is");
+static_assert(std::endian::native == std::endian::little,
+		"glTF is little-endian and is read without conversion");
 
 const uint32_t GLB_MAGIC = 0x46546C67; // "glTF"
 const uint32_t GLB_VERSION = 2;
@@ -17,6 +18,7 @@ const uint32_t CHUNK_JSON = 0x4E4F534A; // "JSON"
 const uint32_t CHUNK_BIN = 0x004E4942;	// "BIN\0"
 const size_t HEADER_BYTES = 12;			// magic, version, length
 const size_t CHUNK_HEADER_BYTES = 8;	// length, type
+const size_t MIN_GLB_BYTES = HEADER_BYTES + CHUNK_HEADER_BYTES;
 const char NEXT_STEP[] = "Copy or export the file again.";
 
 uint32_t read_u32(std::span<const uint8_t> p_bytes, size_t p_offset) {
@@ -48,19 +50,18 @@ GltfContainer parse_glb(std::span<const uint8_t> p_bytes, const GltfMessages &p_
 	const auto fail_glb = [&](const std::string &p_problem) {
 		throw Error(p_messages.describe("GLB", p_problem + " " + NEXT_STEP));
 	};
-	if (p_bytes.size() < HEADER_BYTES + CHUNK_HEADER_BYTES) {
-		fail_glb(text("has ", p_bytes.size(), " bytes, must be at least ",
-				HEADER_BYTES + CHUNK_HEADER_BYTES, "."));
+	if (p_bytes.size() < MIN_GLB_BYTES) {
+		fail_glb(text("has ", p_bytes.size(), " bytes, must be at least ", MIN_GLB_BYTES, "."));
 	}
 	if (read_u32(p_bytes, 4) != GLB_VERSION) {
 		fail_glb(text("version is ", read_u32(p_bytes, 4), ", must be 2."));
 	}
 	const size_t length_bytes = read_u32(p_bytes, 8);
-	if (length_bytes > p_bytes.size() || length_bytes < HEADER_BYTES + CHUNK_HEADER_BYTES) {
-		fail_glb(text("length is ", length_bytes, ", must be ", p_bytes.size(),
-				", the size of the file; it seems truncated."));
+	if (length_bytes > p_bytes.size() || length_bytes < MIN_GLB_BYTES) {
+		fail_glb(text("length is ", length_bytes, ", must be ", MIN_GLB_BYTES, "..", p_bytes.size(),
+				", at most the size of the file; the file is truncated or damaged."));
 	}
-	p_bytes = p_bytes.first(length_bytes); // what some programs append is no part of it
+	p_bytes = p_bytes.first(length_bytes); // data after the length is ignored
 
 	GltfContainer container;
 	size_t offset = HEADER_BYTES;
@@ -109,7 +110,7 @@ std::vector<uint8_t> build_glb(const GltfContainer &p_container, const GltfMessa
 	std::vector<uint8_t> bytes;
 	append_u32(bytes, GLB_MAGIC);
 	append_u32(bytes, GLB_VERSION);
-	append_u32(bytes, 0); // the length, known below
+	append_u32(bytes, 0); // the length, which is written below
 	append_chunk(bytes, CHUNK_JSON,
 			std::span(reinterpret_cast<const uint8_t *>(json.data()), json.size()), ' ');
 	if (p_container.bin_chunk) {

@@ -9,8 +9,8 @@ namespace gnomon {
 
 namespace {
 
-/// Three bytes. tinygltf reads buffers at once, knows few media types and wants their lengths to
-/// agree.
+/// Replaces every buffer by one of three bytes, because tinygltf loads buffers while parsing,
+/// supports few media types and compares byteLength.
 const char STUB_URI[] = "data:application/octet-stream;base64,AAAA";
 const int STUB_BYTES = 3;
 
@@ -26,7 +26,7 @@ void widen_integers(Json &r_json) {
 	}
 }
 
-/// Does the same for the extras and extensions of all elements.
+/// Applies widen_integers to the extras and extensions of all elements.
 void widen_extras(Json &r_json) {
 	if (!r_json.is_structured()) {
 		return;
@@ -40,8 +40,8 @@ void widen_extras(Json &r_json) {
 	}
 }
 
-/// Makes the document that is passed to tinygltf.
-void make_parser_input(Json &r_json) {
+/// Prepares the document for tinygltf: it must not load buffers and images, nor decode meshes.
+void prepare_for_tinygltf(Json &r_json) {
 	for (Json &buffer : r_json["buffers"]) {
 		buffer["uri"] = STUB_URI;
 		buffer["byteLength"] = STUB_BYTES;
@@ -61,7 +61,7 @@ void make_parser_input(Json &r_json) {
 	widen_extras(r_json);
 }
 
-/// Callbacks with which tinygltf reads no file.
+/// Returns callbacks that keep tinygltf from accessing files.
 tinygltf::FsCallbacks make_callbacks() {
 	tinygltf::FsCallbacks callbacks = {};
 	callbacks.FileExists = [](const std::string &, void *) { return false; };
@@ -74,22 +74,23 @@ tinygltf::FsCallbacks make_callbacks() {
 	return callbacks;
 }
 
-/// Corrects what tinygltf writes against the specification: null for an object without members (in
-/// an array it becomes {}, elsewhere it is removed), and 0 for an infinite far plane (removed).
-void tidy(Json &r_json) {
+/// Corrects two violations of the specification in tinygltf's output: null for an object without
+/// members (in an array it becomes {}, elsewhere it is removed), and 0 for an infinite far plane
+/// (which is removed).
+void fix_written_json(Json &r_json) {
 	if (r_json.is_array()) {
 		for (Json &element : r_json) {
 			if (element.is_null()) {
 				element = Json::object();
 			}
-			tidy(element);
+			fix_written_json(element);
 		}
 	} else if (r_json.is_object()) {
 		for (auto item = r_json.begin(); item != r_json.end();) {
 			if (item->is_null() || (item.key() == "zfar" && *item == 0)) {
 				item = r_json.erase(item);
 			} else {
-				tidy(*item++);
+				fix_written_json(*item++);
 			}
 		}
 	}
@@ -106,7 +107,7 @@ Json write_model(const tinygltf::Model &p_model) {
 				". Change the names of its nodes to plain text.");
 	}
 	Json json = Json::parse(stream.str());
-	tidy(json);
+	fix_written_json(json);
 	return json;
 }
 
@@ -114,7 +115,8 @@ bool is_list_of_objects(const Json &p_json) {
 	return p_json.is_array() && !p_json.empty() && p_json[0].is_object();
 }
 
-/// Applies the changes from p_before to p_after, both written by tinygltf, to p_read.
+/// Applies the differences between p_before and p_after, both written by tinygltf, to p_read, the
+/// JSON as it was read.
 Json merge(const Json &p_read, const Json &p_before, Json p_after) {
 	if (p_before == p_after) {
 		return p_read;
@@ -140,7 +142,7 @@ Json merge(const Json &p_read, const Json &p_before, Json p_after) {
 		const auto after = p_after.find(item.key());
 		if (after != p_after.end()) {
 			merged[item.key()] = merge(*item, before, *after);
-		} else if (before.is_null()) { // tinygltf does not hold it
+		} else if (before.is_null()) { // tinygltf does not store it
 			merged[item.key()] = *item;
 		} else if (item->is_object()) {
 			Json rest = merge(*item, before, Json::object());
@@ -160,7 +162,7 @@ Json merge(const Json &p_read, const Json &p_before, Json p_after) {
 } // namespace
 
 tinygltf::Model parse_gltf_model(Json p_checked, const GltfMessages &p_messages) {
-	make_parser_input(p_checked);
+	prepare_for_tinygltf(p_checked);
 	const std::string json = p_checked.dump();
 	tinygltf::TinyGLTF parser;
 	parser.SetFsCallbacks(make_callbacks());

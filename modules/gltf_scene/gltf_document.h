@@ -24,17 +24,18 @@ inline constexpr char GLTF_EMISSIVE_STRENGTH[] = "KHR_materials_emissive_strengt
 
 /// A node's state at loading. Saving writes only what differs from it.
 struct GltfNodeState {
-	bool is_loaded = false; // false: in no scene, or in another one
+	bool is_loaded = false; // false: the node is not part of the loaded scene
 	std::string name;
 	glm::dmat4 parent_from_node = glm::dmat4(1.0);
 	bool casts_shadow = true;
 	bool is_planar_receiver = false;
 };
 
-/// The file that a scene was loaded from, which the scene keeps: saving changes a copy of it.
+/// The contents of the file from which a scene was loaded. The scene stores it, and saving applies
+/// the scene's changes to a copy, so that data unknown to the program is preserved.
 class GltfDocument : public SceneDocument {
 public:
-	/// Identifies the meshes of one node by pointers.
+	/// Identifies the surfaces of a node by their mesh and material pointers.
 	using SurfaceKey = std::vector<std::pair<const Mesh *, const Material *>>;
 
 	std::string file; // path as given by the user
@@ -46,24 +47,25 @@ public:
 	std::optional<size_t> scene_index; // none: the file has no scenes
 	double scene_size_m = 0;
 	std::vector<GltfNodeState> nodes; // by index in the file
-	/// By index of the node: the names that the scene gave to lights or cameras that share the
-	/// node.
-	std::map<size_t, std::set<std::string>> part_names;
-	std::map<size_t, LightSettings> lights;			   // by index of their node
-	std::map<size_t, std::pair<float, float>> cameras; // the same: field of view, near plane
-	/// By index of a light's node: the index of its parent, if that has properties of the light too
-	/// (find_blender_owner).
+	/// By node index: the names, in the scene, of lights and cameras that became children of their
+	/// node, because the node also has a mesh or a light.
+	std::map<size_t, std::set<std::string>> attachment_names;
+	std::map<size_t, LightSettings> lights; // by node index
+	/// By node index: vertical field of view (rad) and near plane (m).
+	std::map<size_t, std::pair<float, float>> cameras;
+	/// By node index of a light: the index of its parent, if the parent's extras hold properties of
+	/// the light (find_blender_owner).
 	std::map<size_t, size_t> blender_owners;
 	std::map<SurfaceKey, size_t> mesh_indices;
 	std::map<const Skin *, size_t> skin_indices;
-	/// Keeps the skins alive.
+	/// Keeps alive the skins whose pointers are stored above.
 	std::vector<std::shared_ptr<const Skin>> retained_skins;
-	std::map<size_t, SurfaceKey> node_surfaces; // by index of their node
+	std::map<size_t, SurfaceKey> node_surfaces; // by node index
 	std::map<const Material *, size_t> material_indices;
-	/// For each mesh, the index of its primitive in the file's mesh.
+	/// For each loaded mesh, the index of its primitive in the file's mesh.
 	std::map<const Mesh *, size_t> primitive_indices;
-	/// Whether some node of the file that is not loaded has a mesh, and so may use the same
-	/// materials: a changed material is then appended, not replaced.
+	/// Whether a node that is not loaded has a mesh, which may use the same materials. A changed
+	/// material is then appended instead of replaced.
 	bool shares_materials = false;
 	/// Keeps alive the meshes whose pointers are stored above.
 	std::vector<std::vector<MeshInstance3D::Surface>> retained_surfaces;
@@ -77,13 +79,12 @@ public:
 	}
 };
 
-/// Parses a document that has passed check_gltf. Anything that tinygltf refuses nevertheless is an
-/// Error.
+/// Parses a document that has passed check_gltf. Throws an Error if tinygltf rejects it.
 tinygltf::Model parse_gltf_model(Json p_checked, const GltfMessages &p_messages);
 
-/// Merges a changed model into the document. p_read, p_before: the document as read, and tinygltf's
-/// model of it; everything that the model does not represent, or that did not change, stays
-/// unchanged and in its order. Both are null for a new document.
+/// Converts a model to JSON. p_read and p_before are the JSON document as read and tinygltf's model
+/// of it: only the differences between p_before and p_model are applied, and everything else in
+/// p_read stays unchanged and in its order. Both are null for a new document.
 Json write_gltf_model(
 		const tinygltf::Model &p_model, const Json *p_read, const tinygltf::Model *p_before);
 

@@ -16,13 +16,14 @@ const char NEXT_STEP[] = "Correct it or export the file again.";
 const size_t MAX_MESSAGE_LENGTH = 300;
 const size_t MAX_VALUE_LENGTH = 60;
 
-/// Whole numbers may be written with a fraction of zero ("3.0").
+/// Returns a whole number of at least 0, which may be written as "3.0"; nothing for other values.
 std::optional<uint64_t> to_integer(const Json &p_value) {
 	if (p_value.is_number_unsigned()) {
 		return p_value.get<uint64_t>();
 	}
 	if (p_value.is_number_float()) {
 		const double number = p_value.get<double>();
+		// Up to 2^53, doubles represent every whole number.
 		if (number >= 0 && number <= 9007199254740992.0 && std::floor(number) == number) {
 			return static_cast<uint64_t>(number);
 		}
@@ -41,13 +42,13 @@ std::string describe_indices(size_t p_count) {
 } // namespace
 
 void GltfMessages::report(const std::string &p_line) {
-	if (shown.insert(p_line).second) {
+	if (logged.insert(p_line).second) {
 		log_error(p_line);
 	}
 }
 
 void GltfMessages::warn(const char *p_kind, std::string_view p_path, std::string_view p_problem) {
-	if (shown.insert(p_kind).second) {
+	if (logged.insert(p_kind).second) {
 		log_warning(describe(p_path, p_problem));
 	}
 }
@@ -74,9 +75,9 @@ std::string to_one_line(std::string_view p_text) {
 	return p_text.size() > MAX_MESSAGE_LENGTH ? line + "..." : line;
 }
 
-std::string make_name(std::string_view p_name, const std::string &p_otherwise) {
+std::string make_name(std::string_view p_name, const std::string &p_fallback) {
 	const std::string name = to_one_line(p_name);
-	return name.empty() ? p_otherwise : name;
+	return name.empty() ? p_fallback : name;
 }
 
 std::string describe_json(const Json &p_value) {
@@ -87,15 +88,15 @@ std::string describe_json(const Json &p_value) {
 		return "an object";
 	}
 	if (p_value.is_string() && p_value.get_ref<const std::string &>().size() > MAX_VALUE_LENGTH) {
-		// Truncated first: a value that many nodes share is described repeatedly.
+		// Truncates first: many nodes may share a long value, which is then described repeatedly.
 		return describe_json(p_value.get_ref<const std::string &>().substr(0, MAX_VALUE_LENGTH));
 	}
-	std::string words = p_value.dump(-1, ' ', false, Json::error_handler_t::replace);
-	if (words.size() > MAX_VALUE_LENGTH) {
-		words.resize(MAX_VALUE_LENGTH);
-		words += "...";
+	std::string description = p_value.dump(-1, ' ', false, Json::error_handler_t::replace);
+	if (description.size() > MAX_VALUE_LENGTH) {
+		description.resize(MAX_VALUE_LENGTH);
+		description += "...";
 	}
-	return words;
+	return description;
 }
 
 GltfObject::GltfObject(Json &r_json, std::string p_path, GltfMessages &p_messages) :
@@ -111,7 +112,7 @@ GltfObject::GltfObject(std::shared_ptr<Json> p_json, std::string p_path, GltfMes
 	storage = std::move(p_json);
 }
 
-std::string GltfObject::path_of(std::string_view p_key) const {
+std::string GltfObject::get_member_path(std::string_view p_key) const {
 	const bool needs_dot = !path.empty() && !p_key.starts_with('[');
 	return path + (needs_dot ? "." : "") + std::string(p_key);
 }
@@ -130,7 +131,7 @@ std::optional<GltfObject> GltfObject::find_object(std::string_view p_key) const 
 	if (!value) {
 		return std::nullopt;
 	}
-	return GltfObject(*value, path_of(p_key), *messages);
+	return GltfObject(*value, get_member_path(p_key), *messages);
 }
 
 GltfObject GltfObject::require_object(std::string_view p_key) const {
@@ -155,8 +156,8 @@ size_t GltfObject::get_count(std::string_view p_key) const {
 }
 
 GltfObject GltfObject::get_element(std::string_view p_key, size_t p_index) const {
-	return GltfObject((*find(p_key))[p_index], path_of(p_key) + "[" + std::to_string(p_index) + "]",
-			*messages);
+	return GltfObject((*find(p_key))[p_index],
+			get_member_path(p_key) + "[" + std::to_string(p_index) + "]", *messages);
 }
 
 std::optional<uint64_t> GltfObject::find_whole_number(std::string_view p_key) const {
@@ -261,7 +262,7 @@ bool GltfObject::read_color(
 	if (!value) {
 		return false;
 	}
-	// baseColorFactor has alpha as its fourth number.
+	// The fourth number of baseColorFactor is alpha, which is ignored here.
 	bool is_good = value->is_array() && (value->size() == 3 || value->size() == 4);
 	float color[3] = {};
 	for (size_t index = 0; is_good && index < 3; ++index) {
@@ -293,7 +294,7 @@ bool GltfObject::read_bool(std::string_view p_key, bool p_default) const {
 }
 
 void GltfObject::fail_at(std::string_view p_key, std::string_view p_problem) const {
-	messages->fail(path_of(p_key), p_problem);
+	messages->fail(get_member_path(p_key), p_problem);
 }
 
 void GltfObject::fail_value(std::string_view p_key, std::string_view p_range) const {
@@ -306,12 +307,12 @@ void GltfObject::fail_value(std::string_view p_key, std::string_view p_range) co
 void GltfObject::report_value(
 		std::string_view p_key, std::string_view p_range, std::string_view p_default) const {
 	const Json *value = find(p_key);
-	messages->report(messages->describe(path_of(p_key),
+	messages->report(messages->describe(get_member_path(p_key),
 			text("is ", value ? describe_json(*value) : "missing", ", must be ", p_range, "; ",
 					p_default, " is used. Correct it in the file.")));
 }
 
-double to_shortest(float p_value) {
+double to_shortest_decimal(float p_value) {
 	char digits[32];
 	const auto written = std::to_chars(digits, digits + sizeof(digits), p_value);
 	double number = 0;

@@ -16,7 +16,7 @@ namespace gnomon {
 /// Keeps the order of keys, so that a saved file differs only where it changed.
 using Json = nlohmann::ordered_json;
 
-/// Limits that exceed any real scene but fit every machine's memory; a file beyond them is refused.
+/// Limits that no real scene reaches, but that keep memory use bounded. A larger file is rejected.
 const uint64_t GLTF_MAX_FILE_BYTES = uint64_t(1) << 30;
 const uint64_t GLTF_MAX_BUFFER_BYTES = uint64_t(1) << 31; // all buffers of a file together
 const uint64_t GLTF_MAX_NODE_COUNT = 1000000;
@@ -24,27 +24,29 @@ const uint64_t GLTF_MAX_NODE_DEPTH = 1000;				   // the tree is walked recursive
 const uint64_t GLTF_MAX_VERTEX_COUNT = uint64_t(1) << 25;  // of all meshes; 0.8 GB
 const uint64_t GLTF_MAX_INDEX_COUNT = uint64_t(1) << 27;   // of all meshes; 0.5 GB
 const uint64_t GLTF_MAX_SURFACE_COUNT = uint64_t(1) << 22; // of all nodes; 0.3 GB
-/// Limit on the extras of all nodes' lights; a value, or 64 bytes of text, counts as one.
+/// Limit on the extras of all nodes' lights. A value counts as one, and each 64 bytes of its name
+/// and text as one more.
 const uint64_t GLTF_MAX_LIGHT_VALUE_COUNT = uint64_t(1) << 20;
 const uint64_t GLTF_MAX_JSON_DEPTH = 256;			 // copying and writing a value is recursive
-const uint64_t GLTF_MAX_JSON_KEY_COUNT = 4096;		 // of one object; looked up one by one
+const uint64_t GLTF_MAX_JSON_KEY_COUNT = 4096;		 // of one object; the search is linear
 const uint64_t GLTF_MAX_JSON_VALUE_COUNT = 20000000; // about 1 GB once parsed
 
-/// Receives the messages about one file.
+/// Formats and logs the messages about one file.
 struct GltfMessages {
 	std::string file; // as the user named it
-	/// Lines and kinds already logged, so that a value read twice is reported once.
-	std::set<std::string> shown;
+	/// Error lines and kinds of warnings already logged, so that each appears only once.
+	std::set<std::string> logged;
 
 	/// Logs the line as an error unless it was logged before.
 	void report(const std::string &p_line);
 	/// Logs a warning unless one of the same kind was logged before: one per file is enough.
 	void warn(const char *p_kind, std::string_view p_path, std::string_view p_problem);
-	/// `"desk.gltf": nodes[3].mesh is 7, must be 0..1. <next step>`, always one line.
+	/// Returns for example `"desk.gltf": nodes[3].mesh is 7, must be 0..1. <next step>`, always one
+	/// line.
 	std::string describe(std::string_view p_path, std::string_view p_problem) const;
-	/// Throws an Error with a line in that form.
+	/// Throws an Error with the line that describe returns.
 	[[noreturn]] void fail(std::string_view p_path, std::string_view p_problem) const;
-	/// "is <value>, must be <range>. Correct it or export the file again."
+	/// Throws an Error: "is <value>, must be <range>. Correct it or export the file again."
 	[[noreturn]] void fail_value(
 			std::string_view p_path, std::string_view p_value, std::string_view p_range) const;
 };
@@ -52,16 +54,17 @@ struct GltfMessages {
 /// Removes line breaks and other control characters, and truncates long text.
 std::string to_one_line(std::string_view p_text);
 /// Returns a name as one line, or the fallback if it is empty.
-std::string make_name(std::string_view p_name, const std::string &p_otherwise);
-/// Describes a value for a message: numbers and short texts verbatim, otherwise "an array", "an
-/// object".
+std::string make_name(std::string_view p_name, const std::string &p_fallback);
+/// Describes a value for a message: numbers and short strings verbatim, otherwise "an array of 3"
+/// or "an object".
 std::string describe_json(const Json &p_value);
 
-/// Parses a file's JSON. Text that is not JSON, or exceeds the limits above, is an Error.
+/// Parses a file's JSON. Throws an Error if the text is not a JSON object or exceeds the limits
+/// above.
 Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages);
 
-/// An object of a document and its JSON path; every access is checked. "Fails" below: throws an
-/// Error with file, path, value and range.
+/// Refers to a JSON object of a document, and knows its JSON path. Every access is checked. "Fails"
+/// below means: throws an Error with file, path, value and range.
 class GltfObject {
 public:
 	/// Both the JSON and the messages must outlive this object.
@@ -72,17 +75,19 @@ public:
 	const Json &get_json() const { return *json; }
 	const std::string &get_path() const { return path; }
 	GltfMessages &get_messages() const { return *messages; }
-	/// "nodes[3].mesh"
-	std::string path_of(std::string_view p_key) const;
+	/// Returns the path of a member, such as "nodes[3].mesh".
+	std::string get_member_path(std::string_view p_key) const;
 
+	/// Sets or removes a member of the JSON object.
 	void set(std::string_view p_key, Json p_value) const {
 		(*json)[std::string(p_key)] = std::move(p_value);
 	}
 	void erase(std::string_view p_key) const { json->erase(std::string(p_key)); }
 
-	/// The value, or null when absent or JSON's null.
+	/// Returns the value; null if it is absent or JSON null.
 	Json *find(std::string_view p_key) const;
-	/// Returns nothing if absent; fails if the value is not an object.
+	/// Fails if the value is not an object. If it is absent, find_ returns nothing and require_
+	/// fails.
 	std::optional<GltfObject> find_object(std::string_view p_key) const;
 	GltfObject require_object(std::string_view p_key) const;
 	/// Returns `extensions.<name>`; nothing if absent.
@@ -105,7 +110,8 @@ public:
 	size_t require_index(std::string_view p_key, size_t p_count) const;
 	/// Returns an element of the array p_key as an index; fails on any other value.
 	size_t require_index_at(std::string_view p_key, size_t p_position, size_t p_count) const;
-	/// Reads exactly as many finite numbers as the span holds, else fails. Returns false if absent.
+	/// Fills the span from an array of the same number of finite numbers; fails on any other value.
+	/// Returns false if absent.
 	bool find_numbers(std::string_view p_key, std::span<double> r_numbers) const;
 	/// Returns text; empty if absent or not text, because names never decide whether a file can be
 	/// drawn.
@@ -122,6 +128,7 @@ public:
 	/// the default returned.
 	bool read_bool(std::string_view p_key, bool p_default) const;
 
+	/// Fails with a problem of the member p_key.
 	[[noreturn]] void fail_at(std::string_view p_key, std::string_view p_problem) const;
 	/// Fails with "is <value>, must be <range>".
 	[[noreturn]] void fail_value(std::string_view p_key, std::string_view p_range) const;
@@ -130,13 +137,14 @@ public:
 			std::string_view p_key, std::string_view p_range, std::string_view p_default) const;
 
 private:
-	std::shared_ptr<Json> storage; // owns json; null where json is part of a document
+	std::shared_ptr<Json> storage; // owns json; null if json is part of a document
 	Json *json;
 	std::string path;
 	GltfMessages *messages;
 };
 
-/// Returns the shortest decimal number that reads back as this float.
-double to_shortest(float p_value);
+/// Returns the decimal number with the fewest digits that reads back as this float, so that 0.1f is
+/// written as 0.1.
+double to_shortest_decimal(float p_value);
 
 } // namespace gnomon

@@ -9,10 +9,10 @@ namespace {
 
 const char NEXT_STEP[] = "Correct it or export the file again.";
 
-/// Refuses text whose parsed form would be too deep, too wide or too large. It need not be JSON
-/// yet: brackets outside of quotes are all that counts.
+/// Throws an Error if the parsed text would have too many levels, keys or values. Only brackets and
+/// commas outside of quotes are counted, so the text need not be valid JSON.
 void check_json_limits(std::string_view p_text, const GltfMessages &p_messages) {
-	std::vector<uint64_t> comma_counts; // of the arrays and objects that are open
+	std::vector<uint64_t> comma_counts; // of the arrays and objects not closed yet
 	std::vector<char> brackets;
 	uint64_t value_count = 0;
 	for (size_t index = 0; index < p_text.size(); ++index) {
@@ -58,7 +58,7 @@ Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages) {
 	try {
 		json = Json::parse(p_text.begin(), p_text.end());
 	} catch (const Json::exception &error) {
-		// "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
+		// Omits the prefix: "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
 		const std::string_view what = error.what();
 		const size_t prefix = what.find("] ");
 		throw Error(p_messages.describe("JSON",

@@ -17,21 +17,23 @@ namespace {
 const double DEGREES_PER_RADIAN = 57.295779513082321;
 const float MAX_CONE_RAD = 1.57079637f; // the float nearest to pi / 2
 
-/// Other names under which files hold a property of Light3D, in the order in which they are tried.
+/// An alternative name of a Light3D property in files.
 struct PropertyAlias {
 	std::string_view property;
 	std::string_view alias;
-	double factor; // property = alias times this
+	double factor; // the property's value is the alias's value times this
 };
+/// The aliases in the order in which they are tried.
 const PropertyAlias ALIASES[] = {
 	{ "light_size", "radius", 1.0 },
 	{ "light_size", "shadow_soft_size", 1.0 },				   // Blender: radius of the light
 	{ "light_angular_distance", "angle", DEGREES_PER_RADIAN }, // Blender: full apparent diameter
 };
-/// Names in a node's extras that belong to meshes and are not a technique's properties.
-const std::string_view NODE_NAMES[] = { "casts_shadow", "shadow_planar_receiver" };
+/// Names in a node's extras that are settings of meshes and not properties of a technique.
+const std::string_view MESH_SETTING_NAMES[] = { "casts_shadow", "shadow_planar_receiver" };
 
-/// Converts bools, numbers and texts; other values are not properties.
+/// Converts booleans, numbers and strings. Returns nothing for other values, which cannot be
+/// properties.
 std::optional<PropertyValue> to_property(const Json &p_value) {
 	if (p_value.is_boolean()) {
 		return p_value.get<bool>();
@@ -48,8 +50,9 @@ std::optional<PropertyValue> to_property(const Json &p_value) {
 	return std::nullopt;
 }
 
-/// Takes the value at p_extras[p_key] into the property, or reports why not.
-void take_property(const GltfObject &p_extras, std::string_view p_key, const PropertyInfo &p_info,
+/// Stores the value at p_extras[p_key], multiplied by p_factor if it is a number, as a property. An
+/// invalid value is reported instead.
+void read_property(const GltfObject &p_extras, std::string_view p_key, const PropertyInfo &p_info,
 		double p_factor, PropertyValues &r_properties) {
 	std::optional<PropertyValue> value = to_property(*p_extras.find(p_key));
 	if (value && p_info.type == PropertyType::BOOL && value->index() == 1 &&
@@ -79,12 +82,12 @@ void read_declared_property(const PropertyInfo &p_info, const std::vector<GltfOb
 		PropertyValues &r_properties) {
 	for (const GltfObject &extras : p_extras) {
 		if (extras.find(p_info.name)) {
-			take_property(extras, p_info.name, p_info, 1.0, r_properties);
+			read_property(extras, p_info.name, p_info, 1.0, r_properties);
 			return;
 		}
 		for (const PropertyAlias &alias : ALIASES) {
 			if (alias.property == p_info.name && extras.find(alias.alias)) {
-				take_property(extras, alias.alias, p_info, alias.factor, r_properties);
+				read_property(extras, alias.alias, p_info, alias.factor, r_properties);
 				return;
 			}
 		}
@@ -100,12 +103,13 @@ bool is_reserved(std::string_view p_key) {
 			return true;
 		}
 	}
-	return std::find(std::begin(NODE_NAMES), std::end(NODE_NAMES), p_key) != std::end(NODE_NAMES);
+	return std::find(std::begin(MESH_SETTING_NAMES), std::end(MESH_SETTING_NAMES), p_key) !=
+			std::end(MESH_SETTING_NAMES);
 }
 
 void read_technique_properties(const std::vector<GltfObject> &p_extras,
 		const GltfLoadOptions &p_options, PropertyValues &r_properties) {
-	std::set<std::string, std::less<>> seen; // a refused value also hides those after it
+	std::set<std::string, std::less<>> seen; // an invalid value also hides later ones
 	for (const GltfObject &extras : p_extras) {
 		for (auto item = extras.get_json().begin(); item != extras.get_json().end(); ++item) {
 			const std::string &key = item.key();
@@ -116,7 +120,7 @@ void read_technique_properties(const std::vector<GltfObject> &p_extras,
 					? p_options.find_technique_property(key)
 					: nullptr;
 			if (info) {
-				take_property(extras, key, *info, 1.0, r_properties);
+				read_property(extras, key, *info, 1.0, r_properties);
 			} else if (std::optional<PropertyValue> value = to_property(*item)) {
 				r_properties[key] = std::move(*value);
 			}
@@ -124,10 +128,11 @@ void read_technique_properties(const std::vector<GltfObject> &p_extras,
 	}
 }
 
-/// The disc of EXT_lights_area, whose size is its diameter. True when it decides the light's size.
+/// Reads the size of a disk of EXT_lights_area, which is its diameter in metres. Returns true if
+/// the area light determines the light's size, even if the size is invalid.
 bool read_area_size(const GltfObject &p_area, PropertyValues &r_properties) {
 	if (p_area.get_text("type") != "disk") {
-		p_area.get_messages().warn("area shape", p_area.path_of("type"),
+		p_area.get_messages().warn("area shape", p_area.get_member_path("type"),
 				"is not \"disk\"; only discs give a light its size.");
 		return false;
 	}
@@ -144,15 +149,16 @@ bool read_area_size(const GltfObject &p_area, PropertyValues &r_properties) {
 
 void read_cones(const tinygltf::SpotLight &p_spot, Light3D &r_light) {
 	r_light.outer_cone_rad = std::min(static_cast<float>(p_spot.outerConeAngle), MAX_CONE_RAD);
-	// A hard edge has both alike, although the specification wants the inner one smaller.
+	// Files with a hard edge set both angles to the same value, although the extension requires a
+	// smaller inner angle.
 	r_light.inner_cone_rad = std::min(static_cast<float>(p_spot.innerConeAngle),
 			std::nextafter(r_light.outer_cone_rad, 0.0f));
 }
 
-void check_finite(const Light3D &p_light, const char *p_what, double p_value) {
+void check_finite(const Light3D &p_light, const char *p_quantity, double p_value) {
 	if (!std::isfinite(p_value)) {
-		fail("Light \"", p_light.name, "\": ", p_what,
-				" is not finite, and no file can hold that. Set it to a number.");
+		fail("Light \"", p_light.name, "\": ", p_quantity,
+				" is not finite, which a file cannot store. Set it to a number.");
 	}
 }
 
@@ -177,20 +183,21 @@ void write_punctual(
 	}
 	if (!p_before || p_light.color != p_before->color) {
 		const glm::vec3 &color = p_light.color;
-		r_light.color = { to_shortest(color.x), to_shortest(color.y), to_shortest(color.z) };
+		r_light.color = { to_shortest_decimal(color.x), to_shortest_decimal(color.y),
+			to_shortest_decimal(color.z) };
 	}
 	if (!p_before || p_light.intensity != p_before->intensity) {
-		r_light.intensity = to_shortest(p_light.intensity);
+		r_light.intensity = to_shortest_decimal(p_light.intensity);
 	}
 	if (!p_before || p_light.range_m != p_before->range_m) {
-		r_light.range = p_light.range_m > 0 ? to_shortest(p_light.range_m) : 0.0;
+		r_light.range = p_light.range_m > 0 ? to_shortest_decimal(p_light.range_m) : 0.0;
 	}
 	const bool has_same_cones = p_before && p_light.type == p_before->type &&
 			p_light.inner_cone_rad == p_before->inner_cone_rad &&
 			p_light.outer_cone_rad == p_before->outer_cone_rad;
 	if (p_light.type == LightType::SPOT && !has_same_cones) {
-		r_light.spot.innerConeAngle = to_shortest(p_light.inner_cone_rad);
-		r_light.spot.outerConeAngle = to_shortest(p_light.outer_cone_rad);
+		r_light.spot.innerConeAngle = to_shortest_decimal(p_light.inner_cone_rad);
+		r_light.spot.outerConeAngle = to_shortest_decimal(p_light.outer_cone_rad);
 	}
 }
 

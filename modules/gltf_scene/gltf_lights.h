@@ -10,12 +10,12 @@
 
 namespace gnomon {
 
-/// The JSON objects that may hold one light's values; the first that has a value wins
-/// (doc/scene_files.md).
+/// The JSON objects that may hold a light's values. If several set the same value, the first in the
+/// order given in doc/scene_files.md is used.
 struct GltfLightSources {
 	size_t light_index = 0;			// of KHR_lights_punctual's lights
 	std::optional<GltfObject> area; // an element of EXT_lights_area's lights
-	/// The node, and above it the object that Blender puts between a light and its parent.
+	/// Indices of the light's node and, if find_blender_owner returns one, of that parent node.
 	std::vector<size_t> nodes;
 };
 
@@ -24,10 +24,10 @@ struct GltfLightSources {
 bool read_light(const tinygltf::Model &p_model, const GltfLightSources &p_sources,
 		const GltfLoadOptions &p_options, GltfMessages &r_messages, Light3D &r_light);
 
-/// Writes what differs from p_before (everything, if null) into a definition of
-/// KHR_lights_punctual. An unset property is also removed from p_nodes' extras; otherwise it would
-/// be read from there again. r_area: a disc of EXT_lights_area that gets the light's size, because
-/// it takes precedence over the extras; may be null.
+/// Writes the values that differ from p_before (all values if it is null) into a definition of
+/// KHR_lights_punctual. An unset property is also removed from the extras of p_nodes; otherwise it
+/// would be read from there again. r_area: a disk light of EXT_lights_area whose size is set as
+/// well, because it takes precedence over the extras; may be null.
 void write_light(const Light3D &p_light, const LightSettings *p_before, tinygltf::Light &r_light,
 		const std::vector<tinygltf::Node *> &p_nodes, tinygltf::Value *r_area);
 

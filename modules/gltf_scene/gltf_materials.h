@@ -10,13 +10,13 @@ namespace gnomon {
 
 /// Reads a material. Invalid values of its extras are reported and replaced by their defaults. If a
 /// material with scatter has no scatter_distance, the attenuation distance of KHR_materials_volume
-/// is used: both are mean distances that light travels in the medium.
+/// is used: both describe how far light travels in the medium.
 Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextures &r_textures,
 		GltfMessages &r_messages);
 
-/// Writes what differs from p_before (all that is not a default, when null) into a material's
-/// definition. r_model: the document, which names the extensions it uses.
+/// Writes the values that differ from p_before, or from the defaults if it is null, into a
+/// material's definition. Adds the extensions used to r_model's `extensionsUsed`.
 void write_material(const Material &p_material, const Material *p_before, tinygltf::Model &r_model,
-		tinygltf::Material &r_written);
+		tinygltf::Material &r_target);
 
 } // namespace gnomon

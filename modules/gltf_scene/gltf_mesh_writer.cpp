@@ -36,8 +36,8 @@ GltfMeshWriter::GltfMeshWriter(tinygltf::Model &r_model, size_t p_buffer_index, 
 	}
 	material_indices = p_document->material_indices;
 	for (const auto &[material, index] : material_indices) {
-		loaded_materials.resize(std::max(loaded_materials.size(), index + 1));
-		loaded_materials[index] = material;
+		original_materials.resize(std::max(original_materials.size(), index + 1));
+		original_materials[index] = material;
 	}
 }
 
@@ -59,7 +59,7 @@ size_t GltfMeshWriter::append_mesh(
 		primitive.attributes = { { "POSITION", made.positions }, { "NORMAL", made.normals } };
 		primitive.indices = made.indices;
 		if (surface.material) {
-			primitive.material = static_cast<int>(put_material(*surface.material));
+			primitive.material = static_cast<int>(store_material(*surface.material));
 		}
 		mesh.primitives.push_back(std::move(primitive));
 	}
@@ -67,15 +67,15 @@ size_t GltfMeshWriter::append_mesh(
 }
 
 GltfMeshWriter::Accessors GltfMeshWriter::append_vertices(const Mesh &p_mesh) {
-	if (p_mesh.attributes.rig) { // only files make them, and keep theirs
+	if (p_mesh.attributes.rig) { // only for a mesh of another file
 		log_warning("Mesh \"", p_mesh.name, "\" is saved at rest, without its joints and morph ",
-				"targets: only those that a file has can be saved.");
+				"targets: they are preserved only in the file from which they were loaded.");
 	}
 	const size_t vertex_count = p_mesh.positions_node.size();
 	const tinygltf::Accessor vectors =
 			make_accessor(TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, vertex_count);
 	tinygltf::Accessor positions = vectors;
-	// The specification wants them for positions; p_mesh has at least one triangle.
+	// glTF requires bounds for positions. They are valid, because p_mesh has at least one triangle.
 	const glm::dvec3 &low = p_mesh.bounds_node.minimum;
 	const glm::dvec3 &high = p_mesh.bounds_node.maximum;
 	positions.minValues = { low.x, low.y, low.z };
@@ -94,7 +94,7 @@ GltfMeshWriter::Accessors GltfMeshWriter::append_vertices(const Mesh &p_mesh) {
 
 int GltfMeshWriter::append_accessor(
 		std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target) {
-	// Elements are multiples of four bytes, so that every view stays aligned as it must.
+	// The element sizes are multiples of four bytes, so that every view is aligned as required.
 	tinygltf::BufferView view;
 	view.buffer = static_cast<int>(buffer_index);
 	view.byteOffset = first_byte + bytes.size();
@@ -105,22 +105,24 @@ int GltfMeshWriter::append_accessor(
 	return append_element(model.accessors, std::move(p_accessor));
 }
 
-size_t GltfMeshWriter::put_material(const Material &p_material) {
+size_t GltfMeshWriter::store_material(const Material &p_material) {
 	if (const auto found = material_indices.find(&p_material); found != material_indices.end()) {
 		return found->second;
 	}
-	const size_t origin = static_cast<size_t>(p_material.file_index); // -1: beyond all
-	const Material *before = origin < loaded_materials.size() ? loaded_materials[origin] : nullptr;
-	const tinygltf::Material loaded = !before ? tinygltf::Material()
-			: replaced.contains(origin)		  ? replaced.at(origin)
-											  : model.materials[origin];
+	const size_t original_index = static_cast<size_t>(p_material.file_index); // -1: SIZE_MAX
+	const Material *before = original_index < original_materials.size()
+			? original_materials[original_index]
+			: nullptr;
+	const tinygltf::Material loaded = !before	? tinygltf::Material()
+			: replaced.contains(original_index) ? replaced.at(original_index)
+												: model.materials[original_index];
 	tinygltf::Material made = loaded;
 	write_material(p_material, before, model, made);
-	size_t index = origin;
+	size_t index = original_index;
 	if (before && !used.contains(before) && !document->shares_materials &&
-			(!replaced.contains(origin) || model.materials[origin] == made)) {
-		replaced.try_emplace(origin, loaded);
-		model.materials[origin] = std::move(made);
+			(!replaced.contains(original_index) || model.materials[original_index] == made)) {
+		replaced.try_emplace(original_index, loaded);
+		model.materials[original_index] = std::move(made);
 	} else {
 		index = static_cast<size_t>(append_element(model.materials, std::move(made)));
 	}
@@ -128,7 +130,7 @@ size_t GltfMeshWriter::put_material(const Material &p_material) {
 	return index;
 }
 
-/// Finds the document's mesh with these surfaces, whatever their materials.
+/// Finds the mesh of the document that has the same surfaces apart from their materials.
 std::optional<size_t> GltfMeshWriter::find_loaded_mesh(
 		const std::vector<MeshInstance3D::Surface> &p_surfaces) const {
 	if (document == nullptr || p_surfaces.empty()) {
@@ -156,11 +158,12 @@ std::optional<size_t> GltfMeshWriter::change_materials(
 	for (const MeshInstance3D::Surface &surface : p_surfaces) {
 		tinygltf::Primitive &primitive =
 				mesh.primitives[document->primitive_indices.at(surface.mesh.get())];
-		// The reader's default material has no index: a primitive without one keeps it.
+		// A primitive without material was loaded with the default material, which has no file
+		// index. As long as it still has this material, none is written.
 		if (surface.material &&
 				(surface.material->file_index >= 0 || primitive.material >= 0 ||
 						!(*surface.material == Material()))) {
-			primitive.material = static_cast<int>(put_material(*surface.material));
+			primitive.material = static_cast<int>(store_material(*surface.material));
 		}
 	}
 	if (mesh == loaded) {

@@ -12,8 +12,8 @@ namespace gnomon {
 
 namespace {
 
-/// Three indices per triangle, wound as glTF 2.0, 3.7.2.1 defines; an incomplete last one is
-/// skipped, and so are triangles that a strip only makes to jump.
+/// Returns three indices per triangle, with the winding of glTF 2.0, 3.7.2.1. Skips an incomplete
+/// last triangle, and the degenerate triangles of strips and fans.
 std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, int p_mode) {
 	if (p_mode == TINYGLTF_MODE_TRIANGLES) {
 		p_indices.resize(p_indices.size() / 3 * 3);
@@ -33,11 +33,13 @@ std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, int p_mode
 	return triangles;
 }
 
-/// A table of all vertices is faster than sorting, unless few are used.
+/// Above this ratio of vertices to indices, sorting the indices is faster than a table of all
+/// vertices.
 const size_t TABLE_VERTICES_PER_INDEX = 16;
 
 /// Returns the vertices that triangles use, in order, and renumbers the triangles' indices to
-/// match. Many primitives may share one large array, so the cost depends on the indices alone.
+/// match. The cost depends on the indices alone, because many primitives may share a large array.
+/// Not called for a primitive with at least as many indices as vertices, see load_primitive.
 std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint32_t> &r_indices) {
 	std::vector<uint32_t> used;
 	if (r_indices.size() * TABLE_VERTICES_PER_INDEX < p_vertex_count) {
@@ -98,7 +100,7 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 		return found->second;
 	}
 	const tinygltf::Mesh &mesh = model.meshes[p_index];
-	// Cut: each primitive keeps it.
+	// make_name also truncates the name, of which each primitive stores a copy.
 	const std::string name = make_name(mesh.name, text("Mesh ", p_index));
 	std::vector<MeshInstance3D::Surface> surfaces;
 	for (size_t index = 0; index < mesh.primitives.size(); ++index) {
@@ -144,7 +146,8 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 		messages.warn("positions", p_path, "has no POSITION; it is skipped.");
 		return nullptr;
 	}
-	// Shared, not copied: a file of some kilobytes may have a thousand primitives of one array.
+	// Shared, not copied: a file of a few kilobytes may have a thousand primitives that use one
+	// array.
 	const size_t positions_index = static_cast<size_t>(position_attribute->second);
 	const auto all_positions = accessors.read_vectors(positions_index);
 	check_finite(positions_index, *all_positions, p_path, p_name);
@@ -174,10 +177,12 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 			read_attributes(p_primitive, p_path, p_material, all_positions->size());
 	MeshRig rig =
 			read_rig(p_primitive, p_path, p_has_skin, all_positions->size(), accessors, messages);
-	count_targets(rig, p_path);
+	check_target_limit(rig, p_path);
 	std::vector<glm::vec3> positions;
 	std::vector<glm::vec3> normals;
 	if (indices.size() >= all_positions->size()) {
+		// Without a search for unused vertices: the mesh may contain some, and they count for its
+		// bounds, which enclose all vertices.
 		positions = *all_positions;
 		normals = all_normals ? *all_normals : normals;
 	} else {
@@ -207,7 +212,7 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 			std::move(indices), std::move(attributes));
 }
 
-void GltfMeshes::count_targets(const MeshRig &p_rig, const std::string &p_path) {
+void GltfMeshes::check_target_limit(const MeshRig &p_rig, const std::string &p_path) {
 	for (const MorphTarget &target : p_rig.targets) {
 		target_value_count +=
 				target.positions.size() + target.normals.size() + target.tangents.size();
@@ -222,11 +227,12 @@ void GltfMeshes::count_targets(const MeshRig &p_rig, const std::string &p_path) 
 MeshAttributes GltfMeshes::read_attributes(const tinygltf::Primitive &p_primitive,
 		const std::string &p_path, const Material &p_material, size_t p_count) {
 	MeshAttributes attributes;
-	const auto read = [&](const std::string &p_name, int p_fewest, int p_most) {
+	const auto read = [&](const std::string &p_name, int p_min_components, int p_max_components) {
 		std::vector<glm::vec4> values;
 		const auto found = p_primitive.attributes.find(p_name);
 		if (found != p_primitive.attributes.end()) {
-			values = accessors.read_attribute(static_cast<size_t>(found->second), p_fewest, p_most);
+			values = accessors.read_attribute(
+					static_cast<size_t>(found->second), p_min_components, p_max_components);
 			if (values.size() != p_count) {
 				messages.fail(text(p_path, ".attributes.", p_name),
 						text("has ", values.size(), " elements, must be ", p_count,
@@ -265,7 +271,8 @@ MeshAttributes GltfMeshes::read_attributes(const tinygltf::Primitive &p_primitiv
 
 std::shared_ptr<const Material> GltfMeshes::load_material(const tinygltf::Primitive &p_primitive) {
 	if (p_primitive.material < 0) {
-		// glTF's own default is metal, which shows no shadow of a light; plain grey does.
+		// glTF's default material is metallic, on which shadows are not visible. This one is plain
+		// grey instead.
 		return default_material;
 	}
 	const size_t index = static_cast<size_t>(p_primitive.material);

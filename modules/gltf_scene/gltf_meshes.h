@@ -13,16 +13,18 @@
 
 namespace gnomon {
 
-/// Reads meshes and their materials, each once. Triangles, strips and fans become triangles; points
-/// and lines have no shadow here and are skipped with one warning.
+/// Reads meshes and their materials, each once. Strips and fans are converted to triangles. Points
+/// and lines cast no shadow here and are skipped with one warning.
 class GltfMeshes {
 public:
 	/// The arguments must outlive this object.
 	GltfMeshes(const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfTextures &p_textures,
 			GltfMessages &r_messages);
 
-	/// One surface per primitive with triangles.
+	/// Returns one surface per primitive that has triangles. Its mesh may contain vertices that no
+	/// triangle uses, if it has at least as many indices as vertices.
 	const std::vector<MeshInstance3D::Surface> &load_mesh(size_t p_index);
+	/// Returns the materials loaded so far, by index in the file.
 	const std::map<size_t, std::shared_ptr<const Material>> &get_materials() const {
 		return materials;
 	}
@@ -36,14 +38,15 @@ private:
 	std::shared_ptr<const Mesh> load_primitive(const tinygltf::Primitive &p_primitive,
 			const std::string &p_path, const Material &p_material, std::string p_name,
 			bool p_has_skin);
-	/// Fails on a position that is not finite. Each accessor is checked only once.
+	/// Throws an Error if a position is not finite. Each accessor is checked only once.
 	void check_finite(size_t p_accessor_index, const std::vector<glm::vec3> &p_positions,
 			const std::string &p_path, const std::string &p_name);
 	/// Reads the vertex attributes that the material uses. p_count: number of vertices.
 	MeshAttributes read_attributes(const tinygltf::Primitive &p_primitive,
 			const std::string &p_path, const Material &p_material, size_t p_count);
-	/// Adds up the size of all morph targets, and fails above the limit.
-	void count_targets(const MeshRig &p_rig, const std::string &p_path);
+	/// Adds the size of the rig's morph targets to target_value_count. Throws an Error if that
+	/// exceeds GLTF_MAX_VERTEX_COUNT.
+	void check_target_limit(const MeshRig &p_rig, const std::string &p_path);
 	std::shared_ptr<const Material> load_material(const tinygltf::Primitive &p_primitive);
 
 	const tinygltf::Model &model;
@@ -55,10 +58,10 @@ private:
 	std::map<const Mesh *, size_t> primitive_indices;
 	std::shared_ptr<const Material> default_material = std::make_shared<const Material>();
 	std::set<size_t> finite_accessors; // accessors whose positions have been checked
-	uint64_t vertex_count = 0;		   // of all meshes so far, as is the count of indices
-	uint64_t index_count = 0;
-	uint64_t target_value_count = 0; // vectors of morph targets
-	std::set<int> skinned_meshes;	 // meshes that some node shows with a skin
+	uint64_t vertex_count = 0;		   // of all meshes so far
+	uint64_t index_count = 0;		   // of all meshes so far
+	uint64_t target_value_count = 0;   // vectors in the morph targets of all meshes so far
+	std::set<int> skinned_meshes;	   // meshes of nodes that have a skin
 };
 
 } // namespace gnomon

@@ -10,12 +10,12 @@ namespace gnomon {
 
 namespace {
 
-std::optional<PropertyValue> find_size(const PropertyValues &p_properties) {
+std::optional<PropertyValue> find_light_size(const PropertyValues &p_properties) {
 	const auto found = p_properties.find("light_size");
 	return found == p_properties.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// tinygltf's own comparison sees names and colours alone.
+/// Compares all members, because tinygltf's operator== compares only some, such as name and colour.
 bool is_same(const tinygltf::Light &p_first, const tinygltf::Light &p_second) {
 	return p_first == p_second && p_first.intensity == p_second.intensity &&
 			p_first.range == p_second.range &&
@@ -41,8 +41,8 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 			write_motion(model.meshes[*mesh_index], p_instance, get_node(p_entry));
 		}
 	}
-	const GltfNodeState fresh;
-	const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
+	const GltfNodeState defaults;
+	const GltfNodeState &before = p_entry.is_new ? defaults : document->nodes[p_entry.index];
 	if (p_instance.casts_shadow != before.casts_shadow) {
 		require_extras(get_node(p_entry).extras)["casts_shadow"] =
 				tinygltf::Value(p_instance.casts_shadow);
@@ -53,8 +53,8 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 	}
 }
 
-/// Writes the skin and the weights of a node that had no mesh in the file. p_mesh: its mesh in the
-/// file, which has joints and targets if it is one of the document's.
+/// Writes the skin and the morph weights of a node that had no mesh in the file. p_mesh: the mesh
+/// that was written for it. Only meshes from the document have joints and morph targets.
 void GltfNodeWriter::write_motion(const tinygltf::Mesh &p_mesh, const MeshInstance3D &p_instance,
 		tinygltf::Node &r_node) const {
 	bool has_joints = false;
@@ -69,11 +69,11 @@ void GltfNodeWriter::write_motion(const tinygltf::Mesh &p_mesh, const MeshInstan
 	}
 	std::vector<double> weights;
 	for (const float weight : p_instance.morph_weights) {
-		weights.push_back(to_shortest(weight));
+		weights.push_back(to_shortest_decimal(weight));
 	}
-	std::vector<double> of_mesh = p_mesh.weights;
-	of_mesh.resize(weights.size(), 0.0);
-	if (has_targets && weights != of_mesh) {
+	std::vector<double> mesh_weights = p_mesh.weights;
+	mesh_weights.resize(weights.size(), 0.0);
+	if (has_targets && weights != mesh_weights) {
 		r_node.weights = std::move(weights);
 	}
 }
@@ -99,10 +99,10 @@ std::optional<size_t> GltfNodeWriter::find_or_append_mesh(
 	return mesh_indices.emplace(p_key, meshes.append_mesh(name, surfaces)).first->second;
 }
 
-/// Replaces the definition at p_index by a changed one, or appends it if there is no index or if
-/// another node has put a different definition there. Returns its index.
+/// Replaces the definition at p_index by p_definition. Appends it instead if there is no index or
+/// if a different definition was written there for another node. Returns its index.
 template <typename T>
-size_t GltfNodeWriter::put_definition(std::vector<T> &r_list, Written<T> &r_written,
+size_t GltfNodeWriter::store_definition(std::vector<T> &r_list, DefinitionMap<T> &r_written,
 		std::optional<size_t> p_index, T p_definition) {
 	if (p_index) {
 		const auto [found, is_first] = r_written.try_emplace(*p_index, p_definition);
@@ -118,8 +118,9 @@ size_t GltfNodeWriter::put_definition(std::vector<T> &r_list, Written<T> &r_writ
 	return r_list.size() - 1;
 }
 
-/// Returns a node's area light as a copy of its own, because other nodes may share the definition.
-tinygltf::Value *GltfNodeWriter::own_area_light(tinygltf::Node &r_node) {
+/// Gives the node a copy of its area light, because other nodes may share the definition, and
+/// returns the copy. Returns null if the node has no area light of type "disk".
+tinygltf::Value *GltfNodeWriter::copy_area_light(tinygltf::Node &r_node) {
 	using tinygltf::Value;
 	const auto reference = r_node.extensions.find(GLTF_AREA);
 	if (reference == r_node.extensions.end()) {
@@ -137,7 +138,7 @@ tinygltf::Value *GltfNodeWriter::own_area_light(tinygltf::Node &r_node) {
 	return &lights_before.emplace_back(std::move(copy));
 }
 
-void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light) {
+void GltfNodeWriter::write_node_light(const Entry &p_entry, const Light3D &p_light) {
 	light_nodes.insert(p_entry.index);
 	const bool had_light = !p_entry.is_new && document->lights.contains(p_entry.index);
 	const LightSettings *before = had_light ? &document->lights.at(p_entry.index) : nullptr;
@@ -155,15 +156,15 @@ void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light
 				owner != document->blender_owners.end()) {
 			owners.push_back(&model.nodes[owner->second]);
 		}
-		if (find_size(before->properties) != find_size(p_light.properties)) {
-			area = own_area_light(target);
+		if (find_light_size(before->properties) != find_light_size(p_light.properties)) {
+			area = copy_area_light(target);
 		}
 	} else {
 		definition.name = p_light.name;
 		declare_extension(model, GLTF_PUNCTUAL);
 	}
 	write_light(p_light, before, definition, owners, area);
-	const size_t index = put_definition(model.lights, lights, old_index, std::move(definition));
+	const size_t index = store_definition(model.lights, lights, old_index, std::move(definition));
 	if (index != old_index) {
 		require_object(target.extensions[GLTF_PUNCTUAL])["light"] =
 				tinygltf::Value(static_cast<int>(index));
@@ -182,12 +183,12 @@ void GltfNodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera
 		definition = document->model.cameras[*old_index];
 	}
 	if (!had_camera || document->cameras.at(p_entry.index).first != values.first) {
-		definition.perspective.yfov = to_shortest(values.first);
+		definition.perspective.yfov = to_shortest_decimal(values.first);
 	}
 	if (!had_camera || document->cameras.at(p_entry.index).second != values.second) {
-		definition.perspective.znear = to_shortest(values.second);
+		definition.perspective.znear = to_shortest_decimal(values.second);
 	}
-	const size_t index = put_definition(model.cameras, cameras, old_index, std::move(definition));
+	const size_t index = store_definition(model.cameras, cameras, old_index, std::move(definition));
 	get_node(p_entry).camera = static_cast<int>(index);
 }
 

@@ -13,7 +13,7 @@ namespace gnomon {
 
 namespace {
 
-/// Whether a node is saved: all are, except staged ones without saved descendants.
+/// Returns whether a node is saved: all nodes are, except staged ones without saved descendants.
 bool is_saved(const Node3D &p_node) {
 	return !p_node.is_staged ||
 			std::any_of(p_node.children.begin(), p_node.children.end(),
@@ -26,7 +26,7 @@ void GltfNodeWriter::write(const Scene &p_scene) {
 	std::vector<size_t> roots;
 	const Node3D &root = *p_scene.root;
 	if (typeid(root) != typeid(Node3D) || root.parent_from_node != glm::dmat4(1.0)) {
-		roots.push_back(*assign(root, nullptr)); // has values of its own, so it becomes a node
+		roots.push_back(*assign(root, nullptr)); // it has data, so it becomes a node
 	} else {
 		for (const std::unique_ptr<Node3D> &child : root.children) {
 			if (is_saved(*child)) {
@@ -38,47 +38,49 @@ void GltfNodeWriter::write(const Scene &p_scene) {
 		write_entry(*entry);
 	}
 	if (document) {
-		drop_lost_parts();
-		drop_lost_children();
+		remove_deleted_attachments();
+		detach_moved_children();
 	}
 	write_scene(p_scene, roots);
 }
 
-bool GltfNodeWriter::is_part(const Node3D &p_node, const Entry *p_parent) const {
+/// Returns whether the node is a light or camera that stays stored in its parent's node of the
+/// file.
+bool GltfNodeWriter::is_attachment(const Node3D &p_node, const Entry *p_parent) const {
 	if (!document || !p_parent || p_parent->is_new || p_node.file_index < 0 ||
 			static_cast<size_t>(p_node.file_index) != p_parent->index || !p_node.children.empty() ||
 			p_node.parent_from_node != glm::dmat4(1.0)) {
-		return false; // moved away from its node or given children: it needs one of its own
+		return false; // it was moved or has children, so it needs its own node
 	}
-	const auto names = document->part_names.find(p_parent->index);
-	if (names == document->part_names.end() || !names->second.contains(p_node.name)) {
-		return false; // renamed: a node of its own has that name
+	const auto names = document->attachment_names.find(p_parent->index);
+	if (names == document->attachment_names.end() || !names->second.contains(p_node.name)) {
+		return false; // it was renamed, and only its own node can store the name
 	}
 	return (dynamic_cast<const Light3D *>(&p_node) && document->lights.contains(p_parent->index)) ||
 			(dynamic_cast<const Camera3D *>(&p_node) &&
 					document->cameras.contains(p_parent->index));
 }
 
-/// Finds or creates the node's entry in the file. Returns nothing for a part, which shares its
-/// parent's.
+/// Finds or creates the node of the file for a node of the scene and its descendants. Returns its
+/// index; nothing if the node is stored in its parent's node (is_attachment).
 std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *p_parent) {
 	Entry &entry = *entries.emplace_back(std::make_unique<Entry>());
 	entry.node = &p_node;
-	entry.is_part = is_part(p_node, p_parent);
-	if (entry.is_part) {
+	entry.is_attachment = is_attachment(p_node, p_parent);
+	if (entry.is_attachment) {
 		entry.index = p_parent->index;
 		return std::nullopt;
 	}
 	const size_t file_index = static_cast<size_t>(p_node.file_index);
 	const bool is_in_file = document && p_node.file_index >= 0 &&
 			file_index < document->nodes.size() && document->nodes[file_index].is_loaded &&
-			taken.insert(file_index).second;
+			used_nodes.insert(file_index).second;
 	entry.is_new = !is_in_file;
 	entry.index = file_index;
 	if (entry.is_new) {
 		model.nodes.emplace_back();
 		entry.index = model.nodes.size() - 1;
-		taken.insert(entry.index);
+		used_nodes.insert(entry.index);
 	}
 	for (const std::unique_ptr<Node3D> &child : p_node.children) {
 		if (!is_saved(*child)) {
@@ -94,9 +96,9 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 void GltfNodeWriter::write_entry(const Entry &p_entry) {
 	const Node3D &node = *p_entry.node;
 	tinygltf::Node &target = get_node(p_entry);
-	if (!p_entry.is_part) {
-		const GltfNodeState fresh;
-		const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
+	if (!p_entry.is_attachment) {
+		const GltfNodeState defaults;
+		const GltfNodeState &before = p_entry.is_new ? defaults : document->nodes[p_entry.index];
 		write_name(p_entry, before.name, target);
 		if (node.parent_from_node != before.parent_from_node) {
 			write_transform(node, before.parent_from_node, target);
@@ -106,14 +108,14 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 	if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&node)) {
 		write_mesh(p_entry, *instance);
 	} else if (const auto *light = dynamic_cast<const Light3D *>(&node)) {
-		write_light_of(p_entry, *light);
+		write_node_light(p_entry, *light);
 	} else if (const auto *camera = dynamic_cast<const Camera3D *>(&node)) {
 		write_camera(p_entry, *camera);
 	}
 }
 
-/// The light that Blender's exporter hung below its object is found by its name, so that this
-/// follows the object's; see find_blender_owner.
+/// Writes a changed name. The name of a light that find_blender_owner identifies by it is always
+/// the parent's name with the suffix BLENDER_ORIENTATION.
 void GltfNodeWriter::write_name(
 		const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const {
 	if (p_entry.node->name != p_before) {
@@ -127,16 +129,15 @@ void GltfNodeWriter::write_name(
 		const std::string name = model.nodes[owner->second].name + BLENDER_ORIENTATION;
 		if (p_entry.node->name != p_before && p_entry.node->name != name) {
 			log_warning("Light \"", p_entry.node->name, "\" is saved as \"", name,
-					"\": its name follows its parent's. Rename that.");
+					"\": its name follows its parent's. Rename the parent.");
 		}
 		r_node.name = name;
 	}
 }
 
-/// Removes a mesh, light or camera that was loaded with a node and has been deleted since, while
-/// the node remains.
-void GltfNodeWriter::drop_lost_parts() {
-	for (const size_t index : taken) {
+/// Removes from the remaining nodes each mesh, light or camera that was deleted since loading.
+void GltfNodeWriter::remove_deleted_attachments() {
+	for (const size_t index : used_nodes) {
 		tinygltf::Node &node = model.nodes[index];
 		if (document->node_surfaces.contains(index) && !mesh_nodes.contains(index)) {
 			node.mesh = -1;
@@ -153,13 +154,14 @@ void GltfNodeWriter::drop_lost_parts() {
 	}
 }
 
-/// Deleted nodes stay in the file, unused, because indices must not change; but they must not keep
-/// children that still exist elsewhere.
-void GltfNodeWriter::drop_lost_children() {
+/// Removes from deleted nodes the children that have another parent now. Deleted nodes stay in the
+/// file, unused, because indices must not change.
+void GltfNodeWriter::detach_moved_children() {
 	for (size_t index = 0; index < document->nodes.size(); ++index) {
-		if (!taken.contains(index) && document->nodes[index].is_loaded) {
-			std::erase_if(model.nodes[index].children,
-					[this](int p_child) { return taken.contains(static_cast<size_t>(p_child)); });
+		if (!used_nodes.contains(index) && document->nodes[index].is_loaded) {
+			std::erase_if(model.nodes[index].children, [this](int p_child) {
+				return used_nodes.contains(static_cast<size_t>(p_child));
+			});
 		}
 	}
 }
@@ -169,9 +171,11 @@ void GltfNodeWriter::write_scene(const Scene &p_scene, const std::vector<size_t>
 	const bool has_scene = !document || document->scene_index;
 	const size_t scene_index = document ? document->scene_index.value_or(0) : 0;
 	if (!has_scene) {
-		// Without scenes every node without a parent is shown: as long as that is so, none is made.
+		// In a file without scenes all root nodes are shown. A scene is added only if that is no
+		// longer enough: after nodes were added or deleted, or for a scene size.
 		const bool is_same = p_scene.scene_size_m == size_before_m &&
-				taken.size() == document->nodes.size() && model.nodes.size() == taken.size();
+				used_nodes.size() == document->nodes.size() &&
+				model.nodes.size() == used_nodes.size();
 		if (is_same) {
 			return;
 		}

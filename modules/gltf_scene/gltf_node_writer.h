@@ -32,16 +32,17 @@ private:
 		const Node3D *node = nullptr;
 		size_t index = 0;
 		bool is_new = false;
-		bool is_part = false; // a light or camera of a node that is also something else
+		/// Whether this is a light or camera that the file stores in its parent's node.
+		bool is_attachment = false;
 		std::vector<size_t> children;
 	};
-	/// Definitions that nodes share, by index in the file: each value is written once.
-	template <typename T> using Written = std::map<size_t, T>;
+	/// The light or camera definitions changed so far, by index in the file.
+	template <typename T> using DefinitionMap = std::map<size_t, T>;
 
-	/// The node in the document.
+	/// Returns the entry's node in the document.
 	tinygltf::Node &get_node(const Entry &p_entry) { return model.nodes[p_entry.index]; }
 	std::optional<size_t> assign(const Node3D &p_node, const Entry *p_parent);
-	bool is_part(const Node3D &p_node, const Entry *p_parent) const;
+	bool is_attachment(const Node3D &p_node, const Entry *p_parent) const;
 	void write_entry(const Entry &p_entry);
 	void write_name(
 			const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const;
@@ -50,14 +51,14 @@ private:
 			tinygltf::Node &r_node) const;
 	std::optional<size_t> find_or_append_mesh(
 			const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key);
-	void write_light_of(const Entry &p_entry, const Light3D &p_light);
+	void write_node_light(const Entry &p_entry, const Light3D &p_light);
 	void write_camera(const Entry &p_entry, const Camera3D &p_camera);
-	tinygltf::Value *own_area_light(tinygltf::Node &r_node);
-	void drop_lost_parts();
-	void drop_lost_children();
+	tinygltf::Value *copy_area_light(tinygltf::Node &r_node);
+	void remove_deleted_attachments();
+	void detach_moved_children();
 	void write_scene(const Scene &p_scene, const std::vector<size_t> &p_roots);
 	template <typename T>
-	static size_t put_definition(std::vector<T> &r_list, Written<T> &r_written,
+	static size_t store_definition(std::vector<T> &r_list, DefinitionMap<T> &r_written,
 			std::optional<size_t> p_index, T p_definition);
 
 	const GltfDocument *document;
@@ -65,10 +66,10 @@ private:
 	GltfMeshWriter &meshes;
 	std::map<GltfDocument::SurfaceKey, size_t> mesh_indices;
 	std::vector<std::unique_ptr<Entry>> entries; // parents before their children
-	std::set<size_t> taken;						 // nodes of the file that the scene still has
-	std::set<size_t> mesh_nodes, light_nodes, camera_nodes;
-	Written<tinygltf::Light> lights;
-	Written<tinygltf::Camera> cameras;
+	std::set<size_t> used_nodes;				 // indices of the file's nodes that the scene uses
+	std::set<size_t> mesh_nodes, light_nodes, camera_nodes; // indices of the nodes written so far
+	DefinitionMap<tinygltf::Light> lights;
+	DefinitionMap<tinygltf::Camera> cameras;
 };
 
 } // namespace gnomon

@@ -19,7 +19,7 @@ namespace gnomon {
 
 namespace {
 
-/// Gives every node of the scene its own name.
+/// Makes the names of the scene's nodes unique by appending numbers.
 class UniqueNames {
 public:
 	std::string make(const std::string &p_requested) {
@@ -61,7 +61,7 @@ private:
 			size_t p_index, const GltfTree &p_tree, std::string &r_name);
 	std::unique_ptr<Camera3D> read_camera_node(size_t p_index, std::string &r_name);
 	std::optional<GltfObject> find_area_light(const tinygltf::Node &p_node) const;
-	void remember(size_t p_index, const Node3D &p_node);
+	void record_node_state(size_t p_index, const Node3D &p_node);
 
 	GltfDocument &document;
 	const tinygltf::Model &model;
@@ -73,14 +73,15 @@ private:
 	GltfMeshes meshes;
 	std::map<int, std::shared_ptr<const Skin>> skins;
 	UniqueNames names;
-	uint64_t surface_count = 0; // of all nodes so far, as are the values of lights
-	uint64_t light_value_count = 0;
+	uint64_t surface_count = 0;		// of all nodes so far
+	uint64_t light_value_count = 0; // of all nodes so far
 };
 
 void GltfReader::read(Scene &r_scene) {
 	const GltfTree tree = build_gltf_tree(model, messages);
 	document.nodes.resize(tree.parents.size());
-	// An explicit stack visits children in order: those of a node are pushed last first.
+	// An explicit stack. The children of a node are pushed in reverse, so that they are visited in
+	// order.
 	std::vector<std::pair<size_t, Node3D *>> pending;
 	const auto push = [&](const std::vector<size_t> &p_indices, Node3D *p_parent) {
 		for (size_t index = p_indices.size(); index-- > 0;) {
@@ -140,38 +141,38 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 
 Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_parent) {
 	const tinygltf::Node &node = model.nodes[p_index];
-	// A node of the file may be a mesh, a light and a camera at once. The first of them becomes the
-	// node, and the others become its children.
-	std::vector<std::unique_ptr<Node3D>> parts;
-	std::vector<std::string> part_names;
+	// A node of the file may have a mesh, a light and a camera at once. The first of them becomes
+	// the node of the scene, and the others become its children.
+	std::vector<std::unique_ptr<Node3D>> attachments;
+	std::vector<std::string> attachment_names;
 	if (node.mesh >= 0) {
-		parts.push_back(read_mesh_node(p_index, p_tree));
-		part_names.push_back(text("Node ", p_index));
+		attachments.push_back(read_mesh_node(p_index, p_tree));
+		attachment_names.push_back(text("Node ", p_index));
 	}
 	std::string name;
 	if (auto light = read_light_node(p_index, p_tree, name)) {
-		parts.push_back(std::move(light));
-		part_names.push_back(name);
+		attachments.push_back(std::move(light));
+		attachment_names.push_back(name);
 	}
 	if (auto camera = read_camera_node(p_index, name)) {
-		parts.push_back(std::move(camera));
-		part_names.push_back(name);
+		attachments.push_back(std::move(camera));
+		attachment_names.push_back(name);
 	}
-	if (parts.empty()) {
-		parts.push_back(std::make_unique<Node3D>());
-		part_names.push_back(text("Node ", p_index));
+	if (attachments.empty()) {
+		attachments.push_back(std::make_unique<Node3D>());
+		attachment_names.push_back(text("Node ", p_index));
 	}
-	part_names[0] = make_name(node.name, part_names[0]);
-	parts[0]->parent_from_node = read_transform(node);
+	attachment_names[0] = make_name(node.name, attachment_names[0]);
+	attachments[0]->parent_from_node = read_transform(node);
 	Node3D *first = nullptr;
-	for (size_t part = 0; part < parts.size(); ++part) {
-		parts[part]->name = names.make(part_names[part]);
-		parts[part]->file_index = static_cast<int>(p_index);
-		remember(p_index, *parts[part]);
-		if (part > 0) {
-			document.part_names[p_index].insert(parts[part]->name);
+	for (size_t attachment = 0; attachment < attachments.size(); ++attachment) {
+		attachments[attachment]->name = names.make(attachment_names[attachment]);
+		attachments[attachment]->file_index = static_cast<int>(p_index);
+		record_node_state(p_index, *attachments[attachment]);
+		if (attachment > 0) {
+			document.attachment_names[p_index].insert(attachments[attachment]->name);
 		}
-		Node3D *added = (first ? *first : r_parent).add_child(std::move(parts[part]));
+		Node3D *added = (first ? *first : r_parent).add_child(std::move(attachments[attachment]));
 		first = first ? first : added;
 	}
 	return first;
@@ -204,7 +205,7 @@ std::unique_ptr<Node3D> GltfReader::read_mesh_node(size_t p_index, const GltfTre
 	return instance;
 }
 
-/// Reads the skin, and the weights of morph targets.
+/// Reads the node's skin and its morph target weights.
 void GltfReader::read_motion(const tinygltf::Node &p_node, const std::string &p_path,
 		const GltfTree &p_tree, MeshInstance3D &r_instance) {
 	const std::vector<double> &mesh_weights =
@@ -260,8 +261,8 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 	if (!reference) {
 		if (area) {
 			messages.warn("area light", text("nodes[", p_index, "]"),
-					"has an area light alone; only one with a KHR_lights_punctual light is "
-					"read.");
+					"has an area light without a KHR_lights_punctual light, which is "
+					"required; it is skipped.");
 		}
 		return nullptr;
 	}
@@ -276,8 +277,8 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 		return nullptr;
 	}
 	for (const auto &[name, value] : light->properties) {
-		const std::string *words = std::get_if<std::string>(&value);
-		light_value_count += 1 + (name.size() + (words ? words->size() : 0)) / 64;
+		const std::string *string_value = std::get_if<std::string>(&value);
+		light_value_count += 1 + (name.size() + (string_value ? string_value->size() : 0)) / 64;
 	}
 	if (light_value_count > GLTF_MAX_LIGHT_VALUE_COUNT) {
 		messages.fail(text("extensions.", GLTF_PUNCTUAL, ".", light->file_path, ".extras"),
@@ -301,8 +302,8 @@ std::unique_ptr<Camera3D> GltfReader::read_camera_node(size_t p_index, std::stri
 	return node;
 }
 
-/// Records the node's state, so that saving knows what has changed.
-void GltfReader::remember(size_t p_index, const Node3D &p_node) {
+/// Records the node's state, with which saving finds what has changed.
+void GltfReader::record_node_state(size_t p_index, const Node3D &p_node) {
 	GltfNodeState &state = document.nodes[p_index];
 	if (!state.is_loaded) {
 		state.is_loaded = true;
@@ -320,7 +321,7 @@ void GltfReader::remember(size_t p_index, const Node3D &p_node) {
 	}
 }
 
-/// Where the file is, and what it may refer to.
+/// Returns the folders of the file. Throws an Error if it is outside of the project folder.
 GltfLocation find_location(const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
 	GltfLocation location;
 	location.folder = std::filesystem::absolute(p_path).parent_path();
@@ -337,7 +338,7 @@ GltfLocation find_location(const std::filesystem::path &p_path, const GltfLoadOp
 
 std::unique_ptr<Scene> load_gltf(
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
-	find_location(p_path, p_options); // refuses a file elsewhere before it is read
+	find_location(p_path, p_options); // rejects a file outside of the project before reading it
 	return parse_gltf(load_file(p_path, GLTF_MAX_FILE_BYTES), p_path, p_options);
 }
 

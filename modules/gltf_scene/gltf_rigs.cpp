@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-const int MOST_JOINT_SETS = 2; // of four
+const int MAX_JOINT_SETS = 2; // a set has four joints per vertex
 const char NEXT_STEP[] = "Export the file again.";
 
 void check_count(const GltfMessages &p_messages, const std::string &p_path, size_t p_count,
@@ -37,7 +37,7 @@ void read_joints(const tinygltf::Primitive &p_primitive, const std::string &p_pa
 	std::vector<std::vector<glm::vec4>> joints;
 	std::vector<std::vector<glm::vec4>> weights;
 	const auto &attributes = p_primitive.attributes;
-	for (int set = 0; set < MOST_JOINT_SETS; ++set) {
+	for (int set = 0; set < MAX_JOINT_SETS; ++set) {
 		const auto joint = attributes.find(text("JOINTS_", set));
 		const auto weight = attributes.find(text("WEIGHTS_", set));
 		if (joint == attributes.end() || weight == attributes.end()) {
@@ -50,7 +50,7 @@ void read_joints(const tinygltf::Primitive &p_primitive, const std::string &p_pa
 		check_count(r_messages, text(p_path, ".attributes.WEIGHTS_", set), weights.back().size(),
 				p_vertex_count);
 	}
-	if (attributes.contains(text("JOINTS_", MOST_JOINT_SETS))) {
+	if (attributes.contains(text("JOINTS_", MAX_JOINT_SETS))) {
 		r_messages.warn("joints", p_path,
 				"has more than 8 joints a vertex; the first 8 are used. Limit them in the "
 				"exporter.");
@@ -76,28 +76,29 @@ size_t count_ancestors(const GltfTree &p_tree, size_t p_node) {
 	return count;
 }
 
-/// The nearest node that is an ancestor of both, or one of them; NONE: none is.
-size_t find_common_ancestor(const GltfTree &p_tree, size_t p_one, size_t p_other) {
-	size_t one_depth = count_ancestors(p_tree, p_one);
-	size_t other_depth = count_ancestors(p_tree, p_other);
-	while (p_one != p_other) {
-		if (p_one == GltfTree::NONE || p_other == GltfTree::NONE) {
+/// Returns the closest common ancestor of two nodes, which may be one of them; NONE if there is
+/// none.
+size_t find_common_ancestor(const GltfTree &p_tree, size_t p_first, size_t p_second) {
+	size_t first_depth = count_ancestors(p_tree, p_first);
+	size_t second_depth = count_ancestors(p_tree, p_second);
+	while (p_first != p_second) {
+		if (p_first == GltfTree::NONE || p_second == GltfTree::NONE) {
 			return GltfTree::NONE;
 		}
-		if (one_depth >= other_depth) {
-			const bool is_level = one_depth == other_depth;
-			p_one = p_tree.parents[p_one];
-			one_depth -= one_depth > 0 ? 1 : 0;
-			if (is_level) {
-				p_other = p_tree.parents[p_other];
-				other_depth -= other_depth > 0 ? 1 : 0;
+		if (first_depth >= second_depth) {
+			const bool is_same_depth = first_depth == second_depth;
+			p_first = p_tree.parents[p_first];
+			first_depth -= first_depth > 0 ? 1 : 0;
+			if (is_same_depth) {
+				p_second = p_tree.parents[p_second];
+				second_depth -= second_depth > 0 ? 1 : 0;
 			}
 		} else {
-			p_other = p_tree.parents[p_other];
-			--other_depth;
+			p_second = p_tree.parents[p_second];
+			--second_depth;
 		}
 	}
-	return p_one;
+	return p_first;
 }
 
 } // namespace
@@ -177,6 +178,7 @@ std::shared_ptr<const Skin> read_skin(const tinygltf::Model &p_model, size_t p_i
 					is_last_row ? (element == 15 ? 1.0 : 0.0) : double(values[i]);
 		}
 	}
+	// The frame is the closest common ancestor of all joints that is not a joint itself.
 	size_t frame = static_cast<size_t>(skin->joints[0]);
 	for (const int joint : skin->joints) {
 		if (frame != GltfTree::NONE) {

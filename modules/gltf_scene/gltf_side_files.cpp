@@ -15,8 +15,9 @@ bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
 	return fs::equivalent(p_first, p_second, code);
 }
 
-/// Copies what an element's relative URI names next to the target.
-void copy_uri(const GltfObject &p_object, const GltfLocation &p_location, bool p_is_required,
+/// Adds the file that an element's relative URI names to r_files, and writes its new URI to r_json.
+/// A file that cannot be read throws an Error if it is required, and is otherwise only logged.
+void copy_uri_file(const GltfObject &p_object, const GltfLocation &p_location, bool p_is_required,
 		Json &r_json, GltfSideFiles &r_files) {
 	const Json *uri = p_object.find("uri");
 	if (!uri || !uri->is_string() || is_data_uri(uri->get_ref<const std::string &>())) {
@@ -39,7 +40,8 @@ void copy_uri(const GltfObject &p_object, const GltfLocation &p_location, bool p
 
 GltfSideFiles::GltfSideFiles(fs::path p_folder) : folder(std::move(p_folder)) {}
 
-bool GltfSideFiles::is_taken(const std::string &p_name, const std::vector<uint8_t> &p_bytes) const {
+bool GltfSideFiles::is_name_taken(
+		const std::string &p_name, const std::vector<uint8_t> &p_bytes) const {
 	if (const auto found = files.find(p_name); found != files.end()) {
 		return found->second != p_bytes;
 	}
@@ -54,14 +56,14 @@ bool GltfSideFiles::is_taken(const std::string &p_name, const std::vector<uint8_
 
 std::string GltfSideFiles::add(const std::string &p_requested_name, std::vector<uint8_t> p_bytes) {
 	std::string name = p_requested_name;
-	for (size_t number = 2; is_taken(name, p_bytes); ++number) {
-		name = number_name(p_requested_name, number);
+	for (size_t number = 2; is_name_taken(name, p_bytes); ++number) {
+		name = make_numbered_name(p_requested_name, number);
 	}
 	files[name] = std::move(p_bytes);
 	return name;
 }
 
-std::string GltfSideFiles::number_name(const std::string &p_name, size_t p_number) {
+std::string GltfSideFiles::make_numbered_name(const std::string &p_name, size_t p_number) {
 	const fs::path path(p_name);
 	return p_number < 2 ? p_name
 						: text(path.stem().string(), "_", p_number, path.extension().string());
@@ -73,8 +75,8 @@ void GltfSideFiles::save() const {
 	}
 }
 
-void relocate_container(const GltfDocument &p_document, const fs::path &p_target, GltfForm p_form,
-		GltfContainer &r_container, GltfSideFiles &r_files) {
+void relocate_container(const GltfDocument &p_document, const fs::path &p_target,
+		GltfFormat p_format, GltfContainer &r_container, GltfSideFiles &r_files) {
 	GltfMessages messages{ p_document.file, {} };
 	Json read = p_document.container.json;
 	const GltfObject root(read, "", messages);
@@ -85,25 +87,25 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 	for (size_t index = 0; index < buffer_count; ++index) {
 		const GltfObject buffer = root.get_element("buffers", index);
 		Json &json = r_container.json["buffers"][index];
-		if (index == 0 && p_form == GltfForm::BINARY && !bin_chunk && buffer.find("uri")) {
+		if (index == 0 && p_format == GltfFormat::BINARY && !bin_chunk && buffer.find("uri")) {
 			GltfBuffers buffers(root, p_document.location, nullptr);
 			const auto bytes = buffers.load_buffer(index);
 			r_container.bin_chunk.emplace(bytes.begin(), bytes.end());
 			json.erase("uri");
-		} else if (index == 0 && p_form == GltfForm::TEXT && bin_chunk && !buffer.find("uri")) {
+		} else if (index == 0 && p_format == GltfFormat::TEXT && bin_chunk && !buffer.find("uri")) {
 			const std::string name = p_target.stem().string() + ".bin";
 			json["uri"] = encode_uri(r_files.add(name, *bin_chunk));
 		} else if (is_moved) {
-			copy_uri(buffer, p_document.location, true, json, r_files);
+			copy_uri_file(buffer, p_document.location, true, json, r_files);
 		}
 	}
-	if (p_form == GltfForm::TEXT) {
+	if (p_format == GltfFormat::TEXT) {
 		r_container.bin_chunk.reset();
 		r_container.other_chunks.clear();
 	}
 	const size_t image_count = is_moved ? root.get_count("images") : 0;
 	for (size_t index = 0; index < image_count; ++index) {
-		copy_uri(root.get_element("images", index), p_document.location, false,
+		copy_uri_file(root.get_element("images", index), p_document.location, false,
 				r_container.json["images"][index], r_files);
 	}
 }

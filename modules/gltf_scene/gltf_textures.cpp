@@ -12,7 +12,7 @@ namespace gnomon {
 namespace {
 
 /// Limit on the texels of all images of a file: 2 GiB, a third more with mip levels.
-const uint64_t MAX_ALL_TEXELS = uint64_t(1) << 29;
+const uint64_t MAX_TOTAL_TEXELS = uint64_t(1) << 29;
 
 TextureWrap to_wrap(int p_mode) {
 	return p_mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE	  ? TextureWrap::CLAMP
@@ -32,9 +32,9 @@ glm::mat3x2 read_transform(const tinygltf::Value &p_transform) {
 	};
 	const glm::dvec2 offset = get_pair("offset", 0);
 	const glm::dvec2 scale = get_pair("scale", 1);
-	const double turn = get_number(p_transform, "rotation", 0);
-	const double c = std::cos(turn);
-	const double s = std::sin(turn);
+	const double rotation_rad = get_number(p_transform, "rotation", 0);
+	const double c = std::cos(rotation_rad);
+	const double s = std::sin(rotation_rad);
 	return glm::mat3x2(glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y, offset);
 }
 
@@ -48,23 +48,23 @@ GltfTextures::GltfTextures(
 Texture GltfTextures::read(
 		size_t p_index, int p_uv_set, const tinygltf::ExtensionMap &p_extensions) {
 	Texture texture;
-	const tinygltf::Texture &written = model.textures[p_index];
+	const tinygltf::Texture &definition = model.textures[p_index];
 	GltfMessages &messages = root.get_messages();
-	if (written.source < 0) {
-		const GltfObject read_texture = root.get_element("textures", p_index);
-		if (!read_texture.find("source")) { // else the check of the document has reported it
-			messages.report(messages.describe(read_texture.path_of("source"),
+	if (definition.source < 0) {
+		const GltfObject texture_json = root.get_element("textures", p_index);
+		if (!texture_json.find("source")) { // otherwise check_gltf has reported it
+			messages.report(messages.describe(texture_json.get_member_path("source"),
 					"is missing, must name a PNG or JPEG image; no image is used. Export the file "
 					"again with images of these kinds."));
 		}
 		return texture;
 	}
-	texture.image = load_image(static_cast<size_t>(written.source));
+	texture.image = load_image(static_cast<size_t>(definition.source));
 	if (!texture.image) {
 		return texture;
 	}
-	if (written.sampler >= 0) {
-		read_sampler(static_cast<size_t>(written.sampler), texture);
+	if (definition.sampler >= 0) {
+		read_sampler(static_cast<size_t>(definition.sampler), texture);
 	}
 	texture.uv_set = static_cast<uint32_t>(p_uv_set);
 	if (const tinygltf::Value *transform = find_extension(p_extensions, GLTF_TEXTURE_TRANSFORM)) {
@@ -104,7 +104,7 @@ const std::shared_ptr<const Image> &GltfTextures::load_image(size_t p_index) {
 			found->second = decode(p_index, image);
 		} catch (const Error &error) {
 			root.get_messages().report(
-					text(error.what(), " What shows it is drawn without a texture."));
+					text(error.what(), " Materials that use it are drawn without it."));
 		}
 	}
 	return found->second;
@@ -128,21 +128,21 @@ std::shared_ptr<const Image> GltfTextures::decode(size_t p_index, const GltfObje
 		messages.fail(p_image.get_path(),
 				"has neither uri nor bufferView, must have one of them. Export the file again.");
 	}
-	std::string loss;
+	std::string warning;
 	std::shared_ptr<const Image> image;
 	try {
 		image = decode_image(
-				bytes, make_name(p_image.get_text("name"), text("Image ", p_index)), loss);
+				bytes, make_name(p_image.get_text("name"), text("Image ", p_index)), warning);
 	} catch (const Error &error) {
 		messages.fail(p_image.get_path(), error.what());
 	}
-	if (!loss.empty()) {
-		messages.report(messages.describe(p_image.get_path(), loss));
+	if (!warning.empty()) {
+		messages.report(messages.describe(p_image.get_path(), warning));
 	}
 	texel_count += uint64_t(image->size_px.x) * image->size_px.y;
-	if (texel_count > MAX_ALL_TEXELS) {
+	if (texel_count > MAX_TOTAL_TEXELS) {
 		p_image.fail_at(uri ? "uri" : "bufferView",
-				text("makes more than ", MAX_ALL_TEXELS,
+				text("makes more than ", MAX_TOTAL_TEXELS,
 						" texels in all images. Make images smaller."));
 	}
 	return image;

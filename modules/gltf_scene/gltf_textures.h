@@ -15,8 +15,8 @@ namespace gnomon {
 /// be read is reported, and textures that use it are empty.
 class GltfTextures {
 public:
-	/// p_root: the document as read, for the locations of images. The document, the model and the
-	/// buffers must outlive this object.
+	/// p_root: the JSON document as read, for the URIs and buffer views of images. The document,
+	/// the model and the buffers must outlive this object.
 	GltfTextures(const GltfObject &p_root, const tinygltf::Model &p_model, GltfBuffers &p_buffers);
 
 	/// Reads the texture of a tinygltf TextureInfo, NormalTextureInfo or OcclusionTextureInfo.

@@ -11,7 +11,7 @@ namespace gnomon {
 
 namespace {
 
-// Relative tolerance, for the rounding of a quaternion's conversion to a matrix and back.
+// Tolerance of the unit axes for the rounding when a matrix is converted to a quaternion and back.
 const double RECOMPOSED_TOLERANCE = 1e-13;
 
 void read_children(const tinygltf::Model &p_model, size_t p_index, const GltfMessages &p_messages,
@@ -31,15 +31,15 @@ void read_children(const tinygltf::Model &p_model, size_t p_index, const GltfMes
 
 /// Returns nothing if the axes are not orthogonal, or if one has length 0.
 std::optional<NodeTransform> decompose(const glm::dmat4 &p_matrix) {
-	const NodeTransform parts = decompose_transform(p_matrix);
-	const glm::dmat3 axes = glm::mat3_cast(parts.rotation);
+	const NodeTransform trs = decompose_transform(p_matrix);
+	const glm::dmat3 axes = glm::mat3_cast(trs.rotation);
 	for (int axis = 0; axis < 3; ++axis) {
-		const glm::dvec3 unit = glm::dvec3(p_matrix[axis]) / parts.scale[axis];
+		const glm::dvec3 unit = glm::dvec3(p_matrix[axis]) / trs.scale[axis];
 		if (!(glm::length(axes[axis] - unit) <= RECOMPOSED_TOLERANCE)) {
 			return std::nullopt;
 		}
 	}
-	return parts;
+	return trs;
 }
 
 std::vector<double> to_vector(const glm::dvec3 &p_vector) {
@@ -65,8 +65,8 @@ GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_m
 			tree.roots.push_back(index);
 		}
 	}
-	// Visits level by level from the roots. As each node has one parent, unreached nodes are on or
-	// below a cycle.
+	// Visits the nodes level by level from the roots. As each node has at most one parent, nodes
+	// that are not reached are on or below a cycle.
 	std::vector<bool> is_reached(count, false);
 	std::vector<size_t> level = tree.roots;
 	for (size_t depth = 1; !level.empty(); ++depth) {
@@ -91,23 +91,24 @@ GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_m
 	return tree;
 }
 
-NodeTransform read_parts(const tinygltf::Node &p_node) {
-	NodeTransform parts;
+NodeTransform read_node_transform(const tinygltf::Node &p_node) {
+	NodeTransform trs;
 	if (!p_node.rotation.empty()) {
-		const std::vector<double> &turn = p_node.rotation;
-		parts.rotation = glm::normalize(glm::dquat(turn[3], turn[0], turn[1], turn[2]));
+		const std::vector<double> &quaternion = p_node.rotation;
+		trs.rotation = glm::normalize(
+				glm::dquat(quaternion[3], quaternion[0], quaternion[1], quaternion[2]));
 	}
 	for (int axis = 0; axis < 3; ++axis) {
 		const size_t index = static_cast<size_t>(axis);
-		parts.scale[axis] = p_node.scale.empty() ? 1.0 : p_node.scale[index];
-		parts.translation[axis] = p_node.translation.empty() ? 0.0 : p_node.translation[index];
+		trs.scale[axis] = p_node.scale.empty() ? 1.0 : p_node.scale[index];
+		trs.translation[axis] = p_node.translation.empty() ? 0.0 : p_node.translation[index];
 	}
-	return parts;
+	return trs;
 }
 
 glm::dmat4 read_transform(const tinygltf::Node &p_node) {
 	if (p_node.matrix.empty()) {
-		return read_parts(p_node).compose();
+		return read_node_transform(p_node).compose();
 	}
 	glm::dmat4 matrix = glm::make_mat4(p_node.matrix.data());
 	for (int column = 0; column < 4; ++column) {
@@ -116,34 +117,33 @@ glm::dmat4 read_transform(const tinygltf::Node &p_node) {
 	return matrix;
 }
 
-void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_written) {
+void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_target) {
 	const glm::dmat4 &matrix = p_node.parent_from_node;
 	for (int element = 0; element < 16; ++element) {
 		if (!std::isfinite(matrix[element / 4][element % 4])) {
-			fail("Node \"", p_node.name, "\": its transform is not finite, and no file can hold ",
-					"that. Correct it before saving.");
+			fail("Node \"", p_node.name, "\": its transform is not finite, which a file cannot ",
+					"store. Correct it before saving.");
 		}
 	}
 	const bool is_only_moved = has_affine_row(matrix) && has_affine_row(p_before) &&
 			glm::dmat3(matrix) == glm::dmat3(p_before);
-	if (is_only_moved && r_written.matrix.empty()) {
-		r_written.translation = to_vector(glm::dvec3(matrix[3]));
+	if (is_only_moved && r_target.matrix.empty()) {
+		r_target.translation = to_vector(glm::dvec3(matrix[3]));
 		return;
 	}
-	r_written.translation.clear();
-	r_written.rotation.clear();
-	r_written.scale.clear();
-	const std::optional<NodeTransform> parts =
-			has_affine_row(matrix) && r_written.matrix.empty() ? decompose(matrix) : std::nullopt;
-	if (!parts) {
+	r_target.translation.clear();
+	r_target.rotation.clear();
+	r_target.scale.clear();
+	const std::optional<NodeTransform> trs =
+			has_affine_row(matrix) && r_target.matrix.empty() ? decompose(matrix) : std::nullopt;
+	if (!trs) {
 		const double *first = glm::value_ptr(matrix);
-		r_written.matrix.assign(first, first + 16);
+		r_target.matrix.assign(first, first + 16);
 		return;
 	}
-	r_written.translation = to_vector(parts->translation);
-	r_written.rotation = { parts->rotation.x, parts->rotation.y, parts->rotation.z,
-		parts->rotation.w };
-	r_written.scale = to_vector(parts->scale);
+	r_target.translation = to_vector(trs->translation);
+	r_target.rotation = { trs->rotation.x, trs->rotation.y, trs->rotation.z, trs->rotation.w };
+	r_target.scale = to_vector(trs->scale);
 }
 
 std::optional<size_t> find_blender_owner(

@@ -13,33 +13,36 @@
 
 namespace gnomon {
 
-/// The node hierarchy of a file.
+/// The node hierarchy of a file. All values are node indices.
 struct GltfTree {
 	static constexpr size_t NONE = SIZE_MAX;
-	std::vector<size_t> parents; // by node; NONE for a root
-	std::vector<std::vector<size_t>> children;
+	std::vector<size_t> parents;			   // by node; NONE for a root
+	std::vector<std::vector<size_t>> children; // by node
 	std::vector<size_t> roots;
 };
 
-/// Builds the tree. A node with two parents, a cycle or too deep a nesting is an Error, even
-/// outside the scene that is loaded.
+/// Builds the tree. Throws an Error if a node has two parents, if there is a cycle or if nodes are
+/// nested too deep (GLTF_MAX_NODE_DEPTH), also for nodes that are not in the loaded scene.
 GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_messages);
 
 /// Reads a node's translation, rotation and scale; missing ones are 0, identity and 1.
-NodeTransform read_parts(const tinygltf::Node &p_node);
+NodeTransform read_node_transform(const tinygltf::Node &p_node);
 /// Reads a node's matrix, or composes its translation, rotation and scale.
 glm::dmat4 read_transform(const tinygltf::Node &p_node);
 
-/// Writes a node's changed transform. It stays translation, rotation and scale if they can express
-/// it (animations and people need them); otherwise it becomes a matrix. Not finite: an Error.
-void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_written);
+/// Writes a node's changed transform. Unless the node had a matrix, it is written as translation,
+/// rotation and scale if these can represent it, because animations need them and people can read
+/// them; otherwise as a matrix. p_before: the transform as loaded. Throws an Error if the transform
+/// is not finite.
+void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_target);
 
+/// Suffix that older Blender exporters give the child node of a light; see find_blender_owner.
 constexpr char BLENDER_ORIENTATION[] = "_Orientation";
 
-/// Finds the node that has the properties of a Blender light. Blender's older exporters put the
-/// light of an object "Lamp" into a child "Lamp_Orientation", because glTF's lights point along
-/// another axis, and leave the object's properties on "Lamp". Returns that node if p_index is such
-/// a child.
+/// Returns the node whose extras hold the properties of a light from Blender. Older exporters store
+/// the light of an object "Lamp" in a child node "Lamp_Orientation", because glTF's lights point
+/// along another axis, and the object's properties in the node "Lamp". Returns the parent if
+/// p_index is such a child, otherwise nothing.
 std::optional<size_t> find_blender_owner(
 		size_t p_index, const GltfTree &p_tree, const tinygltf::Model &p_model);
 

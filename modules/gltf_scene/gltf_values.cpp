@@ -24,7 +24,7 @@ Json to_json(const Value &p_value) {
 			return array;
 		}
 		case tinygltf::OBJECT_TYPE: {
-			Json::object_t object; // keys differ: looking each up would take time
+			Json::object_t object; // keys are unique: skips a slow search for each
 			for (const auto &[key, member] : p_value.Get<Value::Object>()) {
 				object.push_back({ key, to_json(member) });
 			}
@@ -41,9 +41,9 @@ Value to_value(const Json &p_json) {
 	}
 	if (p_json.is_number()) {
 		const double number = p_json.get<double>();
-		const bool is_short =
+		const bool fits_int32 =
 				p_json.is_number_integer() && number >= INT32_MIN && number <= INT32_MAX;
-		return is_short ? Value(p_json.get<int>()) : Value(number);
+		return fits_int32 ? Value(p_json.get<int>()) : Value(number);
 	}
 	if (p_json.is_string()) {
 		return Value(p_json.get<std::string>());

@@ -14,14 +14,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-GltfForm choose_form(const fs::path &p_path) {
+GltfFormat choose_format(const fs::path &p_path) {
 	std::string extension = p_path.extension().string();
 	std::transform(extension.begin(), extension.end(), extension.begin(),
 			[](unsigned char p_letter) { return static_cast<char>(std::tolower(p_letter)); });
 	if (extension != ".gltf" && extension != ".glb") {
 		fail("\"", p_path.string(), "\" must end in .gltf or .glb. Choose another name.");
 	}
-	return extension == ".glb" ? GltfForm::BINARY : GltfForm::TEXT;
+	return extension == ".glb" ? GltfFormat::BINARY : GltfFormat::TEXT;
 }
 
 const char GENERATOR[] = "Gnomon";
@@ -35,28 +35,30 @@ tinygltf::Model make_empty_model() {
 	return model;
 }
 
-/// Where new vertices go: behind those in the BIN chunk, or into a buffer of their own.
+/// Where the bytes of new meshes are stored: after the existing bytes of the BIN chunk, or in a new
+/// buffer.
 struct NewBuffer {
 	size_t index = 0;
-	size_t first_byte = 0;
-	bool is_in_chunk = false;
+	size_t first_byte = 0;	  // offset in the buffer
+	bool is_in_chunk = false; // the BIN chunk
 };
 
-NewBuffer choose_buffer(const GltfContainer &p_container, GltfForm p_form) {
+NewBuffer choose_buffer(const GltfContainer &p_container, GltfFormat p_format) {
 	const auto buffers = p_container.json.find("buffers");
 	const size_t count = buffers == p_container.json.end() ? 0 : buffers->size();
 	NewBuffer chosen{ count, 0, false };
-	if (p_form == GltfForm::BINARY && p_container.bin_chunk && count > 0) {
+	if (p_format == GltfFormat::BINARY && p_container.bin_chunk && count > 0) {
 		chosen = { 0, (p_container.bin_chunk->size() + 3) / 4 * 4, true };
-	} else if (p_form == GltfForm::BINARY && count == 0) {
+	} else if (p_format == GltfFormat::BINARY && count == 0) {
 		chosen = { 0, 0, true };
 	}
 	return chosen;
 }
 
-/// The buffer that an earlier save of a generated scene put next to the file; empty: none.
-fs::path find_own_buffer(const fs::path &p_path) {
-	const size_t MOST_NAMES = 100;
+/// Returns the buffer file that an earlier save of a generated scene wrote next to p_path; an empty
+/// path if there is none.
+fs::path find_previous_buffer(const fs::path &p_path) {
+	const size_t MAX_NAME_COUNT = 100;
 	std::error_code code;
 	if (!fs::is_regular_file(p_path, code)) {
 		return {};
@@ -67,17 +69,17 @@ fs::path find_own_buffer(const fs::path &p_path) {
 			return {};
 		}
 		const Json &uri = json.at("buffers").at(0).at("uri");
-		for (size_t number = 1; number < MOST_NAMES; ++number) {
+		for (size_t number = 1; number < MAX_NAME_COUNT; ++number) {
 			const std::string name =
-					GltfSideFiles::number_name(p_path.stem().string() + ".bin", number);
+					GltfSideFiles::make_numbered_name(p_path.stem().string() + ".bin", number);
 			if (uri == encode_uri(name)) {
 				return fs::absolute(p_path).parent_path() / name;
 			}
 		}
 	} catch (const Json::exception &) {
-		// Not one of ours.
+		// The file is not in the form that this program writes.
 	} catch (const Error &) {
-		// Nor one that can be read.
+		// The file cannot be read.
 	}
 	return {};
 }
@@ -100,7 +102,8 @@ void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 		chunk.insert(chunk.end(), p_bytes.begin(), p_bytes.end());
 		return;
 	}
-	// Another name than that of the file there now: until the scene is saved, both are needed.
+	// The name differs from that of the old buffer, which the old scene file needs until it is
+	// replaced.
 	buffer["uri"] = encode_uri(r_files.add(p_path.stem().string() + ".bin", p_bytes));
 }
 
@@ -117,7 +120,7 @@ std::set<const Material *> find_materials(const Scene &p_scene) {
 } // namespace
 
 void save_gltf(const Scene &p_scene, const fs::path &p_path) {
-	const GltfForm form = choose_form(p_path);
+	const GltfFormat form = choose_format(p_path);
 	const auto *document = dynamic_cast<const GltfDocument *>(p_scene.document.get());
 	const GltfMessages messages{ p_path.string(), {} };
 	GltfSideFiles files(fs::absolute(p_path).parent_path());
@@ -134,9 +137,9 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 	container.json = write_gltf_model(
 			model, document ? &container.json : nullptr, document ? &document->model : nullptr);
 	store_bytes(buffer, meshes.get_bytes(), p_path, container, files);
-	const fs::path before = document ? fs::path() : find_own_buffer(p_path);
+	const fs::path before = document ? fs::path() : find_previous_buffer(p_path);
 	files.save();
-	if (form == GltfForm::BINARY) {
+	if (form == GltfFormat::BINARY) {
 		save_file_atomically(p_path, build_glb(container, messages));
 	} else {
 		save_file_atomically(p_path, build_gltf_text(container.json));

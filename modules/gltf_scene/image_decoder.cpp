@@ -16,15 +16,15 @@ namespace {
 const uint8_t PNG_SIGNATURE[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
 const uint8_t JPEG_SIGNATURE[] = { 0xff, 0xd8, 0xff };
 const char NEXT_STEP[] = "Export the image again.";
-const png_byte ANIMATION_CHUNK[] = "acTL"; // APNG 1.0; before the first frame
+const png_byte ANIMATION_CHUNK[] = "acTL"; // APNG 1.0: marks an animated image
 
-/// Formats that glTF extensions allow, and animated ones.
-struct ImageKind {
+/// Describes an image format that is not supported, for the error message.
+struct UnsupportedFormat {
 	std::string_view name;
-	size_t offset_bytes; // of the signature
+	size_t offset_bytes; // of the signature in the file
 	std::string_view signature;
 };
-const ImageKind UNREAD_KINDS[] = {
+const UnsupportedFormat UNSUPPORTED_FORMATS[] = {
 	{ "a GIF", 0, "GIF8" },
 	{ "a WebP", 8, "WEBP" },
 	{ "a KTX", 1, "KTX " },
@@ -45,16 +45,16 @@ void check_size(uint64_t p_width_px, uint64_t p_height_px) {
 	}
 }
 
-/// State for libpng's callbacks. libpng leaves a failed call by longjmp, which must not skip a
-/// destructor: everything that owns memory is outside the functions that call libpng.
+/// Wraps libpng and holds the state for its callbacks. A failed libpng call returns by longjmp,
+/// which must not skip a destructor, so the methods that call libpng own no memory themselves.
 struct PngReader {
-	std::span<const uint8_t> rest;
+	std::span<const uint8_t> rest; // bytes not read yet
 	char problem[128] = "";
 	png_structp png = nullptr;
 	png_infop info = nullptr;
 
 	explicit PngReader(std::span<const uint8_t> p_bytes) : rest(p_bytes) {
-		png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+		png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, handle_error, ignore_warning);
 		info = png ? png_create_info_struct(png) : nullptr;
 		if (!info) {
 			png_destroy_read_struct(&png, nullptr, nullptr);
@@ -66,12 +66,12 @@ struct PngReader {
 	PngReader(const PngReader &) = delete;
 	PngReader &operator=(const PngReader &) = delete;
 
-	/// Returns false on failure; see `problem`.
+	/// Returns false on failure; `problem` then has libpng's message.
 	bool read_header() {
 		if (setjmp(png_jmpbuf(png))) {
 			return false;
 		}
-		// The sizes that are allowed are checked later, with a message that names them.
+		// check_size checks the size later, with a message that gives the limits.
 		png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
 		png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, ANIMATION_CHUNK, 1);
 		png_read_info(png, info);
@@ -81,6 +81,8 @@ struct PngReader {
 		png_unknown_chunkp chunks = nullptr;
 		return png_get_unknown_chunks(png, info, &chunks) > 0;
 	}
+	/// Decodes to RGBA with 8 bits per channel. p_rows: a pointer to each row. Returns false on
+	/// failure, as read_header.
 	bool read_rows(uint8_t *const *p_rows) {
 		if (setjmp(png_jmpbuf(png))) {
 			return false;
@@ -102,7 +104,7 @@ private:
 		std::memcpy(r_bytes, reader.rest.data(), p_count);
 		reader.rest = reader.rest.subspan(p_count);
 	}
-	[[noreturn]] static void take_error(png_structp p_png, png_const_charp p_problem) {
+	[[noreturn]] static void handle_error(png_structp p_png, png_const_charp p_problem) {
 		PngReader &reader = *static_cast<PngReader *>(png_get_error_ptr(p_png));
 		std::strncpy(reader.problem, p_problem, sizeof(reader.problem) - 1);
 		png_longjmp(p_png, 1);
@@ -111,7 +113,7 @@ private:
 };
 
 std::shared_ptr<const Image> decode_png(
-		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_loss) {
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_warning) {
 	PngReader reader(p_bytes);
 	if (!reader.read_header()) {
 		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
@@ -128,14 +130,14 @@ std::shared_ptr<const Image> decode_png(
 		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
 	}
 	if (reader.is_animated()) {
-		r_loss = "is an animated PNG image, of which the first frame is shown. Export it as one "
-				 "image.";
+		r_warning = "is an animated PNG image, of which the first frame is shown. Export it as one "
+					"image.";
 	}
 	return make_image(std::move(p_name), size_px, std::move(texels));
 }
 
 std::shared_ptr<const Image> decode_jpeg(
-		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_loss) {
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_warning) {
 	struct Decoder {
 		tjhandle handle = tjInitDecompress();
 		Decoder() {
@@ -145,7 +147,7 @@ std::shared_ptr<const Image> decode_jpeg(
 		}
 		~Decoder() { tjDestroy(handle); }
 	} decoder;
-	const auto refuse = [&] {
+	const auto reject = [&] {
 		fail("is a JPEG image that cannot be read: ", tjGetErrorStr2(decoder.handle), ". ",
 				NEXT_STEP);
 	};
@@ -153,11 +155,10 @@ std::shared_ptr<const Image> decode_jpeg(
 	if (tjDecompressHeader3(decoder.handle, p_bytes.data(), p_bytes.size(), &width_px, &height_px,
 				&subsampling, &color_space) != 0 ||
 			width_px == 0) {
-		refuse();
+		reject();
 	}
 	if (color_space == TJCS_CMYK || color_space == TJCS_YCCK) {
-		fail("is a JPEG image of printing colours (CMYK), must be of red, green and blue. ",
-				NEXT_STEP);
+		fail("is a JPEG image with CMYK colours, must have RGB colours. ", NEXT_STEP);
 	}
 	check_size(uint64_t(width_px), uint64_t(height_px));
 	const glm::uvec2 size_px(width_px, height_px);
@@ -165,9 +166,9 @@ std::shared_ptr<const Image> decode_jpeg(
 	if (tjDecompress2(decoder.handle, p_bytes.data(), p_bytes.size(), texels.data(), width_px, 0,
 				height_px, TJPF_RGBA, TJFLAG_LIMITSCANS) != 0) {
 		if (tjGetErrorCode(decoder.handle) != TJERR_WARNING) {
-			refuse();
+			reject();
 		}
-		r_loss = text("is a damaged JPEG image, of which a part is shown: ",
+		r_warning = text("is a damaged JPEG image, of which a part is shown: ",
 				tjGetErrorStr2(decoder.handle), ". ", NEXT_STEP);
 	}
 	return make_image(std::move(p_name), size_px, std::move(texels));
@@ -176,18 +177,18 @@ std::shared_ptr<const Image> decode_jpeg(
 } // namespace
 
 std::shared_ptr<const Image> decode_image(
-		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_loss) {
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_warning) {
 	if (begins_with(p_bytes, PNG_SIGNATURE)) {
-		return decode_png(p_bytes, std::move(p_name), r_loss);
+		return decode_png(p_bytes, std::move(p_name), r_warning);
 	}
 	if (begins_with(p_bytes, JPEG_SIGNATURE)) {
-		return decode_jpeg(p_bytes, std::move(p_name), r_loss);
+		return decode_jpeg(p_bytes, std::move(p_name), r_warning);
 	}
 	const std::string_view bytes(reinterpret_cast<const char *>(p_bytes.data()), p_bytes.size());
-	for (const ImageKind &kind : UNREAD_KINDS) {
-		if (bytes.size() > kind.offset_bytes &&
-				bytes.substr(kind.offset_bytes).starts_with(kind.signature)) {
-			fail("is ", kind.name, " image, must be PNG or JPEG. Convert it to one of them.");
+	for (const UnsupportedFormat &format : UNSUPPORTED_FORMATS) {
+		if (bytes.size() > format.offset_bytes &&
+				bytes.substr(format.offset_bytes).starts_with(format.signature)) {
+			fail("is ", format.name, " image, must be PNG or JPEG. Convert it to one of them.");
 		}
 	}
 	fail("is ", p_bytes.empty() ? "empty" : "no image", ", must be PNG or JPEG. ", NEXT_STEP);

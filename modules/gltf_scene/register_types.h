@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: load_gltf and save_gltf keep no state.
+// The module registers no types: load_gltf and save_gltf have no state.

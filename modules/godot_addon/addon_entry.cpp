@@ -58,7 +58,7 @@ void initialize(void *, GDExtensionInitializationLevel p_level) {
 	ModuleRegistry::initialize(ModuleLevel::FEATURES);
 	register_shadow_node_class();
 	GDExtensionMainLoopCallbacks callbacks = {};
-	callbacks.startup_func = &start_server; // there is a RenderingServer now
+	callbacks.startup_func = &start_server; // the RenderingServer exists by then
 	callbacks.shutdown_func = &stop_server;
 	interface.register_main_loop_callbacks(interface.extension, &callbacks);
 }

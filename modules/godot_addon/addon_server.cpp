@@ -11,10 +11,10 @@ namespace gnomon {
 
 namespace {
 
-const char FRAME_SIGNAL[] = "frame_pre_draw"; // of the RenderingServer, once a frame
+const char FRAME_SIGNAL[] = "frame_pre_draw"; // emitted by the RenderingServer before each frame
 
-/// Why no masks can be made; empty: they can.
-std::string find_refusal(const godot::RenderingServer &p_server) {
+/// Returns why no masks can be made, or an empty string if they can.
+std::string find_unsupported_reason(const godot::RenderingServer &p_server) {
 	const std::string method = p_server.get_current_rendering_method().to_utf8();
 	if (method != "forward_plus") {
 		return text("the renderer is ", method, ". Set rendering/renderer/rendering_method to ",
@@ -29,11 +29,11 @@ std::string find_refusal(const godot::RenderingServer &p_server) {
 } // namespace
 
 AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
-	const std::string refusal = find_refusal(server);
-	if (!refusal.empty()) {
-		set_shadow_node_listener([refusal] {
-			log_warning("Lights keep Godot's own shadows: ", refusal, ".");
-			set_shadow_node_listener({}); // once
+	const std::string unsupported_reason = find_unsupported_reason(server);
+	if (!unsupported_reason.empty()) {
+		set_shadow_node_listener([unsupported_reason] {
+			log_warning("Lights keep Godot's own shadows: ", unsupported_reason, ".");
+			set_shadow_node_listener({}); // warn only once
 		});
 		return;
 	}
@@ -41,7 +41,7 @@ AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
 	on_frame = godot::Callable([this](auto) {
 		try {
 			before_draw();
-		} catch (const std::exception &failure) { // Godot knows no exceptions
+		} catch (const std::exception &failure) { // must not reach Godot
 			log_error(describe_failure(failure));
 		}
 	});
@@ -69,7 +69,7 @@ void AddonServer::before_draw() {
 	for (ShadowNode *node : nodes) {
 		const std::vector<ShadowNode *> &alive = get_shadow_nodes();
 		if (std::find(alive.begin(), alive.end(), node) == alive.end()) {
-			continue; // a callback removed it
+			continue; // a callback of another node removed it
 		}
 		node->call_back();
 		if (is_editor) {
@@ -86,7 +86,7 @@ std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::
 		const godot::Light3D light = node->find_light();
 		if (!light || !node->get_node().is_visible_in_tree() ||
 				(light.is_editor_only() && !is_editor) ||
-				!lights.insert(light.get_owner()).second) {
+				!lights.insert(light.get_object()).second) {
 			continue;
 		}
 		const godot::Ref<godot::World3D> world = light.get_world_3d();
@@ -99,12 +99,12 @@ std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::
 		} else if (!std::exchange(has_warned, true)) {
 			log_warning("\"", node->get_path(), "\" has no shadow of Gnomon: its world has ",
 					settings.most_lights,
-					" lights before it that do. Raise rendering/gnomon/most_lights in the "
+					" lights before it that have one. Raise rendering/gnomon/most_lights in the "
 					"project's "
 					"settings, at most ",
 					RECEIVER_ROW_COUNT - 1, ".");
 		}
-		r_tree = godot::SceneTree(node->get_node().get_tree().get_owner());
+		r_tree = godot::SceneTree(node->get_node().get_tree().get_object());
 	}
 	return worlds;
 }
@@ -125,10 +125,11 @@ void AddonServer::update_worlds() {
 	const bool has_failed = render_side->take_failure();
 	glm::uvec2 size_px(0);
 	size_t mask_count = 0;
-	receivers.begin_frame();
+	receiver_materials.begin_frame();
 	reader.begin_frame();
 	for (const auto &[scenario, nodes] : worlds) {
 		const ReadWorld world = reader.read(scenario, tree, nodes, stand_ins.find_nodes(scenario));
+		// Materials identify a stand-in by its specular amount, which no other light may have.
 		std::set<float> other_speculars;
 		for (const godot::Light3D &light : world.other_lights) {
 			other_speculars.insert(
@@ -151,10 +152,11 @@ void AddonServer::update_worlds() {
 	stand_ins.end_frame();
 	const std::vector<ShadowNode *> &nodes = get_shadow_nodes();
 	if (nodes.empty() || !settings.is_enabled) {
-		receivers.clear();
+		receiver_materials.clear();
 	} else {
-		receivers.end_frame(nodes.front()->get_node(),
-				godot::SceneTree(nodes.front()->get_node().get_tree().get_owner()));
+		// Any GnomonShadow3D can receive the shaders.
+		receiver_materials.end_frame(nodes.front()->get_node(),
+				godot::SceneTree(nodes.front()->get_node().get_tree().get_object()));
 	}
 	if (mask_count > 0 && size_px.x > 0) {
 		reserve(size_px, static_cast<uint32_t>(mask_count));
@@ -177,16 +179,18 @@ std::vector<NeededStandIn> AddonServer::choose_stand_ins(
 	if (p_world.receivers.masked.empty()) {
 		return needed;
 	}
-	const bool needs_all = p_has_failed || p_world.has_godot_readers;
+	const bool all_need_godot_shadow = p_has_failed || p_world.uses_godot_shadows;
 	for (size_t index = 0; index < p_world.masked_lights.size(); ++index) {
 		const godot::Light3D &light = p_world.masked_lights[index];
 		needed.push_back({ light, static_cast<int32_t>(index),
-				needs_all || reaches(light, p_world.receivers.others) });
+				all_need_godot_shadow || reaches(light, p_world.receivers.others) });
 	}
 	for (const godot::Light3D &light : p_world.other_lights) {
 		if (!godot::cast<godot::DirectionalLight3D>(light) &&
 				light.get_param(godot::Light3D::PARAM_SIZE) > 0) {
-			needed.push_back({ light }); // materials have to know its size
+			// It has no mask, but the light() of materials needs its size, which only the table of
+			// stand-ins provides.
+			needed.push_back({ light });
 		}
 	}
 	return needed;

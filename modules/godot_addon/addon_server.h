@@ -7,11 +7,12 @@
 
 namespace gnomon {
 
-/// Ties nodes, worlds and effects together: before each frame it reads the worlds that have lights
-/// with a visible GnomonShadow3D, and hands them to their effects. Main thread only.
+/// The add-on's update before each frame: reads the worlds that have a light with a visible
+/// GnomonShadow3D, and passes each to its ScenarioEffect. Main thread only.
 class AddonServer {
 public:
-	/// Where Godot draws with another renderer than Forward+, one message, and nothing after it.
+	/// If Godot does not draw with Forward+, or draws nothing (--headless), it only logs one
+	/// warning, when the first GnomonShadow3D enters the scene tree.
 	AddonServer();
 	~AddonServer();
 	AddonServer(const AddonServer &) = delete;
@@ -19,14 +20,16 @@ public:
 
 private:
 	void before_draw();
-	/// The lights with shadows of Gnomon, by the scenario of their world. r_tree: theirs.
+	/// Returns one visible GnomonShadow3D per light, by the scenario of their world, at most
+	/// settings.most_lights for each. r_tree is set to their scene tree, if there are any.
 	std::map<godot::RID, std::vector<ShadowNode *>> find_worlds(godot::SceneTree &r_tree);
 	void update_worlds();
-	/// Which lights shine through stand-ins, and which of those need Godot's shadow too.
+	/// Returns the lights that need a stand-in, and whether each needs Godot's shadow as well.
+	/// p_has_failed: the masks of a view could not be made.
 	std::vector<NeededStandIn> choose_stand_ins(const ReadWorld &p_world, bool p_has_failed) const;
-	/// Makes room for the masks of a frame, on the render thread.
+	/// Makes the render thread allocate masks of at least this size and number.
 	void reserve(glm::uvec2 p_size_px, uint32_t p_mask_count);
-	/// On the render thread.
+	/// Makes the render thread free all GPU resources of Gnomon.
 	void clear_render_side();
 
 	godot::RenderingServer server;
@@ -34,12 +37,12 @@ private:
 	bool is_connected = false;
 	bool is_editor = false;
 	AddonSettings settings;
-	bool has_warned = false; // of too many lights
-	ReceiverMaterials receivers;
-	StandInLights stand_ins;
-	SceneReader reader{ receivers };
+	bool has_warned = false; // has logged that a world has too many lights
+	ReceiverMaterials receiver_materials;
+	StandInLights stand_ins; // replace lights of nodes on the RenderingServer
+	SceneReader reader{ receiver_materials };
 	std::shared_ptr<RenderSide> render_side = std::make_shared<RenderSide>();
-	glm::uvec2 reserved_px = glm::uvec2(0); // for masks
+	glm::uvec2 reserved_px = glm::uvec2(0); // size of the allocated masks
 	uint32_t reserved_count = 0;
 	std::map<godot::RID, std::unique_ptr<ScenarioEffect>> effects; // by scenario
 };

@@ -36,21 +36,22 @@ PropertyInfo make_resolution_setting() {
 	return info;
 }
 
-/// The default where the project has none, and, with one warning, where its value is refused.
+/// Returns the project setting p_info, or its default if it is missing or invalid. An invalid value
+/// is logged once. p_convert: reads a Value from the setting.
 template <typename Value>
 Value read_checked(const PropertyInfo &p_info, Value (*p_convert)(const godot::Variant &)) {
-	static std::set<std::string> refused;
-	const Value standard = std::get<Value>(p_info.default_value);
-	const Value requested = p_convert(read_setting(p_info.name.c_str(), standard));
+	static std::set<std::string> logged_refusals;
+	const Value default_value = std::get<Value>(p_info.default_value);
+	const Value requested = p_convert(read_setting(p_info.name.c_str(), default_value));
 	const std::string refusal = check_property(p_info, requested);
 	if (refusal.empty()) {
 		return requested;
 	}
-	if (refused.insert(p_info.name + refusal).second) {
+	if (logged_refusals.insert(p_info.name + refusal).second) {
 		log_warning("Project setting ", p_info.name, " ", refusal, ". ",
 				format_property(p_info.default_value), " is used.");
 	}
-	return standard;
+	return default_value;
 }
 
 } // namespace

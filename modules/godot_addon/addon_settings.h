@@ -5,17 +5,17 @@
 
 namespace gnomon {
 
-/// What the project's settings below rendering/gnomon state; defaults where it has none, and,
-/// with one warning, where a value is refused. A game may change them while it runs.
+/// The project settings under rendering/gnomon. A setting that is missing has its default. One with
+/// an invalid value has its default too, with one warning. A game may change them while it runs.
 struct AddonSettings {
-	bool is_enabled = true;			 // false: all lights are Godot's
-	size_t most_lights = 16;		 // with masks, of each world
-	std::string default_technique;	 // of nodes whose technique is DEFAULT_TECHNIQUE
-	float mask_resolution_scale = 1; // pixels of a mask to those of the view, along each side
+	bool is_enabled = true;			 // false: all lights have Godot's shadows
+	size_t most_lights = 16;		 // max. lights with masks in each world
+	std::string default_technique;	 // for nodes that are set to DEFAULT_TECHNIQUE
+	float mask_resolution_scale = 1; // mask width / view width, 0.25 to 1
 };
 AddonSettings read_addon_settings();
 
-/// Whether Godot's lights have physical units, which its project decides.
+/// Whether the project setting use_physical_light_units is on.
 bool uses_physical_light_units();
 
 } // namespace gnomon

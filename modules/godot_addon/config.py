@@ -27,6 +27,6 @@ def can_disable():
 
 
 def get_include_folders(env):
-    import godot_builders  # of a build alone
+    import godot_builders  # importable only during a build
 
     return [godot_builders.get_api_folder(env)]

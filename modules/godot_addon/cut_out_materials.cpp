@@ -4,8 +4,8 @@ namespace gnomon {
 
 namespace {
 
-const float THRESHOLD_OF_OTHERS = 0.5f;
-const int64_t MAX_TEXELS = int64_t(1) << 26; // as of images of scene files
+const float DEFAULT_ALPHA_THRESHOLD = 0.5f;
+const int64_t MAX_TEXELS = int64_t(1) << 26; // as MAX_IMAGE_TEXELS of glTF images
 
 bool is_nearest(const godot::BaseMaterial3D &p_material) {
 	using godot::BaseMaterial3D;
@@ -19,13 +19,13 @@ bool is_nearest(const godot::BaseMaterial3D &p_material) {
 	}
 }
 
-/// Null: it has no texels that can be read.
+/// Returns the texture as RGBA8, or null if its texels cannot be read.
 std::shared_ptr<const Image> decode(const godot::Texture2D &p_texture) {
 	const godot::Ref<godot::Image> shown = p_texture.get_image();
 	if (!shown || shown.is_empty()) {
 		return nullptr;
 	}
-	// What is converted is a copy: some textures hand out their own image.
+	// Convert a copy, because some textures return their own image.
 	const godot::Ref<godot::Resource> copy = shown.duplicate(false);
 	const auto image = godot::cast<godot::Image>(copy);
 	const int64_t width = image.get_width();
@@ -36,7 +36,7 @@ std::shared_ptr<const Image> decode(const godot::Texture2D &p_texture) {
 	image.convert(godot::Image::FORMAT_RGBA8);
 	const godot::PackedByteArray data = image.get_data();
 	const std::span<const uint8_t> bytes = data.get_values();
-	const size_t size = size_t(width) * size_t(height) * 4; // of the first level
+	const size_t size = size_t(width) * size_t(height) * 4; // of mip level 0, in bytes
 	if (width <= 0 || height <= 0 || bytes.size() < size) {
 		return nullptr;
 	}
@@ -52,7 +52,7 @@ Material make_material(
 	material.alpha_cutoff =
 			p_material.get_transparency() == BaseMaterial3D::TRANSPARENCY_ALPHA_SCISSOR
 			? static_cast<float>(p_material.get_alpha_scissor_threshold())
-			: THRESHOLD_OF_OTHERS;
+			: DEFAULT_ALPHA_THRESHOLD;
 	Texture &texture = material.base_color_texture;
 	texture.image = p_image;
 	texture.wrap_u = texture.wrap_v = p_material.get_flag(BaseMaterial3D::FLAG_USE_TEXTURE_REPEAT)
@@ -67,7 +67,7 @@ Material make_material(
 
 } // namespace
 
-/// Godot's materials do not report when they change: they are read each time.
+/// Godot's materials do not signal changes, so they are read at every call.
 std::shared_ptr<const Material> CutOutMaterials::read(const godot::BaseMaterial3D &p_material) {
 	using godot::BaseMaterial3D;
 	const godot::Ref<godot::Texture2D> texture =
@@ -78,25 +78,25 @@ std::shared_ptr<const Material> CutOutMaterials::read(const godot::BaseMaterial3
 			p_material.get_flag(BaseMaterial3D::FLAG_ALBEDO_FROM_VERTEX_COLOR)) {
 		return nullptr;
 	}
-	const Material made = make_material(p_material, image);
-	std::shared_ptr<const Material> &known =
-			materials[godot::get_instance_id(p_material.get_owner())];
-	if (!known || *known != made) {
-		known = std::make_shared<const Material>(made);
+	const Material current = make_material(p_material, image);
+	std::shared_ptr<const Material> &cached =
+			materials[godot::get_instance_id(p_material.get_object())];
+	if (!cached || *cached != current) {
+		cached = std::make_shared<const Material>(current);
 	}
-	return known;
+	return cached;
 }
 
 const std::shared_ptr<const Image> &CutOutMaterials::read_image(const godot::Texture2D &p_texture) {
-	KnownImage &known = images[godot::get_instance_id(p_texture.get_owner())];
-	const bool is_new = !known.watched;
+	CachedImage &cached = images[godot::get_instance_id(p_texture.get_object())];
+	const bool is_new = !cached.watched;
 	if (is_new) {
-		known.watched = std::make_unique<WatchedResource>(p_texture);
+		cached.watched = std::make_unique<WatchedResource>(p_texture);
 	}
-	if (known.watched->take_change() || is_new) {
-		known.image = decode(p_texture);
+	if (cached.watched->take_change() || is_new) {
+		cached.image = decode(p_texture);
 	}
-	return known.image;
+	return cached.image;
 }
 
 void CutOutMaterials::forget_unused() {

@@ -8,26 +8,26 @@
 
 namespace gnomon {
 
-/// Where Godot's base materials with alpha scissor, hash or depth prepass are there: their albedo's
-/// alpha, texture, threshold, and how the texture is mapped to the mesh. Hash and depth prepass,
-/// which have no threshold, count as one of a half. Main thread only.
+/// Reads the alpha masks of Godot's base materials with alpha scissor, alpha hash or depth prepass:
+/// the alpha and the texture of the albedo, the threshold, and how the texture is mapped to the
+/// mesh. Alpha hash and depth prepass have no threshold and use 0.5. Main thread only.
 class CutOutMaterials {
 public:
-	/// The same material until something of it changes. Null: the holes cannot be read, as the
-	/// coordinates are triplanar, the texture has no texels in this program (or more than the
-	/// engine reads), or vertex colours multiply alpha.
+	/// Returns the same object until the material changes. Null: the mask cannot be read, because
+	/// the coordinates are triplanar, the texture is an MSDF, its image is not available on the
+	/// CPU or has more than 2^26 texels, or vertex colours multiply alpha.
 	std::shared_ptr<const Material> read(const godot::BaseMaterial3D &p_material);
-	/// Drops what is known of resources that are gone. Once a frame.
+	/// Removes cached data of freed resources. Call once per frame.
 	void forget_unused();
 
 private:
-	struct KnownImage {
+	struct CachedImage {
 		std::unique_ptr<WatchedResource> watched;
-		std::shared_ptr<const Image> image; // null: it has no texels
+		std::shared_ptr<const Image> image; // null: it cannot be read
 	};
 	const std::shared_ptr<const Image> &read_image(const godot::Texture2D &p_texture);
 
-	std::map<uint64_t, KnownImage> images;						   // by the resource's id
+	std::map<uint64_t, CachedImage> images;						   // by the resource's id
 	std::map<uint64_t, std::shared_ptr<const Material>> materials; // by the resource's id
 };
 

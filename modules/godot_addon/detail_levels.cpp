@@ -6,8 +6,8 @@ namespace gnomon {
 
 namespace {
 
-/// Of what the viewport draws in 3D, but for its scaling. A window whose canvas is stretched alone
-/// returns the canvas's size.
+/// Returns the size in pixels of the viewport's 3D image before its 3D scaling. The texture of a
+/// window in content scale mode canvas_items has the size of the canvas, not of the 3D image.
 glm::vec2 read_size(const godot::Viewport &p_viewport) {
 	const auto window = godot::cast<godot::Window>(p_viewport);
 	if (window &&
@@ -39,7 +39,7 @@ std::shared_ptr<const Mesh> choose_detail_level(const InstanceDetail &p_detail,
 	if (p_threshold_px <= 0 || bounds.compute_distance(camera) == 0) {
 		return nullptr;
 	}
-	// From the camera to the corner of the box that is the first along its view.
+	// The corner of the bounds that is nearest along the camera's view direction.
 	const glm::dvec3 &back = p_camera.world_from_camera[2];
 	const glm::dvec3 corner =
 			glm::mix(bounds.minimum, bounds.maximum, glm::greaterThanEqual(back, glm::dvec3(0.0)));
@@ -47,9 +47,9 @@ std::shared_ptr<const Mesh> choose_detail_level(const InstanceDetail &p_detail,
 	const double width_per_m = 2.0 * std::tan(0.5 * p_camera.vertical_fov_rad) * p_aspect;
 	std::shared_ptr<const Mesh> chosen;
 	for (const DetailLevel &level : *p_detail.levels) {
-		const double share =
+		const double width_fraction =
 				level.edge_length_m * p_detail.scale / (distance_m * width_per_m); // of the width
-		if (share > p_threshold_px / p_width_px) {
+		if (width_fraction > p_threshold_px / p_width_px) {
 			break;
 		}
 		chosen = level.mesh;

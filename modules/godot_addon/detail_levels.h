@@ -8,40 +8,43 @@
 #include <string>
 #include <vector>
 
-// Godot draws meshes that are small in the image with fewer triangles. Casters are the full ones,
-// and those would shadow the simpler surfaces that they deviate from. So a pixel that shows one
-// gets the depth of the full mesh, and its mask is that of the full scene.
+// Levels of detail (LOD). Godot draws meshes that are small in the image with fewer triangles.
+// Casters are always the full meshes, which would wrongly shadow the reduced surface where the two
+// deviate. So a pixel that shows a reduced mesh gets the depth of the full mesh, and its mask is
+// that of the full scene.
 
 namespace gnomon {
 
-/// A simpler mesh of the same vertices, at rest, and its deviation from the full one as Godot
-/// compares it.
+/// A reduced mesh in its rest pose, which uses the vertices of the full mesh, and Godot's measure
+/// of its deviation from the full mesh.
 struct DetailLevel {
-	float edge_length_m = 0; // in the node's space; ascending in a list
+	float edge_length_m = 0; // the deviation, in node space; ascending in DetailLevels
 	std::shared_ptr<const Mesh> mesh;
 };
 using DetailLevels = std::vector<DetailLevel>;
 
-/// Of one instance of a snapshot, whose own mesh is the full one.
+/// The levels of detail of one instance of a SceneSnapshot, whose own mesh is the full one.
 struct InstanceDetail {
-	size_t instance = 0;
+	size_t instance = 0; // index in SceneSnapshot::instances
 	std::shared_ptr<const DetailLevels> levels;
 	Bounds bounds_world; // of the whole node
-	float scale = 1;	 // of the node, times its lod_bias
+	float scale = 1;	 // the node's largest scale times its lod_bias
 };
 
-/// What decides of a viewport which level it draws.
+/// The settings of a viewport by which Godot chooses levels of detail.
 struct ViewDetail {
-	godot::Transform3D camera; // of the viewport
+	godot::Transform3D camera; // transform of the viewport's camera
 	float threshold_px = 1;	   // mesh_lod_threshold
 	float resolution_scale = 1;
-	glm::uvec2 size_px = glm::uvec2(0); // of the image that is drawn in 3D
+	glm::uvec2 size_px = glm::uvec2(0); // of the 3D image, after resolution_scale
 };
 
-/// The cameras of all viewports that show a world, with their viewports' settings.
+/// Returns the settings of each viewport that shows the world p_scenario.
 std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot::RID p_scenario);
 
-/// The mesh that Godot 4.6 draws for the instance; null: the full one. p_width_px: of the image.
+/// Returns the reduced mesh that Godot 4.6 draws for the instance; null: it draws the full one.
+/// p_aspect: image width / height. p_threshold_px: see ViewDetail. p_width_px: image width before
+/// resolution_scale.
 std::shared_ptr<const Mesh> choose_detail_level(const InstanceDetail &p_detail,
 		const CameraSnapshot &p_camera, float p_aspect, float p_threshold_px, float p_width_px);
 

@@ -5,11 +5,12 @@
 
 namespace gnomon {
 
-const uint32_t ALBEDO_SIZE = 32;
+const uint32_t ALBEDO_SIZE = 32; // rows and columns of the table below
 
-/// The share of light that a surface of GGX microfacets with a reflectance of 1 scatters once, as
-/// Godot's materials have it (Turquin 2019, section 3.1: E). Rows of roughness from 0 to 1, the
-/// cosine to the viewer from 0 to 1 along each.
+/// Returns the directional albedo E of Godot's GGX materials: the fraction of light that a surface
+/// with a reflectance of 1 reflects with single scattering (Turquin 2019, section 3.1). A row for
+/// each roughness from 0 to 1, in it a column for each cosine between the normal and the direction
+/// to the viewer, from 0 to 1.
 std::span<const float> get_directional_albedo();
 
 } // namespace gnomon

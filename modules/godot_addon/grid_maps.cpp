@@ -13,18 +13,18 @@ godot::GridMap to_grid_map(const godot::Variant &p_node) {
 } // namespace
 
 GridMaps::GridMaps(const godot::SceneTree &p_tree) :
-		tree_id(godot::get_instance_id(p_tree.get_owner())),
+		tree_id(godot::get_instance_id(p_tree.get_object())),
 		on_node_added([ids = ids](std::span<const godot::Variant> p_arguments) {
 			const godot::GridMap added = to_grid_map(p_arguments.front());
 			if (added) {
-				ids->insert(godot::get_instance_id(added.get_owner()));
+				ids->insert(godot::get_instance_id(added.get_object()));
 			}
 		}) {
 	p_tree.connect(NODE_SIGNAL, on_node_added, 0);
-	const godot::Node root(p_tree.get_root().get_owner());
+	const godot::Node root(p_tree.get_root().get_object());
 	const godot::Array found = root.find_children("*", "GridMap", true, false);
 	for (int64_t index = 0; index < found.get_size(); ++index) {
-		ids->insert(godot::get_instance_id(to_grid_map(found.get_value(index)).get_owner()));
+		ids->insert(godot::get_instance_id(to_grid_map(found.get_value(index)).get_object()));
 	}
 }
 

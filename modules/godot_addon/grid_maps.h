@@ -8,8 +8,9 @@
 
 namespace gnomon {
 
-/// The GridMaps of a scene tree: their instances do not give Godot's RenderingServer the id of
-/// their node, as those of other nodes do. Main thread only.
+/// Keeps a list of the GridMaps of a scene tree. Culling queries of the RenderingServer do not find
+/// them, because unlike other nodes they do not give their instances the id of the node. Main
+/// thread only.
 class GridMaps {
 public:
 	explicit GridMaps(const godot::SceneTree &p_tree);
@@ -17,7 +18,7 @@ public:
 	GridMaps(const GridMaps &) = delete;
 	GridMaps &operator=(const GridMaps &) = delete;
 
-	/// Ids of those in a world.
+	/// Returns the node ids of the GridMaps in the world p_scenario.
 	std::vector<uint64_t> find(godot::RID p_scenario);
 
 private:

@@ -12,8 +12,8 @@ namespace {
 
 const uint64_t MAX_UNUSED_FRAMES = 600;
 
-/// How a surface joins its vertices. ArrayMesh and PrimitiveMesh return it without a copy from the
-/// GPU.
+/// Returns the primitive type of a surface. ArrayMesh and PrimitiveMesh need no copy from the GPU
+/// for it.
 int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
 	if (const auto array_mesh = godot::cast<godot::ArrayMesh>(p_mesh)) {
 		return array_mesh.surface_get_primitive_type(p_surface);
@@ -28,21 +28,21 @@ int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
 			.to_int();
 }
 
-/// Godot's front faces are clockwise, ours are not: turned as its export to glTF turns them, so
-/// that both give the same masks to the last bit.
+/// Returns counterclockwise triangles of Godot's clockwise ones. Corners are reordered as in
+/// Godot's glTF export, so that both give bitwise equal masks.
 std::vector<uint32_t> make_triangles(std::span<const uint32_t> p_order, bool p_is_strip) {
 	std::vector<uint32_t> triangles;
 	const size_t step = p_is_strip ? 1 : 3;
 	for (size_t first = 0; first + 2 < p_order.size(); first += step) {
-		const bool is_turned = p_is_strip && first % 2 == 1;
-		triangles.push_back(p_order[first + (is_turned ? 0 : 2)]);
+		const bool is_odd = p_is_strip && first % 2 == 1;
+		triangles.push_back(p_order[first + (is_odd ? 0 : 2)]);
 		triangles.push_back(p_order[first + 1]);
-		triangles.push_back(p_order[first + (is_turned ? 2 : 0)]);
+		triangles.push_back(p_order[first + (is_odd ? 2 : 0)]);
 	}
 	return triangles;
 }
 
-/// Indices as Godot stores them: of 16 bits where those can name all vertices.
+/// Reads indices as Godot stores them: 16 bits for up to 65536 vertices, else 32 bits.
 std::vector<uint32_t> read_indices(std::span<const uint8_t> p_bytes, size_t p_vertex_count) {
 	const size_t size = p_vertex_count <= 65536 ? sizeof(uint16_t) : sizeof(uint32_t);
 	std::vector<uint32_t> indices(p_bytes.size() / size);
@@ -52,7 +52,8 @@ std::vector<uint32_t> read_indices(std::span<const uint8_t> p_bytes, size_t p_ve
 	return indices;
 }
 
-/// Null: there are none. A level's triangles have the vertices of the full mesh.
+/// Reads the levels of detail of a surface; null: it has none. They use the vertices of the full
+/// mesh.
 std::shared_ptr<const DetailLevels> read_levels(
 		const godot::Mesh &p_mesh, int64_t p_surface, const Mesh &p_full, bool p_is_strip) {
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
@@ -100,14 +101,14 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 		return surface;
 	}
 	MeshAttributes attributes;
-	if (uvs.get_values().size() == points.size()) { // for holes, see CutOutMaterials
+	if (uvs.get_values().size() == points.size()) { // for alpha masks, see CutOutMaterials
 		attributes.uvs[0].assign(uvs.get_values().begin(), uvs.get_values().end());
 	}
 	attributes.rig = read_rig(p_mesh, p_surface, arrays, points, p_name);
 	surface.mesh = make_mesh(p_name, { points.begin(), points.end() },
 			{ normals.get_values().begin(), normals.get_values().end() }, std::move(triangles),
 			std::move(attributes));
-	if (godot::cast<godot::ArrayMesh>(p_mesh)) { // others have no levels
+	if (godot::cast<godot::ArrayMesh>(p_mesh)) { // others have no levels of detail
 		surface.levels = read_levels(p_mesh, p_surface, *surface.mesh, is_strip);
 	}
 	return surface;
@@ -117,7 +118,7 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 
 const std::vector<ReadSurface> &MeshReader::read(
 		const godot::Mesh &p_mesh, const std::string &p_name) {
-	Entry &entry = entries[godot::get_instance_id(p_mesh.get_owner())];
+	Entry &entry = entries[godot::get_instance_id(p_mesh.get_object())];
 	entry.last_use = frame;
 	const int64_t surface_count = p_mesh.get_surface_count();
 	const bool is_new = !entry.watched;
@@ -146,7 +147,7 @@ const std::vector<ReadSurface> &MeshReader::read(
 }
 
 bool MeshReader::is_cut_ready(const std::shared_ptr<const Mesh> &p_cut) {
-	if (cut.try_emplace(p_cut->id, p_cut).second) {
+	if (cut_meshes.try_emplace(p_cut->id, p_cut).second) {
 		worker.prepare(p_cut);
 	}
 	return worker.is_ready(p_cut);
@@ -158,7 +159,7 @@ void MeshReader::forget_unused() {
 		return !p_entry.second.watched->is_alive() ||
 				frame - p_entry.second.last_use > MAX_UNUSED_FRAMES;
 	});
-	std::erase_if(cut, [](const auto &p_entry) { return p_entry.second.expired(); });
+	std::erase_if(cut_meshes, [](const auto &p_entry) { return p_entry.second.expired(); });
 	worker.forget_unused();
 }
 

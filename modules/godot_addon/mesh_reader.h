@@ -12,27 +12,29 @@
 
 namespace gnomon {
 
-/// A surface of a mesh of Godot.
+/// A surface of a Godot mesh, as a mesh of the engine.
 struct ReadSurface {
-	std::shared_ptr<const Mesh> mesh; // null: it has no triangles, or cannot be read
+	std::shared_ptr<const Mesh> mesh; // null if it has no triangles or cannot be read
 	int64_t index = 0;				  // in Godot's mesh
-	/// Null: there are none.
+	/// Null if it has no levels of detail.
 	std::shared_ptr<const DetailLevels> levels;
 };
 
-/// Reads the triangles of Godot's meshes, each once until it changes. Main thread only.
+/// Reads the triangles of Godot's meshes, and caches them until the mesh changes. Main thread only.
 ///
-/// Godot copies them from the GPU for that, which waits for it: a load, not something for each
-/// frame.
+/// A read copies the mesh from the GPU and waits for it: a cost at load time, not in each frame.
 class MeshReader {
 public:
-	/// What is read of a mesh; p_name, for messages, is the node's. Valid until the next forget.
+	/// Returns the surfaces of a mesh. p_name: the node's name, for messages. The reference is
+	/// valid until the next read of the mesh or the next forget_unused().
 	const std::vector<ReadSurface> &read(const godot::Mesh &p_mesh, const std::string &p_name);
-	/// False while the worker thread finds its edges: until then it can cast no shadow.
+	/// False while the worker thread computes the surface's edges. Until then it cannot cast a
+	/// shadow.
 	bool is_ready(const ReadSurface &p_surface) { return worker.is_ready(p_surface.mesh); }
-	/// As above of what is left of a surface; it may be queried in each frame.
+	/// The same for p_cut, the mesh that the alpha test leaves of a surface. The first call starts
+	/// the worker.
 	bool is_cut_ready(const std::shared_ptr<const Mesh> &p_cut);
-	/// Forgets meshes that were not queried in many frames, or are gone. Once a frame.
+	/// Removes meshes that were freed or not read for 600 frames. Call once per frame.
 	void forget_unused();
 
 private:
@@ -44,8 +46,8 @@ private:
 	};
 
 	TopologyWorker worker;
-	std::map<uint64_t, std::weak_ptr<const Mesh>> cut; // that the worker has, by Mesh::id
-	std::map<uint64_t, Entry> entries;				   // by the resource's id
+	std::map<uint64_t, std::weak_ptr<const Mesh>> cut_meshes; // given to the worker, by Mesh::id
+	std::map<uint64_t, Entry> entries;						  // by the resource's id
 	uint64_t frame = 0;
 };
 

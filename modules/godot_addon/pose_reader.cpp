@@ -18,7 +18,7 @@ std::vector<float> read_weights(const godot::MeshInstance3D &p_node) {
 
 } // namespace
 
-/// Several nodes share a skin: a figure's body and its clothes.
+/// Cached by skeleton, because nodes may share one, such as a figure's body and its clothes.
 const std::vector<glm::dmat4> &PoseReader::read_bones(const godot::MeshInstance3D &p_node) {
 	static const std::vector<glm::dmat4> NONE;
 	const godot::Ref<godot::SkinReference> skin = p_node.get_skin_reference();
@@ -52,7 +52,7 @@ void PoseReader::pose(const godot::MeshInstance3D &p_node,
 	if (!rig.targets.empty()) {
 		weights = read_weights(p_node);
 	}
-	Entry &entry = entries[{ godot::get_instance_id(p_node.get_owner()), p_surface }];
+	Entry &entry = entries[{ godot::get_instance_id(p_node.get_object()), p_surface }];
 	entry.last_use = frame;
 	if (!entry.slot || entry.slot->get_rest() != p_rest) {
 		entry.slot = std::make_shared<PoseSlot>(p_rest);

@@ -11,31 +11,31 @@
 
 namespace gnomon {
 
-/// Reads where skeletons and blend shapes put the vertices of MeshInstance3Ds. Main thread only.
+/// Reads the bone transforms and blend shape weights of MeshInstance3Ds. Main thread only.
 ///
-/// Bones are those of the RenderingServer, which it draws with: after all SkeletonModifier3Ds,
-/// whose result Skeleton3D itself gives up again. They move vertices in the space of the
-/// MeshInstance3D, wherever that is, as if its Skeleton3D were at the same position.
+/// Bone transforms come from the RenderingServer, which has the result of all SkeletonModifier3Ds.
+/// Skeleton3D does not keep that result. As in Godot, bones move vertices in the space of the
+/// MeshInstance3D, and the transform of the Skeleton3D node has no effect.
 class PoseReader {
 public:
-	/// Gives the instance its pose; p_rest: its mesh, the surface's, has a rig. Bones beyond those
-	/// of the skin, of which Godot itself warns, rest.
+	/// Sets the pose of r_instance, a surface of p_node. p_rest: the surface's mesh in its rest
+	/// pose, must have a rig. Bones that the skin lacks, of which Godot itself warns, stay at rest.
 	void pose(const godot::MeshInstance3D &p_node, const std::shared_ptr<const Mesh> &p_rest,
 			int64_t p_surface, InstanceSnapshot &r_instance);
-	/// Once a frame, when all is read: drops what belongs to nodes that are gone or were not read
-	/// in many frames.
+	/// Call once per frame after all pose() calls. Removes the data of nodes that were freed or not
+	/// read for 600 frames.
 	void end_frame();
 
 private:
 	struct Entry {
 		std::shared_ptr<PoseSlot> slot;
-		uint64_t last_use = 0; // the frame
+		uint64_t last_use = 0; // frame number
 	};
-	/// None: nothing skins the node, or no bone was placed yet.
+	/// Returns a matrix for each bone; empty if the node has no skin or no bones are set yet.
 	const std::vector<glm::dmat4> &read_bones(const godot::MeshInstance3D &p_node);
 
 	std::map<std::pair<uint64_t, int64_t>, Entry> entries;	 // by the node's id and the surface
-	std::map<godot::RID, std::vector<glm::dmat4>> skeletons; // that were read in this frame
+	std::map<godot::RID, std::vector<glm::dmat4>> skeletons; // bones read in this frame
 	uint64_t frame = 0;
 };
 

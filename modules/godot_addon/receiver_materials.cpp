@@ -9,10 +9,10 @@ namespace {
 
 const char VIEWER_GROUP[] = "_native_shader_source_visualizer";
 
-// A shader is made before the frame after that in which its material changes.
-const int MOST_SILENT_FRAMES = 60;
+// Godot returns all shaders after one frame. A warning is logged after so many incomplete frames.
+const int MAX_INCOMPLETE_FRAMES = 60;
 
-// The look of a surface without a material, measured.
+// Looks as Godot's surfaces without a material. The values were measured.
 const char BARE_SHADER[] = "shader_type spatial;\n"
 						   "void fragment() {\n"
 						   "\tALBEDO = vec3(0.6);\n\tROUGHNESS = 0.8;\n\tMETALLIC = 0.2;\n"
@@ -30,7 +30,7 @@ std::string describe(const godot::Material &p_material, const godot::Node &p_own
 } // namespace
 
 ReceiverMaterials::ReceiverMaterials() : server(godot::find_singleton("RenderingServer")) {
-	set_shader_listener([this](godot::RID p_shader) { answers.push_back(p_shader); });
+	set_shader_listener([this](godot::RID p_shader) { inspected_shaders.push_back(p_shader); });
 }
 
 ReceiverMaterials::~ReceiverMaterials() {
@@ -71,11 +71,12 @@ void ReceiverMaterials::copy_code(godot::RID p_original, Copy &r_copy) const {
 }
 
 ReceiverMaterials::Copy &ReceiverMaterials::find_copy(
-		const Known &p_known, const godot::Material &p_material) {
-	Copy &copy = copies[p_known.original];
+		const MaterialState &p_state, const godot::Material &p_material) {
+	Copy &copy = copies[p_state.original];
 	if (!copy.holder) {
-		if (p_known.is_generated) {
-			// Of the same features, so that it shares the shader.
+		if (p_state.is_generated) {
+			// The duplicate has the same features, so it shares the generated shader and keeps it
+			// alive.
 			copy.holder = p_material.duplicate(false);
 		} else {
 			const godot::Ref<godot::Shader> shader =
@@ -83,33 +84,33 @@ ReceiverMaterials::Copy &ReceiverMaterials::find_copy(
 			copy.watched = std::make_unique<WatchedResource>(shader);
 			copy.holder = godot::Ref<godot::Resource>::share(shader);
 		}
-		copy_code(p_known.original, copy);
+		copy_code(p_state.original, copy);
 	} else if (copy.watched && copy.watched->take_change()) {
-		copy_code(p_known.original, copy);
+		copy_code(p_state.original, copy);
 	}
 	return copy;
 }
 
 ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const godot::Node &p_owner) {
-	Known &known = materials[godot::get_instance_id(p_material.get_owner())];
-	known.is_used = true;
-	known.is_generated = bool(godot::cast<godot::BaseMaterial3D>(p_material));
+	MaterialState &state = materials[godot::get_instance_id(p_material.get_object())];
+	state.is_used = true;
+	state.is_generated = bool(godot::cast<godot::BaseMaterial3D>(p_material));
 	if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
 		const godot::Ref<godot::Shader> shader = custom.get_shader();
-		known.original = shader ? shader.get_rid() : godot::RID();
+		state.original = shader ? shader.get_rid() : godot::RID();
 	}
-	ReceiverKind kind = known.is_generated ? ReceiverKind::GODOT : ReceiverKind::UNLIT;
-	if (known.original.id) {
-		const Copy &copy = find_copy(known, p_material);
+	ReceiverKind kind = state.is_generated ? ReceiverKind::GODOT : ReceiverKind::UNLIT;
+	if (state.original.id) {
+		const Copy &copy = find_copy(state, p_material);
 		kind = copy.receiver.kind;
-		if (kind == ReceiverKind::PATCHED && known.applied != known.original) {
+		if (kind == ReceiverKind::PATCHED && state.applied != state.original) {
 			server.material_set_shader(p_material.get_rid(), copy.shader);
-			known.applied = known.original;
-		} else if (kind != ReceiverKind::PATCHED && known.applied.id) {
-			restore(godot::get_instance_id(p_material.get_owner()), known);
-			known.applied = {};
+			state.applied = state.original;
+		} else if (kind != ReceiverKind::PATCHED && state.applied.id) {
+			restore(godot::get_instance_id(p_material.get_object()), state);
+			state.applied = {};
 		}
-		if (kind == ReceiverKind::GODOT && !std::exchange(known.is_warned, true)) {
+		if (kind == ReceiverKind::GODOT && !std::exchange(state.is_warned, true)) {
 			log_warning(describe(p_material, p_owner), " ", copy.receiver.reason,
 					": it stays in Godot's light and shadow.");
 		}
@@ -121,10 +122,10 @@ ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const god
 	return kind;
 }
 
-void ReceiverMaterials::restore(uint64_t p_material, const Known &p_known) const {
+void ReceiverMaterials::restore(uint64_t p_material, const MaterialState &p_state) const {
 	const godot::Material material(godot::get_instance(p_material));
-	if (material && p_known.applied.id) {
-		server.material_set_shader(material.get_rid(), p_known.original);
+	if (material && p_state.applied.id) {
+		server.material_set_shader(material.get_rid(), p_state.original);
 	}
 }
 
@@ -149,7 +150,7 @@ void ReceiverMaterials::make_bare_material() {
 
 ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_surface) {
 	make_bare_material();
-	const uint64_t id = godot::get_instance_id(p_mesh.get_owner());
+	const uint64_t id = godot::get_instance_id(p_mesh.get_object());
 	bare_meshes.insert(id);
 	used_bare_meshes.insert(id);
 	if (!server.mesh_surface_get_material(p_mesh.get_rid(), p_surface).id) {
@@ -158,23 +159,23 @@ ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_su
 	return ReceiverKind::PATCHED;
 }
 
-void ReceiverMaterials::take_answers() {
-	if (answers.size() == queried.size()) { // else one of them has no shader yet
-		silent_frames = 0;
+void ReceiverMaterials::take_inspected_shaders() {
+	if (inspected_shaders.size() == queried.size()) { // else one of them has no shader yet
+		incomplete_frames = 0;
 		for (size_t index = 0; index < queried.size(); ++index) {
-			const auto known = materials.find(queried[index]);
-			if (known != materials.end()) {
-				known->second.original = answers[index];
+			const auto state = materials.find(queried[index]);
+			if (state != materials.end()) {
+				state->second.original = inspected_shaders[index];
 			}
 		}
-	} else if (++silent_frames == MOST_SILENT_FRAMES) {
-		log_warning("Godot returned the shaders of ", answers.size(), " of ", queried.size(),
-				" materials in ", MOST_SILENT_FRAMES,
+	} else if (++incomplete_frames == MAX_INCOMPLETE_FRAMES) {
+		log_warning("Godot returned the shaders of ", inspected_shaders.size(), " of ",
+				queried.size(), " materials in ", MAX_INCOMPLETE_FRAMES,
 				" frames, must return all: such materials stay in "
 				"Godot's light and shadow. Use Godot 4.6, or ShaderMaterials that include "
 				"gnomon.gdshaderinc.");
 	}
-	answers.clear();
+	inspected_shaders.clear();
 	queried.clear();
 }
 
@@ -187,7 +188,7 @@ void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneT
 		return !is_used;
 	});
 	used_bare_meshes.clear();
-	// Its other nodes, of the editor, would open a window.
+	// The editor's own nodes of the group would open a window, so they leave it meanwhile.
 	const godot::Array viewers = p_tree.get_nodes_in_group(VIEWER_GROUP);
 	const auto for_each_viewer = [&](auto p_function) {
 		for (int64_t index = 0; index < viewers.get_size(); ++index) {
@@ -196,15 +197,15 @@ void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneT
 	};
 	for_each_viewer([](const godot::Node &p_viewer) { p_viewer.remove_from_group(VIEWER_GROUP); });
 	p_node.add_to_group(VIEWER_GROUP, false);
-	for (auto &[id, known] : materials) {
-		if (known.is_used && known.is_generated) {
+	for (auto &[id, state] : materials) {
+		if (state.is_used && state.is_generated) {
 			godot::Material(godot::get_instance(id)).inspect_native_shader_code();
 			queried.push_back(id);
-		} else if (!known.is_used) {
-			restore(id, known);
-			known.applied = {};
+		} else if (!state.is_used) {
+			restore(id, state);
+			state.applied = {};
 		}
-		known.is_used = false;
+		state.is_used = false;
 	}
 	p_node.remove_from_group(VIEWER_GROUP);
 	for_each_viewer(
@@ -212,12 +213,12 @@ void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneT
 }
 
 void ReceiverMaterials::begin_frame() {
-	take_answers();
+	take_inspected_shaders();
 	std::erase_if(materials,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
 	std::set<godot::RID> in_use;
-	for (const auto &[id, known] : materials) {
-		in_use.insert({ known.original, known.applied });
+	for (const auto &[id, state] : materials) {
+		in_use.insert({ state.original, state.applied });
 	}
 	for (auto entry = copies.begin(); entry != copies.end();) {
 		if (in_use.contains(entry->first)) {
@@ -230,8 +231,8 @@ void ReceiverMaterials::begin_frame() {
 }
 
 void ReceiverMaterials::clear() {
-	for (const auto &[id, known] : materials) {
-		restore(id, known);
+	for (const auto &[id, state] : materials) {
+		restore(id, state);
 	}
 	materials.clear();
 	for (auto &[original, copy] : copies) {
@@ -239,7 +240,7 @@ void ReceiverMaterials::clear() {
 	}
 	copies.clear();
 	queried.clear();
-	answers.clear();
+	inspected_shaders.clear();
 	for (const uint64_t id : bare_meshes) {
 		restore_bare(id);
 	}

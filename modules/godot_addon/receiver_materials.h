@@ -8,65 +8,66 @@
 
 namespace gnomon {
 
-/// Gives materials in use a copy of their shader whose light() reads masks, on Godot's
-/// RenderingServer alone: no resource and no scene changes. Main thread only.
+/// Replaces the shaders of materials in use by copies whose light() reads masks. This changes only
+/// materials of the RenderingServer, no resource and no scene. Main thread only.
 ///
-/// A BaseMaterial3D gives its generated shader to the editor's viewer of shaders alone: nodes of a
-/// group are called, before the next frame.
+/// Godot returns the generated shader of a BaseMaterial3D only to its native shader viewer:
+/// inspect_native_shader_code() calls the nodes of the viewer's group before the next frame.
 class ReceiverMaterials {
 public:
 	ReceiverMaterials();
-	/// Takes everything back.
+	/// Restores all materials.
 	~ReceiverMaterials();
 	ReceiverMaterials(const ReceiverMaterials &) = delete;
 	ReceiverMaterials &operator=(const ReceiverMaterials &) = delete;
 
-	/// Before the materials of a frame are used.
+	/// Call before the use() calls of a frame. Frees copies that no material uses.
 	void begin_frame();
-	/// Of a surface that shows p_material; p_owner: the node, for messages. GODOT where it stays as
-	/// it is, with one warning, and as long as its shader is not known.
+	/// Makes p_material, and its next passes, read masks if possible. p_owner: the node, for
+	/// messages. Returns GODOT if the material is not supported, with one warning, and while the
+	/// generated shader of a BaseMaterial3D is not known yet.
 	ReceiverKind use(const godot::Material &p_material, const godot::Node &p_owner);
-	/// Of a surface of p_mesh that has no material.
+	/// The same for a surface of p_mesh without a material, which gets a default one.
 	ReceiverKind use_bare(const godot::Mesh &p_mesh, int64_t p_surface);
-	/// Once all materials of a frame are used: queries their shaders, and gives those that it does
-	/// not use their own back. p_node: of the class GnomonShadow3D.
+	/// Call after all use() calls of a frame. Queries the shaders of the used materials, and
+	/// restores the others. p_node: a GnomonShadow3D, which receives the shaders.
 	void end_frame(const godot::Node &p_node, const godot::SceneTree &p_tree);
-	/// Takes everything back: all looks as without the add-on.
+	/// Restores all materials, so that everything looks as without the add-on.
 	void clear();
 
 private:
 	/// A material in use.
-	struct Known {
-		godot::RID original; // its shader; none: not known yet
-		godot::RID applied;	 // the original whose copy it has; none: it has its own
+	struct MaterialState {
+		godot::RID original; // its own shader; empty: not known yet
+		godot::RID applied;	 // original of the copy that is set; empty: no copy is set
 		bool is_generated = false;
 		bool is_used = false;
 		bool is_warned = false;
 	};
-	/// A shader's copy.
+	/// The copy of a shader.
 	struct Copy {
 		ReceiverShader receiver;
-		godot::RID shader;						  // PATCHED
-		godot::Ref<godot::Resource> holder;		  // keeps the original
-		std::unique_ptr<WatchedResource> watched; // of a ShaderMaterial
+		godot::RID shader;						  // if PATCHED
+		godot::Ref<godot::Resource> holder;		  // keeps the original alive
+		std::unique_ptr<WatchedResource> watched; // the shader of a ShaderMaterial
 	};
-	Copy &find_copy(const Known &p_known, const godot::Material &p_material);
+	Copy &find_copy(const MaterialState &p_state, const godot::Material &p_material);
 	void copy_code(godot::RID p_original, Copy &r_copy) const;
-	void restore(uint64_t p_material, const Known &p_known) const;
+	void restore(uint64_t p_material, const MaterialState &p_state) const;
 	void restore_bare(uint64_t p_mesh) const;
-	void take_answers();
+	void take_inspected_shaders();
 	void make_bare_material();
 	void free(godot::RID &r_owned) const;
 
 	godot::RenderingServer server;
-	std::map<uint64_t, Known> materials; // by id
-	std::map<godot::RID, Copy> copies;	 // by original
-	std::vector<uint64_t> queried;		 // materials, in the order of the answers
-	std::vector<godot::RID> answers;
-	int silent_frames = 0; // in a row, in which not all answered
+	std::map<uint64_t, MaterialState> materials; // by material id
+	std::map<godot::RID, Copy> copies;			 // by original shader
+	std::vector<uint64_t> queried;				 // ids of materials, in the order of their shaders
+	std::vector<godot::RID> inspected_shaders;
+	int incomplete_frames = 0; // consecutive frames in which shaders were missing
 	godot::RID bare_shader;
 	godot::RID bare_material;
-	std::set<uint64_t> bare_meshes; // ids
+	std::set<uint64_t> bare_meshes; // mesh ids
 	std::set<uint64_t> used_bare_meshes;
 };
 

@@ -26,24 +26,24 @@ void ReceiverReader::read(const SceneBody &p_body, const godot::Material &p_mate
 	if (!p_body.is_drawn) {
 		return;
 	}
-	note(p_body,
+	add_receiver(p_body,
 			p_material ? materials.use(p_material, p_body.node)
 					   : materials.use_bare(p_mesh, p_surface),
 			p_bounds_world);
 	const auto geometry = godot::cast<GeometryInstance3D>(p_body.node);
 	if (const godot::Ref<godot::Material> overlay =
 					geometry ? geometry.get_material_overlay() : godot::Ref<godot::Material>()) {
-		note(p_body, materials.use(overlay, p_body.node), p_bounds_world);
+		add_receiver(p_body, materials.use(overlay, p_body.node), p_bounds_world);
 	}
 }
 
 void ReceiverReader::read_mesh(
 		const SceneBody &p_body, const godot::Mesh &p_mesh, const Bounds &p_bounds_world) {
-	const godot::Ref<godot::Material> over =
+	const godot::Ref<godot::Material> override_material =
 			godot::cast<GeometryInstance3D>(p_body.node).get_material_override();
 	for (int64_t index = 0; p_mesh && index < p_mesh.get_surface_count(); ++index) {
 		const godot::Ref<godot::Material> own = p_mesh.surface_get_material(index);
-		read(p_body, over ? over : own, p_mesh, index, p_bounds_world);
+		read(p_body, override_material ? override_material : own, p_mesh, index, p_bounds_world);
 	}
 }
 
@@ -53,19 +53,19 @@ void ReceiverReader::read_other(const SceneBody &p_body, const Bounds &p_bounds_
 			const godot::Ref<godot::Mesh> mesh = particles.get_draw_pass_mesh(pass);
 			read_mesh(p_body, mesh, p_bounds_world);
 		}
-	} else if (const auto slow_particles = godot::cast<godot::CPUParticles3D>(p_body.node)) {
-		const godot::Ref<godot::Mesh> mesh = slow_particles.get_mesh();
+	} else if (const auto cpu_particles = godot::cast<godot::CPUParticles3D>(p_body.node)) {
+		const godot::Ref<godot::Mesh> mesh = cpu_particles.get_mesh();
 		read_mesh(p_body, mesh, p_bounds_world);
 	} else {
 		const auto sprite = godot::cast<godot::SpriteBase3D>(p_body.node);
 		const auto label = godot::cast<godot::Label3D>(p_body.node);
 		const bool is_unlit = (sprite && !sprite.get_draw_flag(godot::SpriteBase3D::FLAG_SHADED)) ||
 				(label && !label.get_draw_flag(godot::Label3D::FLAG_SHADED));
-		note(p_body, is_unlit ? ReceiverKind::UNLIT : ReceiverKind::GODOT, p_bounds_world);
+		add_receiver(p_body, is_unlit ? ReceiverKind::UNLIT : ReceiverKind::GODOT, p_bounds_world);
 	}
 }
 
-void ReceiverReader::note(
+void ReceiverReader::add_receiver(
 		const SceneBody &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world) {
 	if (p_kind == ReceiverKind::GODOT) {
 		world.others.push_back({ p_bounds_world, p_body.layers });

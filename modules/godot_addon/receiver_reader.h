@@ -8,36 +8,36 @@
 
 namespace gnomon {
 
-/// A surface that takes light, and in which layers it is.
+/// Bounds and render layers of a lit surface.
 struct Receiver {
 	Bounds bounds_world;
 	uint32_t layers = 1;
 };
 
-/// The surfaces of a world that take light.
+/// The lit surfaces of a world.
 struct WorldReceivers {
-	std::vector<Receiver> masked; // read masks
-	std::vector<Receiver> others; // stay in Godot's light and shadow
+	std::vector<Receiver> masked; // their materials read masks
+	std::vector<Receiver> others; // keep Godot's light and shadow
 };
-/// Whether one of them is in the light's reach.
+/// Whether one of the receivers is in the light's range and cull mask.
 bool reaches(const godot::Light3D &p_light, const std::vector<Receiver> &p_receivers);
 
-/// Finds them, and gives their materials masks to read. Main thread only.
+/// Collects lit surfaces, and makes their materials read masks. Main thread only.
 class ReceiverReader {
 public:
 	explicit ReceiverReader(ReceiverMaterials &r_materials) : materials(r_materials) {}
-	/// Reads a surface of a mesh that shows p_material; an empty one: the surface has no material.
+	/// Adds a surface of p_mesh. p_material: empty if the surface has none.
 	void read(const SceneBody &p_body, const godot::Material &p_material, const godot::Mesh &p_mesh,
 			int64_t p_surface, const Bounds &p_bounds_world);
-	/// Sprites, labels and particles, whose triangles are not read.
+	/// Adds a node whose triangles are not read, such as a sprite, a label or particles.
 	void read_other(const SceneBody &p_body, const Bounds &p_bounds_world);
-	/// What was read since the last time.
+	/// Returns the surfaces that were added since the last call.
 	WorldReceivers take() { return std::exchange(world, {}); }
 
 private:
 	void read_mesh(
 			const SceneBody &p_body, const godot::Mesh &p_mesh, const Bounds &p_bounds_world);
-	void note(const SceneBody &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world);
+	void add_receiver(const SceneBody &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world);
 
 	ReceiverMaterials &materials;
 	WorldReceivers world;

@@ -10,13 +10,14 @@ namespace gnomon {
 
 namespace {
 
-struct Refusal {
-	const char *word; // of the code
+struct UnsupportedFeature {
+	const char *word; // identifier in the code
 	const char *reason;
 };
 
-// What light() would have to compute and has no published formula, or cannot reach.
-const Refusal REFUSALS[] = {
+// Features that light() cannot reproduce: they have no published formula, or light() cannot read
+// their values.
+const UnsupportedFeature UNSUPPORTED_FEATURES[] = {
 	{ "vertex_lighting", "is lit at its vertices" },
 	{ "diffuse_toon", "has toon shading" },
 	{ "specular_toon", "has toon shading" },
@@ -27,18 +28,18 @@ const Refusal REFUSALS[] = {
 	{ "SSS_STRENGTH", "has subsurface scattering" },
 };
 
-const char ATTENUATION[] = "gnomon_get_attenuation"; // of gnomon.gdshaderinc
+const char ATTENUATION[] = "gnomon_get_attenuation"; // function in gnomon.gdshaderinc
 
-std::string find_refusal(const ShaderText &p_shader) {
+std::string find_unsupported_reason(const ShaderText &p_shader) {
 	if (p_shader.find_function("light")) {
 		return "has a shader with a light() of its own, see addons/gnomon/gnomon.gdshaderinc";
 	}
 	if (p_shader.has_word(ATTENUATION)) {
 		return "includes gnomon.gdshaderinc without a light() that uses it";
 	}
-	for (const Refusal &refusal : REFUSALS) {
-		if (p_shader.has_word(refusal.word)) {
-			return refusal.reason;
+	for (const UnsupportedFeature &feature : UNSUPPORTED_FEATURES) {
+		if (p_shader.has_word(feature.word)) {
+			return feature.reason;
 		}
 	}
 	if (find_shadow_kind(p_shader) == ShadowKind::NONE) {
@@ -61,17 +62,17 @@ std::string make_constants(const ShaderText &p_shader) {
 }
 
 std::string patch(const ShaderText &p_shader) {
-	// Godot wants declarations before the first function.
+	// Godot requires declarations before the first function.
 	const std::string &code = p_shader.get_code();
-	const size_t declared =
+	const size_t declaration_offset =
 			p_shader.get_functions().empty() ? code.size() : p_shader.get_functions()[0].begin;
 	const ShaderFunction *fragment = p_shader.find_function("fragment");
-	const size_t computed = fragment ? fragment->body_end : code.size();
+	const size_t fragment_end = fragment ? fragment->body_end : code.size();
 	const std::string end = text("\t", RECEIVER_FRAGMENT);
-	return text(code.substr(0, declared), RECEIVER_DECLARATIONS, make_constants(p_shader),
-			RECEIVER_FUNCTIONS, code.substr(declared, computed - declared),
-			fragment ? end : text("\nvoid fragment() {\n", end, "}\n"), code.substr(computed), "\n",
-			RECEIVER_LIGHT);
+	return text(code.substr(0, declaration_offset), RECEIVER_DECLARATIONS, make_constants(p_shader),
+			RECEIVER_FUNCTIONS, code.substr(declaration_offset, fragment_end - declaration_offset),
+			fragment ? end : text("\nvoid fragment() {\n", end, "}\n"), code.substr(fragment_end),
+			"\n", RECEIVER_LIGHT);
 }
 
 } // namespace
@@ -86,7 +87,7 @@ ReceiverShader make_receiver_shader(const std::string &p_code) {
 			   light && shader.has_word(*light, ATTENUATION)) {
 		receiver.kind = ReceiverKind::OWN;
 	} else {
-		receiver.reason = find_refusal(shader);
+		receiver.reason = find_unsupported_reason(shader);
 		if (receiver.reason.empty()) {
 			receiver.kind = ReceiverKind::PATCHED;
 			receiver.code = patch(shader);

@@ -4,22 +4,22 @@
 
 namespace gnomon {
 
-/// What a material's shader does with Gnomon's masks.
+/// How a material's shader uses Gnomon's masks.
 enum class ReceiverKind {
-	PATCHED, // it reads them once it has the code below
-	OWN,	 // it reads them by itself, with gnomon.gdshaderinc
-	UNLIT,	 // it takes no light, or no shadow
-	GODOT,	 // it stays as it is, in the light and the shadow of Godot
+	PATCHED, // reads them with ReceiverShader::code
+	OWN,	 // has a light() that reads them through gnomon.gdshaderinc
+	UNLIT,	 // receives no light or no shadow
+	GODOT,	 // stays unchanged, with Godot's light and shadow
 };
 
 struct ReceiverShader {
 	ReceiverKind kind = ReceiverKind::GODOT;
-	std::string code;	// PATCHED
-	std::string reason; // GODOT: "is transparent"
+	std::string code;	// if PATCHED: the changed code
+	std::string reason; // if GODOT: why, such as "is transparent"
 };
 
-/// p_code: of a spatial shader, as Godot's RenderingServer has it. The light() that it gets gives
-/// the same image where all masks are 1.
+/// Makes a shader read masks if possible. p_code: the shader's code as Godot's RenderingServer
+/// returns it. With masks of 1 the light() that is added gives the same image as Godot's own.
 ReceiverShader make_receiver_shader(const std::string &p_code);
 
 } // namespace gnomon

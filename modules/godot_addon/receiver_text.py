@@ -1,7 +1,7 @@
-"""Makes C++ strings of the add-on's shader text, for materials that get it at run time.
+"""Writes the add-on's shader code as C++ strings, which are inserted into shaders at run time.
 
-Godot's RenderingServer knows no preprocessor, and wants declarations before the first function: defines are put in, and
-each file's text is divided.
+Godot's RenderingServer has no preprocessor and requires declarations before the first function. So macros are expanded
+here, and the code is split into declarations and functions.
 """
 
 import re
@@ -14,8 +14,8 @@ FRAGMENT_MARK = "// fragment\n"
 FRAGMENT = FRAGMENT_MARK + "GNOMON_FRAGMENT\n"
 
 
-def divide(texts):
-    """(declarations, functions, light(), the end of fragment()) of files behind one another."""
+def split_code(texts):
+    """Expand the macros of the concatenated texts. Return (declarations, functions, light(), code for the end of fragment())."""
     text = COMMENT.sub("", "".join(texts))
     defines = dict(DEFINE.findall(text))
     text = DEFINE.sub("", text) + FRAGMENT
@@ -29,13 +29,14 @@ def divide(texts):
 
 
 def write_header(sources, target):
+    """Write the four parts of the shader files `sources` as strings into the header `target`."""
     texts = []
     for path in sources:
         with open(path, encoding="utf-8") as file:
             texts.append(file.read())
     names = ("RECEIVER_DECLARATIONS", "RECEIVER_FUNCTIONS", "RECEIVER_LIGHT", "RECEIVER_FRAGMENT")
     lines = ["#pragma once", "", "namespace gnomon {", ""]
-    for name, text in zip(names, divide(texts)):
+    for name, text in zip(names, split_code(texts)):
         lines.append('inline const char %s[] = R"shader(%s)shader";' % (name, text))
     lines += ["", "} // namespace gnomon", ""]
     with open(target, "w", encoding="utf-8") as file:

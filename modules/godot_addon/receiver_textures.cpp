@@ -14,8 +14,8 @@ using godot::RenderingServer;
 const char MASKS_GLOBAL[] = "gnomon_masks";
 const char LIGHTS_GLOBAL[] = "gnomon_lights";
 const char ALBEDO_GLOBAL[] = "gnomon_albedo";
-const uint32_t LEAST_LAYER_COUNT = 2; // of one Godot makes no array
-const uint32_t SIZE_STEP_PX = 64; // a window that is dragged larger does not make an array a pixel
+const uint32_t MIN_LAYER_COUNT = 2; // Godot makes no arrays of one layer
+const uint32_t SIZE_STEP_PX = 64;	// no new array for each pixel of a window resize
 
 ReceiverRow make_view_row(const GodotView &p_view) {
 	const glm::mat4 world_from_camera(p_view.camera_transform.to_matrix());
@@ -97,7 +97,7 @@ void ReceiverTextures::reserve(glm::uvec2 p_size_px, uint32_t p_layer_count) {
 		return;
 	}
 	size_px = glm::max(size_px, (p_size_px + SIZE_STEP_PX - 1u) / SIZE_STEP_PX * SIZE_STEP_PX);
-	layer_count = glm::max(layer_count, glm::max(p_layer_count, LEAST_LAYER_COUNT));
+	layer_count = glm::max(layer_count, glm::max(p_layer_count, MIN_LAYER_COUNT));
 	OwnedTexture larger(device,
 			device.create_texture({ "Gnomon's masks", Format::R16_SFLOAT, size_px, layer_count,
 					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
@@ -119,7 +119,7 @@ void ReceiverTextures::write_lights(
 
 void ReceiverTextures::forget_view() {
 	Table table = {};
-	table[0][0] = glm::vec4(std::numeric_limits<float>::quiet_NaN()); // equals no view
+	table[0][0] = glm::vec4(std::numeric_limits<float>::quiet_NaN()); // NaN equals no view
 	write(table);
 }
 

@@ -11,10 +11,10 @@ namespace gnomon {
 
 using ReceiverRow = std::array<glm::vec4, RECEIVER_COLUMN_COUNT>;
 
-/// The shader globals that materials read, gnomon.gdshaderinc. Main thread only.
+/// Owns the global shader parameters that gnomon.gdshaderinc declares. Main thread only.
 class ReceiverGlobals {
 public:
-	/// Before shaders that name them are compiled.
+	/// Must be created before shaders that use the parameters are compiled.
 	ReceiverGlobals();
 	~ReceiverGlobals();
 	ReceiverGlobals(const ReceiverGlobals &) = delete;
@@ -25,8 +25,8 @@ private:
 	godot::RID albedo;
 };
 
-/// The textures of those globals that change: the masks of the view that is drawn, and its table of
-/// lights. All views share them, as Godot draws one after the other. Render thread only.
+/// The textures of the global parameters that change with each view: its masks and its table of
+/// lights. All views share them, because Godot draws one after the other. Render thread only.
 class ReceiverTextures {
 public:
 	explicit ReceiverTextures(GodotDevice &p_device);
@@ -34,22 +34,26 @@ public:
 	ReceiverTextures(const ReceiverTextures &) = delete;
 	ReceiverTextures &operator=(const ReceiverTextures &) = delete;
 
-	/// Makes room for masks. Before a frame is drawn: within it Godot would lose materials' draws.
+	/// Makes the mask texture at least this large. Call it before a frame is drawn: a new texture
+	/// within a frame would make Godot skip draws of materials that read it.
 	void reserve(glm::uvec2 p_size_px, uint32_t p_layer_count);
-	/// R16_SFLOAT, a layer for each light: what share of it each pixel gets; below 0
-	/// where there is no receiver. Null: no room was made.
+	/// Returns the mask texture: R16_SFLOAT, a layer for each light with the fraction of its light
+	/// that reaches each pixel, below 0 without a receiver (see ShadowFrame::hold). Null before
+	/// reserve().
 	TextureRID get_masks() const { return masks.get(); }
 	glm::uvec2 get_size_px() const { return size_px; }
-	/// Sets which view the masks are of, and its lights. Before its opaque objects are drawn.
+	/// Writes the table of lights, which also identifies the view of the masks. Call it before the
+	/// view's opaque objects are drawn.
 	void write_lights(const GodotView &p_view, std::span<const ReceiverLight> p_lights);
 
-	/// Materials take no mask until the next view's: those of this one could not be made.
+	/// Makes materials ignore the masks until the next write_lights(), because those of the view
+	/// could not be made.
 	void forget_view();
 
 private:
 	using Table = std::array<ReceiverRow, RECEIVER_ROW_COUNT>;
 	void write(const Table &p_table);
-	/// One of the textures as Godot's materials have it.
+	/// One of the textures as a global shader parameter of Godot.
 	class Published {
 	public:
 		void publish(

@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t MAX_UNUSED_FRAMES = 120; // of views that are drawn no more
+const uint64_t MAX_UNUSED_FRAMES = 120; // of views that are no longer drawn
 
 } // namespace
 
@@ -21,15 +21,15 @@ void RenderSide::prepare_device() {
 }
 
 void RenderSide::make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
-	run(What::MAKE, p_frame, p_render_data);
+	run(Action::MAKE, p_frame, p_render_data);
 }
 
 void RenderSide::show_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
-	run(What::SHOW, p_frame, p_render_data);
+	run(Action::SHOW, p_frame, p_render_data);
 }
 
 void RenderSide::run(
-		What p_what, const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
+		Action p_action, const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
 	try {
 		const auto data =
 				godot::cast<godot::RenderData>(godot::ObjectHandle(p_render_data.to_object()));
@@ -43,25 +43,25 @@ void RenderSide::run(
 		}
 		prepare_device();
 		const GodotView view = read_view(data, buffers);
-		if (!view.refusal.empty()) {
-			fail("A camera ", view.refusal, ". Gnomon makes no shadow masks for it.");
+		if (!view.unsupported_reason.empty()) {
+			fail("A camera ", view.unsupported_reason, ". Gnomon makes no shadow masks for it.");
 		}
 		if (!view.depth || !view.color) {
 			return;
 		}
-		std::unique_ptr<ViewShadows> &shadows = views[godot::get_instance_id(buffers.get_owner())];
+		std::unique_ptr<ViewShadows> &shadows = views[godot::get_instance_id(buffers.get_object())];
 		if (!shadows) {
 			shadows = std::make_unique<ViewShadows>(*device, meshes, *receivers);
 		}
 		shadows->last_use = p_frame.number;
-		if (p_what == What::MAKE) {
+		if (p_action == Action::MAKE) {
 			shadows->make_masks(p_frame, view);
 			forget_unused(p_frame.number);
 		} else {
 			shadows->show_masks(p_frame, view);
 		}
-	} catch (const std::exception &failure) { // Godot knows no exceptions
-		note_failure(failure);
+	} catch (const std::exception &failure) { // must not reach Godot
+		record_failure(failure);
 		forget_view();
 	}
 }
@@ -72,11 +72,11 @@ void RenderSide::forget_view() {
 			receivers->forget_view();
 		}
 	} catch (const std::exception &failure) {
-		note_failure(failure);
+		record_failure(failure);
 	}
 }
 
-void RenderSide::note_failure(const std::exception &p_failure) {
+void RenderSide::record_failure(const std::exception &p_failure) {
 	has_failed = true;
 	const std::string description = describe_failure(p_failure);
 	if (logged.insert(description).second) {
@@ -96,7 +96,7 @@ void RenderSide::reserve(glm::uvec2 p_size_px, uint32_t p_mask_count) {
 		prepare_device();
 		receivers->reserve(p_size_px, p_mask_count);
 	} catch (const std::exception &failure) {
-		note_failure(failure);
+		record_failure(failure);
 	}
 }
 

@@ -13,7 +13,7 @@ void read_bones(const godot::Array &p_arrays, size_t p_vertex_count, const std::
 	if (bones.get_values().empty() || weights.get_values().empty() || p_vertex_count == 0) {
 		return;
 	}
-	// 4, or 8 with ARRAY_FLAG_USE_8_BONE_WEIGHTS.
+	// Weights per vertex: 4, or 8 with ARRAY_FLAG_USE_8_BONE_WEIGHTS.
 	r_rig.influence_count = static_cast<uint32_t>(bones.get_values().size() / p_vertex_count);
 	for (const int32_t bone : bones.get_values()) {
 		if (bone < 0) {
@@ -21,8 +21,7 @@ void read_bones(const godot::Array &p_arrays, size_t p_vertex_count, const std::
 		}
 		r_rig.joints.push_back(static_cast<uint32_t>(bone));
 	}
-	r_rig.keeps_weight_sums =
-			true; // rounded down to 16 bits, which Godot's shader does not make up
+	r_rig.keeps_weight_sums = true; // Godot rounds weights down to 16 bits and does not normalize
 	r_rig.weights.assign(weights.get_values().begin(), weights.get_values().end());
 }
 

@@ -10,10 +10,11 @@
 
 namespace gnomon {
 
-/// How a surface of a mesh of Godot deforms: its bones and weights, and its blend shapes as what
-/// each adds to a vertex, whatever the mesh's mode. Of the latter the positions alone: shadows are
-/// made of positions, and what Godot draws has Godot's normals. Null: it does not deform. p_arrays:
-/// the surface's; p_positions: in them. What does not fit is an Error that names the mesh.
+/// Reads the bone weights and blend shapes of a surface; returns null if it has neither. Blend
+/// shapes become offsets from the rest positions, whatever the mesh's blend shape mode. Their
+/// normals are not read: shadows need only positions, and Godot itself draws the surface. p_arrays:
+/// arrays of the surface. p_positions: its vertex positions. Throws an Error that names the mesh
+/// p_name if the data is invalid.
 std::shared_ptr<const MeshRig> read_rig(const godot::Mesh &p_mesh, int64_t p_surface,
 		const godot::Array &p_arrays, std::span<const glm::vec3> p_positions,
 		const std::string &p_name);

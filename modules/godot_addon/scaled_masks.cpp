@@ -10,8 +10,8 @@ namespace gnomon {
 
 namespace {
 
-// Of an array; Godot makes none of one layer.
-const uint32_t LEAST_LAYER_COUNT = 2;
+// Godot makes no arrays of one layer.
+const uint32_t MIN_LAYER_COUNT = 2;
 
 } // namespace
 
@@ -54,7 +54,7 @@ RGTexture ScaledMasks::create_target(RGTexture p_result) {
 		return p_result;
 	}
 	target = graph.create_texture(
-			{ "scaled masks", Format::R16_SFLOAT, size_px, std::max(count, LEAST_LAYER_COUNT),
+			{ "scaled masks", Format::R16_SFLOAT, size_px, std::max(count, MIN_LAYER_COUNT),
 					TextureUsage::STORAGE | TextureUsage::SAMPLED, true });
 	return target;
 }

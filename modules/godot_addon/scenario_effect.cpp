@@ -40,13 +40,14 @@ ScenarioEffect::ScenarioEffect(godot::RID p_scenario, std::shared_ptr<RenderSide
 }
 
 ScenarioEffect::~ScenarioEffect() {
-	for (const uint64_t id : extended) {
-		if (const auto foreign = godot::cast<godot::Compositor>(
+	for (const uint64_t id : extended_compositors) {
+		if (const auto user_compositor = godot::cast<godot::Compositor>(
 					godot::ObjectHandle(godot::get_instance(id)))) {
-			server.compositor_set_compositor_effects(foreign.get_rid(), list_effects(foreign));
+			server.compositor_set_compositor_effects(
+					user_compositor.get_rid(), list_effects(user_compositor));
 		}
 	}
-	server.free_rid(compositor); // scenarios that have it lose it
+	server.free_rid(compositor); // the scenario then has none
 	server.free_rid(make_effect);
 	server.free_rid(show_effect);
 }
@@ -71,38 +72,39 @@ void ScenarioEffect::add_to(const godot::Compositor &p_compositor) {
 	effects.append(make_effect);
 	effects.append(show_effect);
 	server.compositor_set_compositor_effects(p_compositor.get_rid(), effects);
-	extended.insert(godot::get_instance_id(p_compositor.get_owner()));
+	extended_compositors.insert(godot::get_instance_id(p_compositor.get_object()));
 }
 
 void ScenarioEffect::update(
 		std::shared_ptr<const ScenarioFrame> p_frame, const godot::SceneTree &p_tree) {
 	const bool shows = !p_frame->shown_lights.empty();
-	if (shows != is_shown) {
+	if (shows != is_show_effect_enabled) {
 		server.compositor_effect_set_enabled(show_effect, shows);
-		is_shown = shows;
+		is_show_effect_enabled = shows;
 	}
 	slot->set(std::move(p_frame));
-	// A group that Godot keeps for itself: the WorldEnvironments of a world, the first of which
-	// counts. Without it only our own compositor is used.
+	// Godot's internal group with the WorldEnvironments of a world, of which Godot uses the first.
+	// Without a Compositor there, the world gets our own one.
 	const Array environments = p_tree.get_nodes_in_group(text("_world_compositor_", scenario.id));
-	bool has_own = true;
+	bool uses_own_compositor = true;
 	if (environments.get_size() > 0) {
 		const auto environment = godot::cast<godot::WorldEnvironment>(
 				godot::ObjectHandle(environments.get_value(0).to_object()));
-		const godot::Ref<godot::Compositor> foreign =
+		const godot::Ref<godot::Compositor> user_compositor =
 				environment ? environment.get_compositor() : godot::Ref<godot::Compositor>();
-		if (foreign) {
-			add_to(foreign);
-			has_own = false;
+		if (user_compositor) {
+			add_to(user_compositor);
+			uses_own_compositor = false;
 		}
 	}
-	if (has_own) {
+	if (uses_own_compositor) {
 		server.scenario_set_compositor(scenario, compositor);
 	}
 	for_each_camera(
 			p_tree, scenario, [&](const godot::Viewport &, const godot::Camera3D &p_camera) {
-				if (const godot::Ref<godot::Compositor> foreign = p_camera.get_compositor()) {
-					add_to(foreign);
+				if (const godot::Ref<godot::Compositor> user_compositor =
+								p_camera.get_compositor()) {
+					add_to(user_compositor);
 				}
 			});
 }

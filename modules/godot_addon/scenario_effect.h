@@ -8,11 +8,12 @@
 
 namespace gnomon {
 
-/// The effects of one world (a scenario of the RenderingServer): in each of its viewports one makes
-/// masks before opaque objects are drawn, one shows them behind transparent ones. Main thread only.
+/// The two compositor effects of one world (a scenario of the RenderingServer). In each viewport,
+/// one makes the masks before opaque objects are drawn, and the other draws the masks to be shown
+/// over the image after transparent objects. Main thread only.
 ///
-/// They are in a compositor of our own, and where a WorldEnvironment or a camera has a Compositor,
-/// behind that one's effects; no node or resource of the user changes.
+/// They are in a compositor of their own. If a WorldEnvironment or a camera has a Compositor, they
+/// follow its effects on the RenderingServer. No node or resource of the user changes.
 class ScenarioEffect {
 public:
 	ScenarioEffect(godot::RID p_scenario, std::shared_ptr<RenderSide> p_render_side);
@@ -20,7 +21,7 @@ public:
 	ScenarioEffect(const ScenarioEffect &) = delete;
 	ScenarioEffect &operator=(const ScenarioEffect &) = delete;
 
-	/// What the frame about to be drawn needs. Puts the effects where they have to be.
+	/// Sets the data of the frame about to be drawn, and adds the effects to its compositors.
 	void update(std::shared_ptr<const ScenarioFrame> p_frame, const godot::SceneTree &p_tree);
 
 private:
@@ -35,8 +36,8 @@ private:
 	godot::RID make_effect;
 	godot::RID show_effect;
 	godot::RID compositor;
-	bool is_shown = true;
-	std::set<uint64_t> extended; // compositors of the user, by the resource's id
+	bool is_show_effect_enabled = true;
+	std::set<uint64_t> extended_compositors; // ids of the user's compositors with our effects
 };
 
 } // namespace gnomon

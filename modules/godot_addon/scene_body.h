@@ -8,17 +8,17 @@
 
 namespace gnomon {
 
-/// What all surfaces of a node share.
+/// The values that all surfaces of a node share.
 struct SceneBody {
 	godot::Node3D node;
 	std::string name;
 	uint32_t layers = 1;
 	bool casts_shadow = true;
-	bool is_drawn = true;  // apart from its shadow
+	bool is_drawn = true;  // false: it only casts a shadow
 	float detail_bias = 1; // lod_bias
 };
 
-/// Where Godot draws a node in this frame: with physics interpolation between two ticks.
+/// Returns the transform with which Godot draws a node in this frame, with physics interpolation.
 inline godot::Transform3D get_drawn_transform(const godot::Node3D &p_node) {
 	return p_node.is_physics_interpolated_and_enabled() ? p_node.get_global_transform_interpolated()
 														: p_node.get_global_transform();

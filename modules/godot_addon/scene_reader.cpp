@@ -12,15 +12,17 @@ namespace {
 
 using godot::GeometryInstance3D;
 
-const float FARTHEST_M = 1e8f;
-const double SMALLEST_SCENE_SIZE_M = 1e-9;
-// What follows the transform of a MultiMesh's instance, in floats.
+const float MAX_COORDINATE_M = 1e8f;
+const double MIN_SCENE_SIZE_M = 1e-9;
+// In a MultiMesh's buffer: floats of an instance's colour, and of its custom data.
 const size_t COLOR_FLOATS = 4;
 
-/// Visited as one body each: nodes that have several instances, and gizmos, bear their node's id.
+/// Returns the id of each node in the world once. All instances of a node, and its gizmos, have the
+/// node's id.
 std::vector<uint64_t> find_instances(godot::RID p_scenario) {
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
-	const godot::AABB everywhere = { glm::vec3(-FARTHEST_M), glm::vec3(2 * FARTHEST_M) };
+	const godot::AABB everywhere = { glm::vec3(-MAX_COORDINATE_M),
+		glm::vec3(2 * MAX_COORDINATE_M) };
 	const godot::PackedInt64Array found = server.instances_cull_aabb(everywhere, p_scenario);
 	std::vector<uint64_t> ids(found.get_values().begin(), found.get_values().end());
 	std::sort(ids.begin(), ids.end());
@@ -29,7 +31,7 @@ std::vector<uint64_t> find_instances(godot::RID p_scenario) {
 }
 
 glm::dmat4 read_instance_transform(std::span<const float> p_floats, bool p_is_3d) {
-	// Rows of 3 x 4, or of 2 x 4 whose third column is unused.
+	// 3 or 2 rows of 4 columns. In 2D the third column is unused.
 	glm::dmat4 matrix(1.0);
 	for (int row = 0; row < (p_is_3d ? 3 : 2); ++row) {
 		for (int column = 0; column < 4; ++column) {
@@ -46,8 +48,8 @@ bool has_fog_or_gi(const godot::Environment &p_environment) {
 			(p_environment.is_volumetric_fog_enabled() || p_environment.is_sdfgi_enabled());
 }
 
-/// Whether a camera of the world draws what needs Godot's shadows: fog, global illumination, or an
-/// image for which no masks are made.
+/// Whether a camera of the world needs Godot's shadows: for volumetric fog, for SDFGI, or because
+/// no masks are made for its projection.
 bool needs_godot_shadows(const godot::SceneTree &p_tree, godot::RID p_scenario) {
 	bool needs = false;
 	for_each_camera(
@@ -64,7 +66,7 @@ bool needs_godot_shadows(const godot::SceneTree &p_tree, godot::RID p_scenario) 
 } // namespace
 
 void SceneReader::warn_once(const SceneBody &p_body, const std::string &p_warning) {
-	if (warned.insert({ godot::get_instance_id(p_body.node.get_owner()), p_warning }).second) {
+	if (warned.insert({ godot::get_instance_id(p_body.node.get_object()), p_warning }).second) {
 		log_warning("\"", p_body.node.get_path().to_utf8(), "\" ", p_warning);
 	}
 }
@@ -121,10 +123,10 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 void SceneReader::read_light_node(const godot::Light3D &p_light) {
 	const bool is_listed = std::any_of(world.other_lights.begin(), world.other_lights.end(),
 			[&](const godot::Light3D &p_listed) {
-				return p_listed.get_owner() == p_light.get_owner();
+				return p_listed.get_object() == p_light.get_object();
 			});
 	if (p_light.is_visible_in_tree() && !is_listed) {
-		world.other_lights.push_back(p_light);
+		world.other_lights.push_back(p_light); // read() removes the masked ones
 	}
 }
 
@@ -138,7 +140,8 @@ void SceneReader::finish_details(
 		const InstanceSnapshot &instance = p_scene.instances[details[index].instance];
 		bounds_world.add(instance.bounds_world);
 		if (instance.pose && instance.pose->get_joints().empty()) {
-			// Godot's box of blend shapes has all of them, whatever their weights.
+			// Godot's box includes all blend shapes, whatever their weights. With a skeleton, it
+			// follows the bones, as bounds_world does.
 			const godot::AABB box = godot::cast<godot::VisualInstance3D>(p_body.node).get_aabb();
 			bounds_world.add(transform_bounds(
 					{ box.position, box.position + box.size }, instance.world_from_node));
@@ -177,7 +180,7 @@ void SceneReader::read_multi_mesh(
 		return;
 	}
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
-	// Lets Godot keep the transforms on the CPU: each later frame reads them without the GPU.
+	// Makes Godot keep the transforms on the CPU, so that later frames read them without the GPU.
 	server.multimesh_instance_get_transform(p_multi_mesh.get_rid(), 0);
 	const godot::PackedFloat32Array buffer = server.multimesh_get_buffer(p_multi_mesh.get_rid());
 	const bool is_3d = p_multi_mesh.get_transform_format() == godot::MultiMesh::TRANSFORM_3D;
@@ -191,7 +194,7 @@ void SceneReader::read_multi_mesh(
 	}
 }
 
-void SceneReader::read_unknown(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
+void SceneReader::read_box(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
 		SceneSnapshot &r_scene) {
 	static const std::shared_ptr<const Mesh> box = make_box_mesh("box", glm::vec3(0.5f));
 	const godot::AABB bounds = p_instance.get_aabb();
@@ -216,7 +219,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		read_light_node(light);
 	}
 	if (godot::cast<godot::ReflectionProbe>(object) || godot::cast<godot::VoxelGI>(object)) {
-		world.has_godot_readers = true;
+		world.uses_godot_shadows = true;
 	}
 	const auto visual = godot::cast<godot::VisualInstance3D>(object);
 	const auto geometry = godot::cast<GeometryInstance3D>(object);
@@ -256,11 +259,11 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		if (body.casts_shadow) {
 			warn_once(body,
 					text("casts no shadow of Gnomon: the mesh of a ",
-							godot::Object(object.get_owner()).get_class().to_utf8(),
+							godot::Object(object.get_object()).get_class().to_utf8(),
 							" cannot be read. Set its cast_shadow to Off, or use a "
 							"MeshInstance3D."));
 		}
-		read_unknown(body, visual, r_scene);
+		read_box(body, visual, r_scene);
 	}
 	finish_details(body, first_detail, r_scene);
 }
@@ -313,8 +316,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 			}
 		}
 	}
-	scene->scene_size_m =
-			std::max(SMALLEST_SCENE_SIZE_M, scene->compute_caster_bounds().get_diagonal());
+	scene->scene_size_m = std::max(MIN_SCENE_SIZE_M, scene->compute_caster_bounds().get_diagonal());
 	world.receivers = receivers.take();
 	for (ShadowNode *node : p_nodes) {
 		node->pending_caster_count = pending_count;
@@ -326,9 +328,10 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 		try {
 			scene->lights.push_back(read_light(*node, scene->scene_size_m));
 		} catch (const Error &error) {
-			const uint64_t id = godot::get_instance_id(node->get_node().get_owner());
+			const uint64_t id = godot::get_instance_id(node->get_node().get_object());
 			if (warned.insert({ id, error.what() }).second) {
-				log_warning(error.what(), " It has no shadow of Gnomon until then.");
+				log_warning(error.what(),
+						" Until this is corrected, Gnomon draws no shadow for this light.");
 			}
 			node->makes_mask = false;
 			continue;
@@ -349,10 +352,10 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	std::erase_if(world.other_lights, [this](const godot::Light3D &p_light) {
 		return std::any_of(world.masked_lights.begin(), world.masked_lights.end(),
 				[&](const godot::Light3D &p_masked) {
-					return p_masked.get_owner() == p_light.get_owner();
+					return p_masked.get_object() == p_light.get_object();
 				});
 	});
-	world.has_godot_readers = world.has_godot_readers || needs_godot_shadows(p_tree, p_scenario);
+	world.uses_godot_shadows = world.uses_godot_shadows || needs_godot_shadows(p_tree, p_scenario);
 	return std::exchange(world, {});
 }
 

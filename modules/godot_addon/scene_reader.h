@@ -11,41 +11,42 @@
 
 namespace gnomon {
 
-/// A world of the RenderingServer as it is in a frame.
+/// A world of the RenderingServer as it was read for a frame.
 struct ReadWorld {
 	std::shared_ptr<ScenarioFrame> frame;
-	std::vector<godot::Light3D> masked_lights; // those of frame->scene, in its order
-	std::vector<godot::Light3D> other_lights;
+	std::vector<godot::Light3D> masked_lights; // in the order of frame->scene->lights
+	std::vector<godot::Light3D> other_lights;  // visible lights without a mask
 	WorldReceivers receivers;
-	bool has_godot_readers = false; // others of Godot's shadows, such as fog
+	bool uses_godot_shadows = false; // a part of the world, such as fog, needs Godot's shadows
 };
 
-/// Reads the casters and lights of Godot's scenes. Main thread only.
+/// Reads the casters, receivers and lights of Godot's scenes. Main thread only.
 class SceneReader {
 public:
 	explicit SceneReader(ReceiverMaterials &r_materials) : receivers(r_materials) {}
-	/// p_scenario: a world of the RenderingServer. p_nodes: of the lights in it that are visible.
-	/// What cannot be read is skipped, with one warning that names the node.
-	/// p_hidden_lights: whose own light the RenderingServer does not show.
+	/// p_scenario: a world of the RenderingServer. p_nodes: its lights' visible GnomonShadow3Ds.
+	/// p_hidden_lights: lights that a query of the RenderingServer does not find, because their
+	/// stand-ins replace them. Nodes that cannot be read are skipped, with one warning for each.
 	ReadWorld read(godot::RID p_scenario, const godot::SceneTree &p_tree,
 			std::span<ShadowNode *const> p_nodes, std::vector<godot::Light3D> p_hidden_lights);
-	/// Once a frame, before all worlds are read, and after that.
+	/// Call these once per frame, before and after the worlds are read.
 	void begin_frame() { ++frame_number; }
 	void end_frame();
 
 private:
 	void read_node(uint64_t p_id, SceneSnapshot &r_scene);
-	/// Of the body that details from p_first on belong to: Godot chooses one level for all of it.
+	/// Sets bounds and scale of the details from p_first on, which belong to p_body. Godot chooses
+	/// one level of detail for the whole node.
 	void finish_details(const SceneBody &p_body, size_t p_first, const SceneSnapshot &p_scene);
 	void read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 			const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene);
-	/// Pairs of a transform and a mesh, as GridMap and CSGShape3D have them.
+	/// p_meshes: a transform and a mesh in turn, as GridMap and CSGShape3D return them.
 	void read_mesh_list(
 			const SceneBody &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene);
 	void read_multi_mesh(
 			const SceneBody &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene);
-	/// Its box alone: it may receive shadows.
-	void read_unknown(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
+	/// Adds only the box of a node whose mesh cannot be read, because it may receive shadows.
+	void read_box(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
 			SceneSnapshot &r_scene);
 	void read_light_node(const godot::Light3D &p_light);
 	void warn_once(const SceneBody &p_body, const std::string &p_warning);

@@ -7,18 +7,21 @@ namespace gnomon {
 
 namespace {
 
-bool is_letter(char p_letter) {
-	return std::isalnum(static_cast<unsigned char>(p_letter)) != 0 || p_letter == '_';
+bool is_identifier_character(char p_character) {
+	return std::isalnum(static_cast<unsigned char>(p_character)) != 0 || p_character == '_';
 }
 
 std::string blank_comments(std::string p_code) {
-	for (size_t index = 0; index + 1 < p_code.size(); ++index) {
+	for (size_t index = 0; index + 1 < p_code.size();) {
 		size_t end = index;
 		if (p_code.compare(index, 2, "//") == 0) {
 			end = std::min(p_code.find('\n', index), p_code.size());
 		} else if (p_code.compare(index, 2, "/*") == 0) {
 			const size_t found = p_code.find("*/", index + 2);
 			end = found == std::string::npos ? p_code.size() : found + 2;
+		}
+		if (end == index) {
+			++index; // no comment begins here
 		}
 		for (; index < end; ++index) {
 			p_code[index] = p_code[index] == '\n' ? '\n' : ' ';
@@ -29,12 +32,12 @@ std::string blank_comments(std::string p_code) {
 
 template <typename Function> void for_each_word(std::string_view p_text, Function p_function) {
 	for (size_t begin = 0; begin < p_text.size();) {
-		if (!is_letter(p_text[begin])) {
+		if (!is_identifier_character(p_text[begin])) {
 			++begin;
 			continue;
 		}
 		size_t end = begin;
-		while (end < p_text.size() && is_letter(p_text[end])) {
+		while (end < p_text.size() && is_identifier_character(p_text[end])) {
 			++end;
 		}
 		p_function(p_text.substr(begin, end - begin));
@@ -42,7 +45,8 @@ template <typename Function> void for_each_word(std::string_view p_text, Functio
 	}
 }
 
-/// The function whose body opens at p_brace; without a name: it is no function's.
+/// Returns the function whose body opens at p_brace, or one without a name if no function's does.
+/// p_statement: where the statement with the brace begins.
 ShaderFunction read_function(std::string_view p_text, size_t p_statement, size_t p_brace) {
 	const std::string_view head = p_text.substr(p_statement, p_brace - p_statement);
 	const size_t parenthesis = head.find('(');
@@ -82,8 +86,10 @@ std::vector<ShaderFunction> find_functions(std::string_view p_text) {
 } // namespace
 
 ShaderText::ShaderText(std::string p_code) :
-		code(std::move(p_code)), bare(blank_comments(code)), functions(find_functions(bare)) {
-	for_each_word(bare, [this](std::string_view p_word) { words.emplace(p_word); });
+		code(std::move(p_code)), code_without_comments(blank_comments(code)),
+		functions(find_functions(code_without_comments)) {
+	for_each_word(
+			code_without_comments, [this](std::string_view p_word) { words.emplace(p_word); });
 }
 
 const ShaderFunction *ShaderText::find_function(std::string_view p_name) const {
@@ -94,8 +100,9 @@ const ShaderFunction *ShaderText::find_function(std::string_view p_name) const {
 
 bool ShaderText::has_word(const ShaderFunction &p_function, std::string_view p_word) const {
 	bool has = false;
-	for_each_word(std::string_view(bare).substr(
-						  p_function.body_begin, p_function.body_end - p_function.body_begin),
+	for_each_word(
+			std::string_view(code_without_comments)
+					.substr(p_function.body_begin, p_function.body_end - p_function.body_begin),
 			[&](std::string_view p_found) { has = has || p_found == p_word; });
 	return has;
 }

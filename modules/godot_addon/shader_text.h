@@ -10,29 +10,29 @@ namespace gnomon {
 /// A function of a shader in Godot's language, as offsets into its code.
 struct ShaderFunction {
 	std::string name;
-	size_t begin = 0;	   // of its type
-	size_t body_begin = 0; // behind its opening brace
+	size_t begin = 0;	   // of its return type
+	size_t body_begin = 0; // after its opening brace
 	size_t body_end = 0;   // its closing brace
 };
 
-/// A shader's code as Godot's RenderingServer has it: without preprocessor lines.
+/// Finds identifiers and functions in the code of a Godot shader without preprocessor lines.
 class ShaderText {
 public:
 	explicit ShaderText(std::string p_code);
 
 	const std::string &get_code() const { return code; }
-	/// Whether it has that identifier, comments aside.
+	/// Whether the code has the identifier p_word outside of comments.
 	bool has_word(std::string_view p_word) const { return words.contains(p_word); }
-	/// Null: it has none of that name.
+	/// Returns null if there is no function of that name.
 	const ShaderFunction *find_function(std::string_view p_name) const;
-	/// In the code's order.
+	/// Returns all functions, in the order of the code.
 	const std::vector<ShaderFunction> &get_functions() const { return functions; }
-	/// Whether the function has that identifier.
+	/// Whether the body of the function has the identifier p_word.
 	bool has_word(const ShaderFunction &p_function, std::string_view p_word) const;
 
 private:
 	std::string code;
-	std::string bare; // the code with blanks for comments
+	std::string code_without_comments; // the code with spaces instead of comments
 	std::vector<ShaderFunction> functions;
 	std::set<std::string, std::less<>> words;
 };

@@ -50,7 +50,7 @@ ShadowSurface ShadowMaterials::read(const godot::Material &p_material) {
 }
 
 ShadowKind ShadowMaterials::read_shader(const godot::Shader &p_shader) {
-	Entry &entry = shaders[godot::get_instance_id(p_shader.get_owner())];
+	Entry &entry = shaders[godot::get_instance_id(p_shader.get_object())];
 	const bool is_new = !entry.watched;
 	if (is_new) {
 		entry.watched = std::make_unique<WatchedResource>(p_shader);

@@ -9,25 +9,25 @@
 
 namespace gnomon {
 
-/// How a surface's shadow follows from its material, as in Godot's own shadow passes.
+/// How a surface casts, according to its material, as in Godot's own shadow passes.
 enum class ShadowKind {
 	OPAQUE,
-	CUT_OUT, // by alpha: scissor, hash, or a depth prepass
-	NONE,	 // blended, or without depth
+	CUT_OUT, // by alpha scissor, alpha hash or depth prepass
+	NONE,	 // casts nothing: blended, or drawn without depth
 };
 
-/// What of a surface casts.
+/// How a surface casts, with its alpha mask.
 struct ShadowSurface {
 	ShadowKind kind = ShadowKind::OPAQUE;
-	/// Of a cut-out one: where it is there. Null: that cannot be read.
+	/// If CUT_OUT: the alpha mask; null: it cannot be read.
 	std::shared_ptr<const Material> cut_out;
 };
 
-/// Reads materials of Godot. Main thread only.
+/// Reads how Godot's materials cast. Main thread only.
 class ShadowMaterials {
 public:
 	ShadowSurface read(const godot::Material &p_material);
-	/// Drops what is known of shaders that are gone. Once a frame.
+	/// Removes cached data of freed resources. Call once per frame.
 	void forget_unused();
 
 private:
@@ -41,7 +41,7 @@ private:
 	CutOutMaterials cut_outs;
 };
 
-/// What a shader's code contains: the built-ins and render modes that decide it.
+/// Returns how a surface with this shader casts, by the built-ins and render modes in its code.
 ShadowKind find_shadow_kind(const ShaderText &p_shader);
 
 } // namespace gnomon

@@ -104,7 +104,7 @@ std::vector<std::string> ShadowNode::find_warnings() const {
 		if (other == this) {
 			break;
 		}
-		if (other->find_light().get_owner() == light.get_owner()) {
+		if (other->find_light().get_object() == light.get_object()) {
 			warnings.push_back("The light has another GnomonShadow3D, which alone counts. Remove "
 							   "one of the two.");
 			break;
@@ -147,7 +147,7 @@ void ShadowNode::call_back() {
 		const auto image = godot::Image::create_from_data(
 				mask.size_px.x, mask.size_px.y, false, godot::Image::FORMAT_RF, bytes);
 		for (const godot::Variant &callback : called) {
-			const godot::Variant arguments[] = { godot::Variant::of_object(image.get_owner()),
+			const godot::Variant arguments[] = { godot::Variant::of_object(image.get_object()),
 				godot::Variant(mask.camera) };
 			callback.call("call", arguments);
 		}

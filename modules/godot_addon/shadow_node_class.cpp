@@ -1,4 +1,4 @@
-// How Godot knows the class GnomonShadow3D: its functions as GDExtension calls them.
+// Registers the class GnomonShadow3D, its properties and its methods with GDExtension.
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
@@ -22,8 +22,8 @@ const char CLASS_NAME[] = "GnomonShadow3D";
 const char BASE_NAME[] = "Node3D";
 const char GETTER_NAME[] = "_get_value";
 const char SETTER_NAME[] = "_set_value";
-const char INSPECT_NAME[] = "_inspect_shader"; // Godot calls it
-// Of Godot's global enums, which the API describes apart from classes.
+const char INSPECT_NAME[] = "_inspect_shader"; // called by Material.inspect_native_shader_code()
+// Constants of Godot. The generated API has no global enums, such as PropertyHint.
 const uint32_t HINT_NONE = 0;
 const uint32_t HINT_RANGE = 1;
 const uint32_t HINT_ENUM = 2;
@@ -39,7 +39,7 @@ std::function<void()> listener;
 std::function<void(godot::RID)> shader_listener;
 
 void call_listener() {
-	if (const std::function<void()> called = listener) { // it may replace itself
+	if (const std::function<void()> called = listener) { // a copy, because the call may replace it
 		called();
 	}
 }
@@ -48,7 +48,7 @@ ShadowNode &to_node(void *p_instance) {
 	return *static_cast<ShadowNode *>(p_instance);
 }
 
-/// Runs what may fail for a caller that knows no exceptions.
+/// Calls p_function and logs its exceptions, which must not reach Godot.
 template <typename Function> void log_failures(Function p_function) {
 	try {
 		p_function();
@@ -99,14 +99,14 @@ BuiltInType to_godot_type(PropertyType p_type) {
 	}
 }
 
-/// "-1,100,0.001,suffix:m", with the special value inside.
+/// Returns a hint such as "-1,100,0.001,suffix:m". Its range includes the special value.
 std::string make_range_hint(const PropertyInfo &p_info) {
 	PropertyRange range = get_range(p_info);
 	if (!p_info.special.empty()) {
 		range.minimum = std::min(range.minimum, std::stod(p_info.special));
 	}
 	std::string hint = text(range.minimum, ",", range.maximum, ",", range.step);
-	// The slider of a length that may be kilometres is of no use: a field to drag in.
+	// A slider over kilometres is of no use, so the editor shows a field to drag in.
 	hint += range.maximum > 1000 ? ",hide_slider" : "";
 	return hint + (p_info.unit.empty() ? "" : ",suffix:" + p_info.unit);
 }
@@ -145,7 +145,7 @@ GDExtensionBool validate_property(void *p_instance, GDExtensionPropertyInfo *r_p
 	const std::vector<ShadowProperty> &properties = get_shadow_properties();
 	for (size_t index = 0; index < properties.size(); ++index) {
 		if (properties[index].info.name == name && to_node(p_instance).is_hidden(index)) {
-			r_property->usage = USAGE_STORAGE; // what was set of another technique is not lost
+			r_property->usage = USAGE_STORAGE; // other techniques keep their values
 		}
 	}
 	return true;
@@ -166,7 +166,7 @@ GDExtensionClassCallVirtual get_virtual(void *, const void *p_name, uint32_t) {
 	return read_name(p_name) == "_get_configuration_warnings" ? &call_get_warnings : nullptr;
 }
 
-/// Arguments and result as variants.
+/// A method of the class, with arguments and result as variants.
 using Method = Variant (*)(ShadowNode &, std::span<const Variant>);
 
 Variant get_value(ShadowNode &p_node, std::span<const Variant> p_arguments) {
@@ -178,7 +178,7 @@ Variant set_value(ShadowNode &r_node, std::span<const Variant> p_arguments) {
 	const PropertyInfo &info = get_shadow_properties()[index].info;
 	r_node.set_value(index, to_property_value(info.type, p_arguments[1]));
 	if (info.name == TECHNIQUE_PROPERTY) {
-		r_node.get_node().notify_property_list_changed(); // other properties are shown
+		r_node.get_node().notify_property_list_changed(); // to show the new technique's
 	}
 	return {};
 }
@@ -271,7 +271,7 @@ void call_method_typed(void *p_entry, void *p_instance, const GDExtensionConstTy
 	});
 }
 
-/// What GDExtensionPropertyInfo points at.
+/// Owns the strings to which a GDExtensionPropertyInfo points.
 struct PropertyTexts {
 	StringName name;
 	StringName class_name;

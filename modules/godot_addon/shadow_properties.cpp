@@ -8,7 +8,8 @@ namespace gnomon {
 
 namespace {
 
-/// Nodes of Godot are not declared planar, and its users do not start a technique from an example.
+/// Returns the techniques that are offered in Godot: no examples for developers, and none that
+/// needs planar receivers, because Godot's nodes cannot be declared planar.
 std::vector<const ShadowTechniqueInfo *> find_offered() {
 	std::vector<const ShadowTechniqueInfo *> found;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
@@ -28,8 +29,8 @@ PropertyInfo make_default_technique_setting() {
 		info.choice_tooltips.push_back(
 				text(offered->name, offered->source.empty() ? "" : ": ", offered->source, "."));
 	}
-	const ShadowTechniqueInfo *first = ShadowRegistry::find_default();
-	info.default_value = first ? first->id : std::string();
+	const ShadowTechniqueInfo *default_info = ShadowRegistry::find_default();
+	info.default_value = default_info ? default_info->id : std::string();
 	return info;
 }
 
@@ -139,11 +140,12 @@ std::string write_class_documentation() {
 	}
 	return text(
 			"<class name=\"GnomonShadow3D\" inherits=\"Node3D\" version=\"4.5\">\n"
-			"\t<brief_description>\n\t\tGives its parent, a light, a soft shadow of Gnomon.\n"
+			"\t<brief_description>\n\t\tGives its parent, a light, a soft shadow made by Gnomon.\n"
 			"\t</brief_description>\n\t<description>\n"
-			"\t\tAs child of an [OmniLight3D], a [SpotLight3D] or a [DirectionalLight3D], in the "
-			"renderer Forward+. It makes the light's shadow mask, what share of the light each "
-			"pixel of a viewport gets, before that viewport's opaque objects are drawn, and "
+			"\t\tAdd it as a child of an [OmniLight3D], a [SpotLight3D] or a [DirectionalLight3D]. "
+			"It needs the renderer Forward+. It makes the light's shadow mask, the fraction of its "
+			"light at each pixel of a viewport, before that viewport's opaque objects are drawn, "
+			"and "
 			"materials read it instead of Godot's shadow of that light. The size "
 			"of the light is its own [member Light3D.light_size] or [member "
 			"Light3D.light_angular_distance]. While this node is hidden it makes none.\n"
@@ -153,10 +155,10 @@ std::string write_class_documentation() {
 			"\t\t\t<description>\n\t\t\t\tCalls [param callback] once for each view that draws "
 			"this "
 			"light in the next frame, with the mask, an [Image] of [constant Image.FORMAT_RF] in "
-			"which -1 is where the light cannot reach, and with the [Transform3D] of the camera. "
+			"which -1 marks pixels without a receiver, and with the [Transform3D] of the camera. "
 			"It waits for the GPU: for tests and tools.\n\t\t\t</description>\n\t\t</method>\n"
 			"\t\t<method name=\"get_warning\">\n\t\t\t<return type=\"String\" />\n"
-			"\t\t\t<description>\n\t\t\t\tWhat the scene tree warns of, in lines; empty: nothing."
+			"\t\t\t<description>\n\t\t\t\tReturns the node's warnings, one per line; empty if none."
 			"\n\t\t\t</description>\n\t\t</method>\n"
 			"\t\t<method name=\"count_pending_casters\">\n\t\t\t<return type=\"int\" />\n"
 			"\t\t\t<description>\n\t\t\t\tHow many casters of this node's world have a mesh whose "

@@ -10,24 +10,24 @@ namespace gnomon {
 /// A property of GnomonShadow3D.
 struct ShadowProperty {
 	PropertyInfo info;
-	/// Of this technique alone; empty: of every one.
+	/// The only technique that has the property; empty: all have it.
 	std::string technique;
 };
 
 inline constexpr char TECHNIQUE_PROPERTY[] = "technique";
 inline constexpr char SHOW_MASK_PROPERTY[] = "show_mask";
 
-/// The technique that the project names, its own or edge_count.
+/// Value of the property "technique": the technique of the project setting below.
 inline constexpr char DEFAULT_TECHNIQUE[] = "default";
 
-/// The project setting with that technique.
+/// Returns the project setting of the default technique.
 const PropertyInfo &get_default_technique_setting();
 
-/// All properties, those of all techniques that Godot's users are offered included; in the order
-/// in which they are shown. The techniques must be registered.
+/// Returns all properties in display order, including those of all techniques that are offered in
+/// Godot. The techniques must be registered before the first call.
 const std::vector<ShadowProperty> &get_shadow_properties();
 
-/// Class documentation for Godot's editor, from which it takes tooltips: XML.
+/// Returns the class documentation as XML. Godot's editor also takes tooltips from it.
 std::string write_class_documentation();
 
 } // namespace gnomon

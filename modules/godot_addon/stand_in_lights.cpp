@@ -16,7 +16,7 @@ namespace {
 
 using godot::RenderingServer;
 
-const float LEAST_SPECULAR = 1e-6f; // for 0, which has no bits to spare
+const float MIN_SPECULAR = 1e-6f; // instead of 0, which with a row would be denormal
 
 RenderingServer find_server() {
 	return RenderingServer(godot::find_singleton("RenderingServer"));
@@ -38,7 +38,7 @@ glm::vec4 to_srgb(const glm::vec4 &p_color) {
 	return glm::mix(curved, 12.92f * p_color, glm::lessThan(p_color, glm::vec4(0.0031308f)));
 }
 
-/// 0: there is none left.
+/// Returns 0 if no row is free.
 uint32_t find_free_row(
 		float p_specular, const std::set<uint32_t> &p_taken, const std::set<float> &p_others) {
 	for (uint32_t row = 1; row < RECEIVER_ROW_COUNT; ++row) {
@@ -81,12 +81,12 @@ ReceiverLight make_receiver_light(const NeededStandIn &p_needed, uint32_t p_row)
 } // namespace
 
 float tag_specular(float p_specular, uint32_t p_row) {
-	const uint32_t bits = std::bit_cast<uint32_t>(std::max(p_specular, LEAST_SPECULAR));
+	const uint32_t bits = std::bit_cast<uint32_t>(std::max(p_specular, MIN_SPECULAR));
 	return std::bit_cast<float>((bits & ~uint32_t(RECEIVER_ROW_COUNT - 1)) | p_row);
 }
 
 StandInLight::StandInLight(const godot::Light3D &p_node, godot::RID p_scenario) :
-		server(find_server()), id(godot::get_instance_id(p_node.get_owner())), node(p_node),
+		server(find_server()), id(godot::get_instance_id(p_node.get_object())), node(p_node),
 		omni(godot::cast<godot::OmniLight3D>(p_node)),
 		directional(godot::cast<godot::DirectionalLight3D>(p_node)), scenario(p_scenario) {
 	light = directional ? server.directional_light_create()
@@ -123,7 +123,7 @@ StandInLight::Values StandInLight::read() const {
 	}
 	values.has_shadow = node.has_shadow();
 	values.is_negative = node.is_negative();
-	values.is_reversed = node.get_shadow_reverse_cull_face();
+	values.reverses_cull_face = node.get_shadow_reverse_cull_face();
 	values.fades = node.is_distance_fade_enabled();
 	values.fade_begin_m = node.get_distance_fade_begin();
 	values.fade_shadow_m = node.get_distance_fade_shadow();
@@ -155,7 +155,7 @@ void StandInLight::apply(const Values &p_values) const {
 	server.light_set_color(light, p_values.color);
 	server.light_set_shadow(light, p_values.has_shadow);
 	server.light_set_negative(light, p_values.is_negative);
-	server.light_set_reverse_cull_face_mode(light, p_values.is_reversed);
+	server.light_set_reverse_cull_face_mode(light, p_values.reverses_cull_face);
 	server.light_set_distance_fade(light, p_values.fades, p_values.fade_begin_m,
 			p_values.fade_shadow_m, p_values.fade_length_m);
 	server.light_set_cull_mask(light, p_values.cull_mask);
@@ -184,14 +184,14 @@ void StandInLight::update(uint32_t p_row, bool p_has_godot_shadow) {
 		is_applied = true;
 	}
 	server.instance_set_transform(instance, get_drawn_transform(node));
-	set_own_visible(server, node, false); // the node shows it again where its visibility changes
+	set_own_visible(server, node, false); // again, as the node may have shown it
 }
 
 std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
 		std::span<const NeededStandIn> p_needed, const std::set<float> &p_others) {
 	std::set<uint32_t> taken;
 	for (const NeededStandIn &needed : p_needed) {
-		const auto found = lights.find(godot::get_instance_id(needed.node.get_owner()));
+		const auto found = lights.find(godot::get_instance_id(needed.node.get_object()));
 		if (found == lights.end()) {
 			continue;
 		}
@@ -206,12 +206,12 @@ std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
 	}
 	std::vector<ReceiverLight> rows;
 	for (const NeededStandIn &needed : p_needed) {
-		Entry &entry = lights[godot::get_instance_id(needed.node.get_owner())];
+		Entry &entry = lights[godot::get_instance_id(needed.node.get_object())];
 		if (!entry.light) {
 			const float specular = get_param(needed.node, godot::Light3D::PARAM_SPECULAR);
 			entry.row = find_free_row(specular, taken, p_others);
 			if (entry.row == 0) {
-				lights.erase(godot::get_instance_id(needed.node.get_owner()));
+				lights.erase(godot::get_instance_id(needed.node.get_object()));
 				if (!std::exchange(has_warned, true)) {
 					log_warning("A world has more than ", taken.size(), " lights with shadows of ",
 							"Gnomon or a light_size. The rest of them stay as Godot has them.");

@@ -8,33 +8,34 @@
 
 namespace gnomon {
 
-/// A light of the RenderingServer that shines instead of a Light3D, with the same values but for
-/// two: the last bits of its specular amount encode for materials which light it is, and its shadow
-/// is Gnomon's. The node, its properties and the scene that is saved stay as they are. Main thread
-/// only.
+/// A light of the RenderingServer that replaces that of a Light3D. Two of its values differ: the
+/// last bits of its specular amount are its row in the table of lights, by which materials identify
+/// it, and its shadow is replaced by Gnomon's. The node, its properties and the saved scene do not
+/// change. Main thread only.
 class StandInLight {
 public:
 	StandInLight(const godot::Light3D &p_node, godot::RID p_scenario);
-	/// The node's own light shines again.
+	/// Shows the node's own light again.
 	~StandInLight();
 	StandInLight(const StandInLight &) = delete;
 	StandInLight &operator=(const StandInLight &) = delete;
 
-	/// Once a frame. p_row: see ReceiverLight.
+	/// Copies the node's values and hides its own light. Call once per frame. p_row: see
+	/// ReceiverLight. p_has_godot_shadow: it also has Godot's shadow, if the node has one.
 	void update(uint32_t p_row, bool p_has_godot_shadow);
 	godot::RID get_scenario() const { return scenario; }
-	/// Empty where it is gone or hidden, or in another world.
+	/// Returns the node; empty if it was freed, is hidden or is in another world.
 	godot::Light3D find_visible_node() const;
 
 private:
 	static const size_t PARAM_COUNT = size_t(godot::Light3D::PARAM_MAX);
-	/// What a light of the RenderingServer has.
+	/// The values of a light of the RenderingServer.
 	struct Values {
 		std::array<double, PARAM_COUNT> params = {};
 		glm::vec4 color = glm::vec4(0.0f);
 		bool has_shadow = false;
 		bool is_negative = false;
-		bool is_reversed = false; // its shadow's casters
+		bool reverses_cull_face = false; // shadow_reverse_cull_face
 		bool fades = false;
 		double fade_begin_m = 0;
 		double fade_shadow_m = 0;
@@ -43,7 +44,7 @@ private:
 		int64_t caster_mask = 0;
 		int64_t layers = 0;
 		int64_t bake_mode = 0;
-		int64_t shadow_mode = 0; // of omni and directional lights
+		int64_t shadow_mode = 0; // for omni and directional lights
 		int64_t sky_mode = 0;
 		bool blends_splits = false;
 		godot::RID projector;
@@ -55,7 +56,7 @@ private:
 	godot::RenderingServer server;
 	uint64_t id; // of the node
 	godot::Light3D node;
-	godot::OmniLight3D omni; // those it is not are empty
+	godot::OmniLight3D omni; // empty for other types
 	godot::DirectionalLight3D directional;
 	godot::RID scenario;
 	godot::RID light;
@@ -64,27 +65,29 @@ private:
 	bool is_applied = false;
 };
 
-/// The specular amount that encodes a row for materials.
+/// Returns the specular amount with p_row in its last bits, below RECEIVER_ROW_COUNT.
 float tag_specular(float p_specular, uint32_t p_row);
 
-/// A light whose stand-in is needed in a frame.
+/// A light that needs a stand-in in a frame.
 struct NeededStandIn {
 	godot::Light3D node;
-	int32_t mask = -1; // its layer; -1: Gnomon makes none
+	int32_t mask = -1; // layer of its mask; -1: it has none
 	bool needs_godot_shadow = true;
 };
 
 /// The stand-ins of all worlds. Main thread only.
 class StandInLights {
 public:
-	/// Once a frame and world. p_others: the specular amounts of its other lights, which no row's
-	/// may equal. Lights beyond RECEIVER_ROW_COUNT - 1 stay Godot's, with one warning.
+	/// Updates the stand-ins of a world and returns their rows. Call once per frame and world.
+	/// p_others: specular amounts of the world's other lights; a stand-in never gets one of them.
+	/// At most RECEIVER_ROW_COUNT - 1 lights get stand-ins; if there are more, one warning is
+	/// logged and the others keep Godot's shadows.
 	std::vector<ReceiverLight> update(godot::RID p_scenario,
 			std::span<const NeededStandIn> p_needed, const std::set<float> &p_others);
-	/// The nodes that shine through stand-ins in this world and are visible still. Queries of the
-	/// RenderingServer find them no more, as their own lights are hidden.
+	/// Returns the visible nodes in this world that have a stand-in. Queries of the RenderingServer
+	/// do not find them, because their own lights are hidden.
 	std::vector<godot::Light3D> find_nodes(godot::RID p_scenario) const;
-	/// Those that were not updated in this frame end.
+	/// Removes the stand-ins that were not updated in this frame.
 	void end_frame();
 
 private:

@@ -11,55 +11,55 @@ TopologyWorker::~TopologyWorker() {
 		const std::lock_guard lock(mutex);
 		is_ending = true;
 	}
-	wakes.notify_all();
+	wake_condition.notify_all();
 	if (thread.joinable()) {
 		thread.join();
 	}
 }
 
 void TopologyWorker::prepare(const std::shared_ptr<const Mesh> &p_mesh) {
-	if (p_mesh->get_triangle_count() <= MOST_IMMEDIATE_TRIANGLES) {
+	if (p_mesh->get_triangle_count() <= MAX_IMMEDIATE_TRIANGLES) {
 		return;
 	}
 	const std::lock_guard lock(mutex);
-	unready[p_mesh->id] = p_mesh;
-	waiting.push_back(p_mesh);
+	pending[p_mesh->id] = p_mesh;
+	queue.push_back(p_mesh);
 	if (!thread.joinable()) {
 		thread = std::thread([this] { run(); });
 	}
-	wakes.notify_one();
+	wake_condition.notify_one();
 }
 
 bool TopologyWorker::is_ready(const std::shared_ptr<const Mesh> &p_mesh) {
 	const std::lock_guard lock(mutex);
-	return !p_mesh || !unready.contains(p_mesh->id);
+	return !p_mesh || !pending.contains(p_mesh->id);
 }
 
 void TopologyWorker::forget_unused() {
 	const std::lock_guard lock(mutex);
-	std::erase_if(unready, [](const auto &p_entry) { return p_entry.second.expired(); });
+	std::erase_if(pending, [](const auto &p_entry) { return p_entry.second.expired(); });
 }
 
 void TopologyWorker::run() {
 	std::unique_lock lock(mutex);
 	while (true) {
-		wakes.wait(lock, [&] { return is_ending || !waiting.empty(); });
+		wake_condition.wait(lock, [&] { return is_ending || !queue.empty(); });
 		if (is_ending) {
 			return;
 		}
-		const std::shared_ptr<const Mesh> mesh = waiting.front().lock();
-		waiting.pop_front();
+		const std::shared_ptr<const Mesh> mesh = queue.front().lock();
+		queue.pop_front();
 		if (!mesh) {
 			continue;
 		}
 		lock.unlock();
 		try {
 			get_topology(mesh);
-		} catch (const std::exception &failure) { // of memory: whoever needs the edges fails too
+		} catch (const std::exception &failure) { // out of memory
 			log_error("\"", mesh->name, "\": ", describe_failure(failure));
 		}
 		lock.lock();
-		unready.erase(mesh->id);
+		pending.erase(mesh->id);
 	}
 }
 

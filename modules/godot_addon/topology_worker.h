@@ -11,31 +11,32 @@
 
 namespace gnomon {
 
-/// Finds the edges of large meshes (mesh_tools' get_topology) on a thread of its own, so that a
-/// mesh that appears does not hold up the frame. Small ones are ready at once.
+/// Computes the edges of large meshes (get_topology of mesh_tools) on a worker thread, so that a
+/// new mesh does not stall the frame. Small meshes are ready at once.
 class TopologyWorker {
 public:
-	/// Up to this many a mesh is ready at once: its edges take a few milliseconds.
-	static constexpr uint32_t MOST_IMMEDIATE_TRIANGLES = 10'000;
+	/// Meshes of up to this many triangles are ready at once: their edges take a few milliseconds.
+	static constexpr uint32_t MAX_IMMEDIATE_TRIANGLES = 10'000;
 
 	TopologyWorker() = default;
 	~TopologyWorker();
 	TopologyWorker(const TopologyWorker &) = delete;
 	TopologyWorker &operator=(const TopologyWorker &) = delete;
 
+	/// Starts to compute the edges of a large mesh.
 	void prepare(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Null is ready.
+	/// Whether the worker has computed the edges of the mesh, or need not. True for null.
 	bool is_ready(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Drops what is known of meshes that are gone.
+	/// Removes freed meshes.
 	void forget_unused();
 
 private:
 	void run();
 
-	std::mutex mutex; // of all below
-	std::condition_variable wakes;
-	std::deque<std::weak_ptr<const Mesh>> waiting;
-	std::map<uint64_t, std::weak_ptr<const Mesh>> unready; // by Mesh::id
+	std::mutex mutex; // guards all below
+	std::condition_variable wake_condition;
+	std::deque<std::weak_ptr<const Mesh>> queue;
+	std::map<uint64_t, std::weak_ptr<const Mesh>> pending; // by Mesh::id
 	bool is_ending = false;
 	std::thread thread; // started with the first large mesh
 };

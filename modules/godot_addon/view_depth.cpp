@@ -12,10 +12,12 @@ namespace gnomon {
 
 namespace {
 
-// Of a surface's distance. Two programs compute the same depth to some 1e-6.
-const float SAME_SHARE = 2e-5f;
-// A level's deviation is about the threshold's number of pixels; along the view it may be more.
-const float MOST_DEVIATION = 16.0f;
+// Depths that differ by at most this fraction belong to one surface. The depths of a surface that
+// two shaders compute differ by about 1e-6.
+const float SURFACE_TOLERANCE = 2e-5f;
+// A reduced mesh deviates by about threshold_px pixels across the image, and by up to this many
+// times as much along the view direction.
+const float MAX_DEVIATION_FACTOR = 16.0f;
 
 RasterPipelineDesc make_mesh_pipeline() {
 	RasterPipelineDesc desc;
@@ -41,7 +43,7 @@ RGTexture create_depth(RenderGraph &r_graph, const char *p_name, glm::uvec2 p_si
 			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
 }
 
-/// p_mesh: whose triangles.
+/// Adds a pass that draws the depth, near / z, of one mesh of each instance: of the member p_mesh.
 RGTexture add_mesh_depth(RenderGraph &r_graph, MeshStore &r_meshes, const char *p_name,
 		glm::uvec2 p_size_px, const std::shared_ptr<const ReducedInstances> &p_reduced,
 		std::shared_ptr<const Mesh> ReducedInstance::*p_mesh) {
@@ -63,10 +65,7 @@ RGTexture add_mesh_depth(RenderGraph &r_graph, MeshStore &r_meshes, const char *
 	return depth;
 }
 
-/// Of the projection's elements: what rounding may leave of a 0 or of a ratio of 1.
-const float PROJECTION_ROUNDING = 1e-5f;
-
-std::string find_refusal(
+std::string find_unsupported_reason(
 		const glm::mat4 &p_projection, glm::uvec2 p_size_px, int64_t p_view_count) {
 	if (p_view_count > 1) {
 		return "has several views at once (XR)";
@@ -74,7 +73,7 @@ std::string find_refusal(
 	if (p_projection[3][3] != 0.0f) {
 		return "has an orthogonal projection";
 	}
-	// Antialiasing over time shifts by less than a pixel.
+	// Temporal antialiasing shifts the projection by less than a pixel.
 	if (std::abs(p_projection[2][0]) * float(p_size_px.x) > 2.0f ||
 			std::abs(p_projection[2][1]) * float(p_size_px.y) > 2.0f) {
 		return "has a projection that is not centred";
@@ -97,8 +96,9 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 	view.color = p_buffers.get_color_texture(false);
 	view.camera_transform = data.get_cam_transform();
 	const glm::mat4 projection = data.get_cam_projection();
-	view.refusal = find_refusal(projection, view.size_px, p_buffers.get_view_count());
-	if (view.refusal.empty()) {
+	view.unsupported_reason =
+			find_unsupported_reason(projection, view.size_px, p_buffers.get_view_count());
+	if (view.unsupported_reason.empty()) {
 		const glm::dmat4 world_from_camera = view.camera_transform.to_matrix();
 		view.camera.name = "Camera";
 		view.camera.position_world = glm::dvec3(world_from_camera[3]);
@@ -116,8 +116,8 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 
 ReducedInstances find_reduced_instances(
 		const ScenarioFrame &p_frame, const SceneSnapshot &p_scene, const GodotView &p_view) {
-	// Godot does not report which viewport it draws: the camera identifies it. One that Godot
-	// itself moves between frames has none.
+	// Godot does not report which viewport it draws, so it is identified by its camera's transform.
+	// If none matches, because Godot itself moved the camera, the first viewport is used.
 	const auto found = std::find_if(p_frame.views.begin(), p_frame.views.end(),
 			[&](const ViewDetail &p_detail) { return p_detail.camera == p_view.camera_transform; });
 	const ViewDetail detail = found != p_frame.views.end() ? *found
@@ -128,8 +128,8 @@ ReducedInstances find_reduced_instances(
 	const float width_px = float(p_view.size_px.x) / detail.resolution_scale;
 	const glm::mat4 shift(compute_shift(p_scene.camera));
 	ReducedInstances reduced;
-	reduced.most_share =
-			MOST_DEVIATION * detail.threshold_px * 2.0f * view.half_extent.x / width_px;
+	reduced.lod_tolerance =
+			MAX_DEVIATION_FACTOR * detail.threshold_px * 2.0f * view.half_extent.x / width_px;
 	for (const InstanceDetail &candidate : p_frame.details) {
 		const InstanceSnapshot &instance = p_scene.instances[candidate.instance];
 		if (!view.may_see(instance)) {
@@ -172,8 +172,8 @@ RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotV
 	const PipelineRID merge = r_meshes.get_device().get_raster_pipeline(
 			make_screen_depth_pipeline("merge depth", "godot_addon/merge_depth.frag"));
 	shader::MergeDepthPush merge_push = {};
-	merge_push.same_share = SAME_SHARE;
-	merge_push.most_share = p_reduced->most_share;
+	merge_push.surface_tolerance = SURFACE_TOLERANCE;
+	merge_push.lod_tolerance = p_reduced->lod_tolerance;
 	r_graph.add_pass("merge depth")
 			.reads(scene, Access::SHADER_READ_FRAGMENT)
 			.reads(drawn, Access::SHADER_READ_FRAGMENT)

@@ -7,38 +7,38 @@
 
 namespace gnomon {
 
-/// What Godot has drawn of a view when it calls an effect.
+/// The view for which Godot calls a compositor effect: its buffers and its camera.
 struct GodotView {
 	godot::RID depth;
 	godot::RID color;
 	glm::uvec2 size_px = glm::uvec2(0);
 	CameraSnapshot camera;
 	godot::Transform3D camera_transform;
-	float horizontal_scale = 1; // P[0][0]
-	float depth_offset = 0;		// P[2][2] of its projection P
-	/// Why masks cannot be made for it; empty: they can.
-	std::string refusal;
+	float horizontal_scale = 1; // P[0][0] of the projection P
+	float depth_offset = 0;		// P[2][2]
+	/// Why no masks can be made for the view; empty: they can.
+	std::string unsupported_reason;
 };
-/// p_buffers: of p_data.
+/// p_buffers: the buffers of p_data.
 GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuffersRD &p_buffers);
 
-/// An instance that Godot draws with fewer triangles.
+/// An instance that Godot draws with a reduced mesh, see detail_levels.h.
 struct ReducedInstance {
-	std::shared_ptr<const Mesh> full;			// as posed
-	std::shared_ptr<const Mesh> drawn;			// its triangles are of the full one's vertices
+	std::shared_ptr<const Mesh> full;			// the full mesh, posed
+	std::shared_ptr<const Mesh> drawn;			// the reduced mesh; uses the vertices of full
 	glm::mat4 clip_from_node = glm::mat4(1.0f); // reversed depth: near / z
 };
 struct ReducedInstances {
 	std::vector<ReducedInstance> list;
-	/// What a deviation of one of them may be of its distance.
-	float most_share = 0;
+	/// Largest deviation of a reduced mesh from its full mesh, as a fraction of the distance.
+	float lod_tolerance = 0;
 };
-/// Those that the view may see. p_scene: with the view's camera.
+/// Returns the reduced instances that may be visible. p_scene must have the view's camera.
 ReducedInstances find_reduced_instances(
 		const ScenarioFrame &p_frame, const SceneSnapshot &p_scene, const GodotView &p_view);
 
-/// The depth as shadows read it, near / z, of the full meshes. p_depth: Godot's. After the pass
-/// that deforms meshes.
+/// Adds passes that compute the depth for shadows, near / z, with the full meshes instead of the
+/// reduced ones. p_depth: Godot's depth. Call it after the pass that deforms meshes was added.
 RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotView &p_view,
 		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced);
 

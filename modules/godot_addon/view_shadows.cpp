@@ -15,7 +15,7 @@ namespace gnomon {
 
 namespace {
 
-const float NO_RECEIVER = -1.0f; // materials decide by their own normals
+const float NO_RECEIVER = -1.0f; // materials then decide by their smooth normals
 
 RasterPipelineDesc make_show_pipeline() {
 	RasterPipelineDesc desc;
@@ -70,10 +70,10 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	scene->camera = p_view.camera;
 	RenderGraph graph(device, transients);
 	FramePlan plan;
-	// First, as it deforms the meshes whose depth is drawn below.
+	// Created first, because it deforms the meshes whose depth is drawn below.
 	ShadowFrame frame(shadows, graph, plan, scene,
 			ScaledMasks::compute_size(p_view.size_px, p_frame.mask_scale));
-	// Godot's own format differs; shaders read the same number from each.
+	// Godot's actual format differs, but shaders read the same values.
 	const RGTexture drawn_depth =
 			graph.import_texture(depth.get(device, p_view.depth,
 										 { "depth of Godot", Format::D32_SFLOAT, p_view.size_px, 1,
@@ -86,9 +86,9 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	HostSurfaces surfaces;
 	surfaces.depth = scaled.get_depth();
 	frame.set_surfaces(surfaces);
-	const RGTexture held =
+	const RGTexture mask_texture =
 			graph.import_texture(receivers.get_masks(), RenderGraph::ImportedContent::NONE);
-	const RGTexture target = scaled.create_target(held);
+	const RGTexture target = scaled.create_target(mask_texture);
 	std::map<std::string, MaskReadback> reads;
 	for (uint32_t layer = 0; layer < count; ++layer) {
 		const LightSnapshot &light = scene->lights[layer];
@@ -100,7 +100,7 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 			}
 		}
 	}
-	scaled.write(held);
+	scaled.write(mask_texture);
 	graph.execute(reads.empty() ? RenderGraph::Mode::QUEUE : RenderGraph::Mode::WAIT);
 	frame.end();
 	for (uint32_t layer = 0; layer < count; ++layer) {
@@ -131,7 +131,7 @@ void ViewShadows::show_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 										 { "image of Godot", Format::RGBA16_SFLOAT, p_view.size_px,
 												 1, TextureUsage::COLOR_ATTACHMENT }),
 					RenderGraph::ImportedContent::PRESERVED);
-	const RGTexture held =
+	const RGTexture mask_texture =
 			graph.import_texture(receivers.get_masks(), RenderGraph::ImportedContent::PRESERVED);
 	const PipelineRID pipeline = device.get_raster_pipeline(make_show_pipeline());
 	for (const std::string &light : p_frame.shown_lights) {
@@ -142,13 +142,13 @@ void ViewShadows::show_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 		shader::ShowMaskPush push = {};
 		push.layer = layer->second;
 		graph.add_pass("show mask")
-				.reads(held, Access::SHADER_READ_FRAGMENT)
+				.reads(mask_texture, Access::SHADER_READ_FRAGMENT)
 				.color(target, LoadOp::KEEP)
 				.keep()
 				.execute([=](PassContext &p_context) {
 					p_context.commands.bind_pipeline(pipeline);
 					p_context.commands.bind_resources(
-							{ { SHOW_BINDING_MASKS, p_context.get(held) } });
+							{ { SHOW_BINDING_MASKS, p_context.get(mask_texture) } });
 					p_context.commands.push_constants(push);
 					p_context.commands.draw(3);
 				});

@@ -9,11 +9,11 @@
 
 namespace gnomon {
 
-/// A texture of Godot as one of the device's, while it stays the same.
+/// A texture of Godot that is imported into the device. It is imported again when it changes.
 class ImportedTexture {
 public:
 	TextureRID get(GodotDevice &r_device, godot::RID p_texture, const TextureDesc &p_desc);
-	/// Before the device ends.
+	/// Call it before the device is destroyed.
 	void free(GodotDevice &r_device);
 
 private:
@@ -21,22 +21,22 @@ private:
 	TextureRID imported;
 };
 
-/// The masks of one view: of one viewport, as Godot keeps buffers for it. Render thread only.
+/// The masks of one view, which is one viewport with render buffers. Render thread only.
 class ViewShadows {
 public:
-	/// p_receivers: shared by all views.
+	/// p_receivers: the textures that all views share.
 	ViewShadows(GodotDevice &p_device, std::shared_ptr<MeshStore> p_meshes,
 			ReceiverTextures &p_receivers);
 	~ViewShadows();
 	ViewShadows(const ViewShadows &) = delete;
 	ViewShadows &operator=(const ViewShadows &) = delete;
 
-	/// Makes the masks of all lights: before the view's opaque objects are drawn.
+	/// Makes the masks of all lights. Call it before the view's opaque objects are drawn.
 	void make_masks(const ScenarioFrame &p_frame, const GodotView &p_view);
-	/// Draws the shown lights' masks over the image, the last one's on top.
+	/// Draws the masks of p_frame.shown_lights over the image, the last one on top.
 	void show_masks(const ScenarioFrame &p_frame, const GodotView &p_view);
 
-	uint64_t last_use = 0; // the frame
+	uint64_t last_use = 0; // frame number
 
 private:
 	GodotDevice &device;
@@ -45,29 +45,29 @@ private:
 	ShadowSystem shadows;
 	ImportedTexture depth;
 	ImportedTexture color;
-	std::map<std::string, uint32_t> layers; // by light
+	std::map<std::string, uint32_t> layers; // layer of the mask by light name
 };
 
-/// The masks of all views. Render thread only, but for its making.
+/// The masks of all views. Render thread only, except for the constructor and take_failure().
 class RenderSide {
 public:
-	/// From the callbacks of effects; what fails is logged once.
+	/// Called by the compositor effects. Each failure is logged once.
 	void make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
 	void show_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
-	/// Makes room for the masks of the frame about to be drawn: each is as large as the largest
-	/// view.
+	/// Allocates masks for the frame about to be drawn. p_size_px: size of each mask, that of the
+	/// largest view.
 	void reserve(glm::uvec2 p_size_px, uint32_t p_mask_count);
-	/// Whether masks could not be made of a view since the last query. On any thread.
+	/// Whether masks of a view could not be made since the last call. Can be called on any thread.
 	bool take_failure() { return has_failed.exchange(false); }
-	/// Frees all. The next frame makes it again.
+	/// Frees all GPU resources. The next frame creates them again.
 	void clear();
 
 private:
-	enum class What { MAKE, SHOW };
-	void run(What p_what, const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
+	enum class Action { MAKE, SHOW };
+	void run(Action p_action, const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
 	void prepare_device();
 	void forget_view();
-	void note_failure(const std::exception &p_failure);
+	void record_failure(const std::exception &p_failure);
 	void forget_unused(uint64_t p_frame);
 
 	std::unique_ptr<GodotDevice> device;

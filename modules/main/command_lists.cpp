@@ -1,4 +1,5 @@
-// `gnomon techniques`, `filters`, `modules` and `info`: what there is, as text or JSON.
+// The commands `gnomon techniques`, `filters`, `modules` and `info`. Each prints a list as text or
+// JSON.
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
@@ -112,7 +113,8 @@ Json list_modules(bool p_as_text, const CommonOptions & /*p_common*/) {
 
 Json list_info(bool p_as_text, const CommonOptions &p_common) {
 	const std::vector<DeviceInfo> devices = find_rendering_devices();
-	// Creating it shows which one a command would take, and why none can be.
+	// Creates the device that other commands would use, to mark it in the list. Throws an Error
+	// with the reason if no device is usable.
 	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
 	const uint32_t chosen = device->get_info().index;
 	Json list = Json::array();
@@ -143,7 +145,7 @@ struct ListCommand {
 	const char *id;
 	const char *description;
 	Json (*list)(
-			bool p_as_text, const CommonOptions &p_common); // prints it where text is requested
+			bool p_as_text, const CommonOptions &p_common); // also prints the list if p_as_text
 };
 const ListCommand LIST_COMMANDS[] = {
 	{ "techniques", "Shadow techniques and their properties", &list_techniques },

@@ -1,4 +1,5 @@
-// `gnomon report`: error against run time of every technique over a project's scenes.
+// The command `gnomon report`: measures error and run time of every technique in the scenes of a
+// project.
 
 #include "modules/core/command_registry.h"
 #include "modules/core/error.h"
@@ -33,8 +34,10 @@ using Json = nlohmann::ordered_json;
 
 enum class MissingCells { ALLOWED, REFUSED };
 
-/// Prints what the user requests in addition to the files, and adds it to the report's JSON.
-bool add_answers(const Report &p_report, const ReportArguments &p_arguments,
+/// Prints the results of --budget and --against, and adds them to the report's JSON. p_old: the
+/// report to compare with, if any. Returns false if there is a regression (see
+/// ReportComparison::has_regression) or if no cell was measured in both reports.
+bool add_budget_and_comparison(const Report &p_report, const ReportArguments &p_arguments,
 		const std::optional<Report> &p_old, Json &r_json) {
 	if (p_arguments.budget_ms) {
 		Json choices = Json::array();
@@ -78,7 +81,8 @@ bool add_answers(const Report &p_report, const ReportArguments &p_arguments,
 	return !comparison.has_regression() && comparison.compared_count > 0;
 }
 
-/// Loads the report to compare with now, so that an unreadable one fails before the measurement.
+/// Loads the report of --against; nullopt without that option. Called before the measurement, so
+/// that an unreadable file fails early.
 std::optional<Report> load_old_report(const ReportArguments &p_arguments) {
 	return p_arguments.against.empty() ? std::nullopt
 									   : std::optional(load_report(p_arguments.against));
@@ -93,12 +97,14 @@ void print_ranking(const Report &p_report) {
 	}
 }
 
-/// Writes the files. Fails when something of the plan failed, is missing or got worse.
+/// Writes report.json, report.csv and index.html, and prints the ranking. Then throws an Error if a
+/// reference, cell or scene image failed, if one is missing (unless MissingCells::ALLOWED), or if
+/// add_budget_and_comparison returns false.
 void finish_report(const Report &p_report, const fs::path &p_folder,
 		const ReportArguments &p_arguments, const std::optional<Report> &p_old,
 		MissingCells p_missing) {
 	Json json = to_json(p_report);
-	const bool is_no_worse = add_answers(p_report, p_arguments, p_old, json);
+	const bool has_no_regression = add_budget_and_comparison(p_report, p_arguments, p_old, json);
 	const RecordStore store(get_record_folder(p_folder));
 	save_file_atomically(p_folder / "report.json", dump_json(json));
 	save_file_atomically(p_folder / "report.csv", to_csv(p_report));
@@ -109,7 +115,7 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	const size_t missing_count = p_report.count(ReportStatus::MISSING);
 	if (failed_count > 0) {
 		fail(failed_count,
-				" references or cells failed; the page lists which and why. Mend that, then ",
+				" references or cells failed; the page lists which and why. Fix that, then ",
 				"go on with --resume.");
 	}
 	if (missing_count > 0 && p_missing == MissingCells::REFUSED) {
@@ -117,14 +123,14 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 				" references or cells are missing. Run the other shards, or go on with ",
 				"--resume.");
 	}
-	if (!is_no_worse) {
+	if (!has_no_regression) {
 		fail("Errors grew against ", p_arguments.against,
 				", or no cell is in both; the lines above ", "list which.");
 	}
 }
 
-/// While it exists, passes each warning through once and counts repetitions, which it logs at its
-/// end.
+/// While it exists, each warning is logged only the first time and its repetitions are counted. The
+/// destructor logs the counts.
 class WarningCounter {
 public:
 	~WarningCounter() {
@@ -176,8 +182,8 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 				[](const ReportScene &p_scene) { return p_scene.scene != nullptr; })) {
 		fail("No scene of ", p_arguments.project, " can be loaded; the lines above state why.");
 	}
-	const std::vector<TechniqueSource> techniques =
-			RenderedMasks::find_techniques(p_arguments.techniques);
+	const std::vector<MeasurableTechnique> techniques =
+			RenderedMaskSource::find_techniques(p_arguments.techniques);
 	const fs::path out = p_arguments.out.empty() ? selected.folder / "out" / "report"
 												 : fs::path(p_arguments.out);
 	const ReportPlan plan = make_report_plan(options, scenes, techniques);
@@ -189,21 +195,21 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	save_plan(out, plan.report);
 	log_info("Report: ", plan.report.configurations.size(), " configurations, ",
 			plan.report.cells.size(), " cells.");
-	RenderedMasks source(*device, options.precision_percent / 100, p_arguments.frame_count);
+	RenderedMaskSource source(*device, options.precision_percent / 100, p_arguments.frame_count);
 	run_options.on_progress = [&, next = std::chrono::steady_clock::time_point()](
 									  const Report &p_report) mutable {
 		if (std::chrono::steady_clock::now() < next) {
 			return;
 		}
 		save_file_atomically(out / "index.html", build_report_page(to_json(p_report), store));
-		// Building it takes time too.
+		// At most every 20 s, since building the page takes time.
 		next = std::chrono::steady_clock::now() + std::chrono::seconds(20);
 	};
 	const Report report = run_report(plan, source, store, run_options);
-	const bool is_part = run_options.shard_count > 1;
-	// Other shards may have measured into the same folder.
-	finish_report(is_part ? collect_report(plan.report, store) : report, out, p_arguments,
-			old_report, is_part ? MissingCells::ALLOWED : MissingCells::REFUSED);
+	const bool is_shard = run_options.shard_count > 1;
+	// A shard also reports the records that other shards have written to the same folder.
+	finish_report(is_shard ? collect_report(plan.report, store) : report, out, p_arguments,
+			old_report, is_shard ? MissingCells::ALLOWED : MissingCells::REFUSED);
 }
 
 void run_merge_command(const ReportArguments &p_arguments) {
@@ -232,47 +238,53 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "all (default): each technique's quality levels; default: its defaults alone")
 			->check(CLI::IsMember({ "all", "default" }));
 	command->add_option("--frames", arguments.frame_count,
-				   "Most frames that a cell is timed for; default 20")
+				   "Maximum number of frames that a cell is timed for; default 20")
 			->check(CLI::Range(1u, 1000u));
 	command->add_option("--light-types", arguments.light_types,
-				   "own (default): each scene's lights as they are; else spot,omni,directional")
+				   "own (default): each scene's lights as they are; else spot,omni,directional: "
+				   "the first light of each scene as each of these types")
 			->delimiter(',')
 			->default_val(std::vector<std::string>{ "own" });
-	command->add_option("--size", arguments.size, "Of the image; default 256x256");
+	command->add_option("--size", arguments.size, "Size of the masks in pixels; default 256x256");
 	add_stage_option(*command, r_common);
 	add_animation_options(*command, r_common);
 	command->add_option("--samples", arguments.options.sample_count,
-				   "Of the reference, per pixel; default 1024")
+				   "Rays of the reference per pixel; default 1024")
 			->check(CLI::Range(1u, 65536u));
-	command->add_option("--scaling", arguments.scaling, "Curves of cost: none, quick or full")
+	command->add_option("--scaling", arguments.scaling,
+				   "Curves of run time: none, quick (default) or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
-	command->add_option("--change", arguments.animation,
-				   "Errors of change while each scene's animation plays: none, quick or full")
+	command->add_option("--change", arguments.change,
+				   "Errors of change while each scene's animation plays: none, quick (default) or "
+				   "full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
 	command->add_option("--stability", arguments.stability,
-				   "Sweeps into stiff and extreme cases: none, quick or full")
+				   "Sweeps into stiff and extreme cases: none, quick (default) or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
 	command->add_option(
-				   "--sweeps", arguments.options.sweeps, "A,B: of stability, these sweeps only")
+				   "--sweeps", arguments.options.sweeps, "A,B: only these sweeps of --stability")
 			->delimiter(',');
 	command->add_option("--precision", arguments.options.precision_percent,
-				   "Percent: a cell may end before 20 frames once its median is known so well; 0 = "
-				   "never")
+				   "Percent: timing of a cell ends early once the standard error of its median is "
+				   "at most this; 0 = never; default 5")
 			->check(CLI::Range(0.0, 100.0));
 	command->add_option("--out", arguments.out, "Folder; default PROJECT/out/report");
 	command->add_flag("--resume", arguments.resumes, "Goes on with a run that was stopped");
-	command->add_option("--shard", arguments.shard, "I/N: this part only, for N machines");
+	command->add_option("--shard", arguments.shard,
+			"I/N: only the I-th of N shards, to split the work among N machines");
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
-	CLI::App *merge = command->add_subcommand("merge", "Makes one report of the parts of --shard");
-	merge->add_option("folders", arguments.merged, "Folders that the parts were written to")
+	CLI::App *merge =
+			command->add_subcommand("merge", "Merges the folders of shards into one report");
+	merge->add_option("folders", arguments.merged, "Folders that the shards were written to")
 			->required();
-	merge->add_option("--out", arguments.merge_out, "Folder of the whole report")->required();
+	merge->add_option("--out", arguments.merge_out, "Folder of the merged report")->required();
 	for (CLI::App *any : { command, merge }) {
 		any->add_option("--against", arguments.against,
-				"An older report.json: reports what changed; errors that grew end with 1");
+				"An older report.json: reports what changed; exit code 1 if an error grew");
 		any->add_option("--budget", arguments.budget_ms,
-				   "Milliseconds: names the technique of least error for each scene")
+				   "Milliseconds: names the technique and setting of least error within this time, "
+				   "for each scene, light and light size")
 				->check(CLI::PositiveNumber);
 	}
 	merge->callback([] { run_merge_command(arguments); });

@@ -1,4 +1,4 @@
-// `gnomon run`: the game at run time, in a window or headless.
+// The command `gnomon run`: plays a scene in a window, or renders it headless.
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
@@ -23,10 +23,12 @@ double speed = 1;
 
 const double HEADLESS_FRAMES_PER_S = 60;
 
-/// Chooses the animation that the command line names, else the project's, else the first.
+/// Chooses the animation that --animation names, else the one that project.cfg names in [defaults]
+/// if the scene has it, else the first of the scene. An empty name in project.cfg means no
+/// animation, or the first if --at is given.
 AnimationPlayback choose_playback(const Scene &p_scene, const CommonOptions &p_common) {
 	AnimationPlayback playback;
-	const std::optional<std::string> of_project = find_default(options.scene, "animation");
+	const std::optional<std::string> of_project = find_project_default(options.scene, "animation");
 	const auto has_name = [&](const std::shared_ptr<const Animation> &p_animation) {
 		return of_project && p_animation->name == *of_project;
 	};
@@ -45,7 +47,8 @@ AnimationPlayback choose_playback(const Scene &p_scene, const CommonOptions &p_c
 	return playback;
 }
 
-void save_capture(const RenderResult &p_result, glm::uvec2 p_size_px) {
+/// Writes the files of --capture and --dot and prints the plan of --plan, as requested.
+void write_outputs(const RenderResult &p_result, glm::uvec2 p_size_px) {
 	if (!options.capture.empty()) {
 		save_png(options.capture, p_size_px, 4, p_result.image);
 	}
@@ -73,22 +76,22 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	for (uint32_t index = 0; index < frame_count; ++index) {
 		request.wants_image = index + 1 == frame_count;
 		request.wants_graph = request.wants_image && !options.dot.empty();
-		// Advances by frames, so that the images do not depend on the speed of the machine.
+		// A fixed time step, so that the images do not depend on the speed of the machine.
 		options.playback.advance(r_scene, index == 0 ? 0.0 : 1.0 / HEADLESS_FRAMES_PER_S);
 		request.scene = build_snapshot(r_scene, camera);
 		result = renderer.render(request);
 	}
-	save_capture(result, p_size_px);
+	write_outputs(result, p_size_px);
 	for (const PassTiming &timing : result.timings) {
 		std::printf("%-40s %8.3f ms GPU\n", timing.name.c_str(), timing.gpu_ms);
 	}
 	std::printf("%-40s %8.3f ms GPU, %.3f ms wall\n", "frame", result.gpu_ms, result.wall_ms);
-	if (!options.time.empty()) {
+	if (!options.time_path.empty()) {
 		request.wants_image = false;
 		request.may_reuse = options.is_still;
-		save_file_atomically(options.time,
+		save_file_atomically(options.time_path,
 				RunPartRegistry::find(MASKS_PART)
-						->measure_time(renderer, request, WARM_UP_COUNT, MEASURED_COUNT,
+						->measure_time(renderer, request, WARM_UP_FRAME_COUNT, MEASURED_FRAME_COUNT,
 								[&] { return build_snapshot(r_scene, camera); }));
 	}
 }
@@ -96,7 +99,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 void run(const CommonOptions &p_common) {
 	glm::uvec2 size_px = choose_size(options.size, options.scene);
 	options.antialiasing = choose_antialiasing(options.antialiasing, options.scene);
-	for (const std::string &path : { options.capture, options.dot, options.time }) {
+	for (const std::string &path : { options.capture, options.dot, options.time_path }) {
 		if (!path.empty()) {
 			check_writable(path);
 		}
@@ -120,7 +123,7 @@ void run(const CommonOptions &p_common) {
 				"with module_desktop_enabled=yes.");
 	} else {
 		const RenderResult result = desktop->run_in_window(*scene, size_px, options, p_common);
-		save_capture(result, size_px);
+		write_outputs(result, size_px);
 	}
 }
 
@@ -133,14 +136,15 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("scene", options.scene, "A project's folder, or a .gltf or .glb file")
 			->required();
 	CLI::Option *headless =
-			command->add_flag("--headless", options.is_headless, "Needs no display");
-	command->add_option("--frames", options.frame_count, "Ends after so many; headless: 1")
+			command->add_flag("--headless", options.is_headless, "Renders without a window");
+	command->add_option("--frames", options.frame_count,
+				   "Ends after this many frames; default: no limit, headless: 1")
 			->check(CLI::Range(1u, 1000000u));
 	command->add_option("--capture", options.capture, "Writes the last frame as a PNG");
 	command->add_option("--size", options.size, "Default: the project's, else 512x512");
 	command->add_option("--antialiasing", options.antialiasing,
-				   "Draws the image so many times as wide and high, and makes it smaller; default: "
-				   "the project's, else 2")
+				   "Supersampling: draws the image this many times as wide and high, then "
+				   "averages; default: the project's, else 2")
 			->check(CLI::Range(1u, MAX_ANTIALIASING));
 	command->add_option("--camera", options.camera, "Default: the first");
 	add_stage_option(*command, r_common);
@@ -151,23 +155,26 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 			->check(CLI::Range(-1000.0, 1000.0));
 	command->add_option("--technique", options.technique, "Replaces that of every light");
 	command->add_option("--debug-view", options.debug_view,
-			"Shows an intermediate image of the first light: mask, map, ...");
+			"Shows an intermediate image of the first light that casts a shadow: mask, map, ...");
 	if (RunPartRegistry::find(MASKS_PART) != nullptr) {
 		command->add_option("--reference,--truth", reference_path,
-				"The first light's true mask (.exr, of `gnomon visibility`): --debug-view error");
+				"Reference mask of the first light that casts a shadow, an .exr of `gnomon "
+				"visibility`; enables "
+				"--debug-view error");
 		CLI::Option *time =
-				command->add_option("--time", options.time,
+				command->add_option("--time", options.time_path,
 							   "Writes the times of 20 frames after 5 to warm up as JSON")
 						->needs(headless);
 		command->add_flag("--still", options.is_still,
-					   "--time measures frames in which nothing moves, so that what is cached is "
-					   "used")
+					   "--time measures frames in which nothing moves, so that techniques reuse "
+					   "their caches")
 				->needs(time);
 	}
 	command->add_flag("--skip-nothing,--leave-out-nothing", options.skips_nothing,
-				   "Runs also what the image does not need (for comparison)")
+				   "Also runs passes that the image does not need (for comparison)")
 			->needs(headless);
-	command->add_option("--set", options.settings, "light.NAME.property=value; repeatable")
+	command->add_option("--set", options.settings,
+				   "light.NAME.property=value or technique.ID.NAME=value; repeatable")
 			->take_all()
 			->allow_extra_args(false);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was skipped");

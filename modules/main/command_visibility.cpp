@@ -1,4 +1,5 @@
-// `gnomon visibility`: one light's mask as an EXR, and what it cost.
+// The command `gnomon visibility`: writes the visibility mask of one light as an EXR, and its run
+// time as JSON.
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The options of `gnomon visibility`.
 struct VisibilityOptions {
 	std::string scene;
 	std::string technique;
@@ -35,23 +37,23 @@ struct VisibilityOptions {
 	std::optional<std::string> size;
 	std::vector<std::string> settings;
 	uint32_t frame_count = 1;
-	uint32_t timed_frame_count = MEASURED_COUNT;
+	uint32_t timed_frame_count = MEASURED_FRAME_COUNT;
 	std::vector<double> motion;
-	std::string time;
+	std::string time_path; // --time: the JSON file to write; empty: none
 	bool prints_plan = false;
 	bool skips_nothing = false;
-	bool has_depth_alone = false;
-	bool is_still = false;
+	bool has_depth_only = false;
+	bool is_still = false; // --still: the frames of --time may reuse caches
 };
 
-/// mask.exr, 12 -> mask.0012.exr
+/// Inserts the frame number before the extension: mask.exr, 12 -> mask.0012.exr.
 fs::path number_path(const fs::path &p_path, uint32_t p_index) {
 	char number[16];
 	std::snprintf(number, sizeof(number), ".%04u", p_index);
 	return p_path.parent_path() / (p_path.stem().string() + number + p_path.extension().string());
 }
 
-/// Moves the light by an offset in the world.
+/// Moves the light by an offset in world space, in metres.
 void move_light(Light3D &r_light, const glm::dvec3 &p_offset_world) {
 	const glm::dmat4 world_from_parent =
 			r_light.parent ? r_light.parent->compute_world_from_node() : glm::dmat4(1.0);
@@ -66,7 +68,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	if (!p_options.surfaces.empty()) {
 		check_writable(fs::path(p_options.surfaces) / "depth.f32");
 	}
-	for (const std::string &path : { p_options.png, p_options.time }) {
+	for (const std::string &path : { p_options.png, p_options.time_path }) {
 		if (!path.empty()) {
 			check_writable(path);
 		}
@@ -85,7 +87,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	request.mask_light = light.name;
 	request.wants_mask = true;
 	request.may_skip = !p_options.skips_nothing;
-	request.has_depth_alone = p_options.has_depth_alone;
+	request.has_depth_only = p_options.has_depth_only;
 	request.wants_surfaces = !p_options.surfaces.empty();
 
 	const bool moves = !p_options.motion.empty();
@@ -121,14 +123,15 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 			std::printf("%s", result.plan.to_text().c_str());
 		}
 	}
-	if (!p_options.time.empty()) {
+	if (!p_options.time_path.empty()) {
 		request.may_reuse = p_options.is_still;
-		// The reference takes seconds a frame and no one draws with it: one frame measures what it
-		// costs.
+		// The reference takes seconds per frame and is no real-time technique: one frame without
+		// warm-up suffices.
 		const bool is_reference = ShadowRegistry::get(p_options.technique).is_reference;
-		save_file_atomically(p_options.time,
+		save_file_atomically(p_options.time_path,
 				measure_time(renderer, request,
-						is_reference ? 0 : std::min(WARM_UP_COUNT, p_options.timed_frame_count),
+						is_reference ? 0
+									 : std::min(WARM_UP_FRAME_COUNT, p_options.timed_frame_count),
 						is_reference ? 1 : p_options.timed_frame_count, {}));
 	}
 }
@@ -137,7 +140,8 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 
 void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	static VisibilityOptions options;
-	CLI::App *command = r_app.add_subcommand("visibility", "One light's mask, and what it cost");
+	CLI::App *command = r_app.add_subcommand(
+			"visibility", "Writes one light's visibility mask, and its run time");
 	command->add_option("scene", options.scene, "A .gltf or .glb file, or a project")->required();
 	command->add_option("--technique", options.technique, "Its id; see `gnomon techniques`")
 			->required();
@@ -149,32 +153,35 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--light", options.light, "Default: the first that casts shadows");
 	command->add_option("--camera", options.camera, "Default: the first");
 	command->add_option("--size", options.size, "Default: the project's, else 512x512");
-	command->add_option("--set", options.settings, "property=value of the light; repeatable")
+	command->add_option("--set", options.settings,
+				   "property=value of the light, or technique.ID.NAME=value; repeatable")
 			->take_all()
 			->allow_extra_args(false);
-	command->add_option("--frames", options.frame_count, "Frames to draw; the last is written")
+	command->add_option("--frames", options.frame_count,
+				   "Frames to draw; the last is written (with --motion each)")
 			->check(CLI::Range(1u, 100000u));
 	command->add_option("--motion", options.motion,
 				   "dx,dy,dz in metres a frame: moves the light, writes one EXR a frame")
 			->delimiter(',')
 			->expected(3);
-	CLI::Option *time = command->add_option(
-			"--time", options.time, "Writes the times of 20 frames after 5 to warm up as JSON");
+	CLI::Option *time = command->add_option("--time", options.time_path,
+			"Writes the times of 20 frames after 5 to warm up as JSON");
 	command->add_option("--timed-frames", options.timed_frame_count,
 				   "How many frames --time measures; default 20. Fewer are for tests of the "
 				   "program")
 			->check(CLI::Range(1u, 100000u));
 	command->add_flag("--still", options.is_still,
-				   "--time measures frames in which nothing moves, so that what is cached is used")
+				   "--time measures frames in which nothing moves, so that techniques reuse their "
+				   "caches")
 			->needs(time);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was skipped");
 	command->add_option("--surfaces", options.surfaces,
-			"A folder: also writes the inputs of shadows, depth.f32 and normal.u32 (see "
+			"An existing folder: also writes the inputs of shadows, depth.f32 and normal.u32 (see "
 			"doc/embedding.md)");
-	command->add_flag("--depth-alone", options.has_depth_alone,
-			"Makes geometric normals from the depth, as for a host that draws none");
+	command->add_flag("--depth-alone", options.has_depth_only,
+			"Derives geometric normals from the depth, as for a host that provides none");
 	command->add_flag("--skip-nothing,--leave-out-nothing", options.skips_nothing,
-			"Runs also what the image does not need (for comparison)");
+			"Also runs passes that the image does not need (for comparison)");
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
 	command->callback([&r_common] { run_visibility(options, r_common); });

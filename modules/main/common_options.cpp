@@ -46,7 +46,8 @@ std::string list_properties() {
 	return names;
 }
 
-/// Applies "technique.ID.NAME=value"; returns false if p_setting is not of that kind.
+/// Applies "technique.ID.NAME=value". Returns false if p_setting does not start with "technique.".
+/// Throws a UsageError if the rest has another form.
 bool apply_technique_setting(const std::string &p_setting) {
 	constexpr std::string_view PREFIX = "technique.";
 	if (!p_setting.starts_with(PREFIX)) {
@@ -65,7 +66,8 @@ bool apply_technique_setting(const std::string &p_setting) {
 
 } // namespace
 
-std::optional<std::string> find_default(const fs::path &p_scene_path, const std::string &p_key) {
+std::optional<std::string> find_project_default(
+		const fs::path &p_scene_path, const std::string &p_key) {
 	if (p_scene_path.empty()) {
 		fail("The scene's path is empty. Name a .gltf or .glb file, or a project's folder.");
 	}
@@ -81,29 +83,52 @@ std::optional<std::string> find_default(const fs::path &p_scene_path, const std:
 	return found == project.defaults.end() ? std::nullopt : std::optional(found->second);
 }
 
-bool parse_whole(std::string_view p_text, uint32_t &r_value) {
+bool parse_uint32(std::string_view p_text, uint32_t &r_value) {
 	const char *end = p_text.data() + p_text.size();
 	const std::from_chars_result result = std::from_chars(p_text.data(), end, r_value);
 	return result.ec == std::errc() && result.ptr == end;
 }
 
-glm::uvec2 parse_size(const std::string &p_text) {
+namespace {
+
+/// Empty if the text is no valid size.
+std::optional<glm::uvec2> try_parse_size(const std::string &p_text) {
 	glm::uvec2 size_px(0);
 	const size_t cross = p_text.find('x');
 	const bool is_valid = cross != std::string::npos &&
-			parse_whole(std::string_view(p_text).substr(0, cross), size_px.x) &&
-			parse_whole(std::string_view(p_text).substr(cross + 1), size_px.y);
+			parse_uint32(std::string_view(p_text).substr(0, cross), size_px.x) &&
+			parse_uint32(std::string_view(p_text).substr(cross + 1), size_px.y);
 	if (!is_valid || size_px.x < 1 || size_px.y < 1 || size_px.x > MAX_IMAGE_SIZE_PX ||
 			size_px.y > MAX_IMAGE_SIZE_PX) {
-		throw UsageError(text("--size is \"", p_text, "\", must be WIDTHxHEIGHT with 1..",
-				MAX_IMAGE_SIZE_PX, " each, for example 512x512."));
+		return {};
 	}
 	return size_px;
 }
 
+} // namespace
+
+glm::uvec2 parse_size(const std::string &p_text) {
+	const std::optional<glm::uvec2> size_px = try_parse_size(p_text);
+	if (!size_px) {
+		throw UsageError(text("--size is \"", p_text, "\", must be WIDTHxHEIGHT with 1..",
+				MAX_IMAGE_SIZE_PX, " each, for example 512x512."));
+	}
+	return *size_px;
+}
+
 glm::uvec2 choose_size(const std::optional<std::string> &p_text, const fs::path &p_scene_path) {
-	const std::optional<std::string> from_project = find_default(p_scene_path, "size");
-	return parse_size(p_text ? *p_text : from_project.value_or(DEFAULT_SIZE));
+	if (p_text) {
+		return parse_size(*p_text);
+	}
+	const std::string from_project =
+			find_project_default(p_scene_path, "size").value_or(DEFAULT_SIZE);
+	const std::optional<glm::uvec2> size_px = try_parse_size(from_project);
+	if (!size_px) {
+		fail("The project of ", p_scene_path, ": size in [defaults] is \"", from_project,
+				"\", must be WIDTHxHEIGHT with 1..", MAX_IMAGE_SIZE_PX,
+				" each, for example 512x512. Correct project.cfg.");
+	}
+	return *size_px;
 }
 
 uint32_t choose_antialiasing(
@@ -111,12 +136,12 @@ uint32_t choose_antialiasing(
 	if (p_option) {
 		return *p_option;
 	}
-	const std::optional<std::string> text = find_default(p_scene_path, "antialiasing");
+	const std::optional<std::string> text = find_project_default(p_scene_path, "antialiasing");
 	if (!text) {
 		return DEFAULT_ANTIALIASING;
 	}
 	uint32_t value = 0;
-	if (!parse_whole(*text, value) || value < 1 || value > MAX_ANTIALIASING) {
+	if (!parse_uint32(*text, value) || value < 1 || value > MAX_ANTIALIASING) {
 		fail("The project of ", p_scene_path, ": antialiasing in [defaults] is \"", *text,
 				"\", must be 1..", MAX_ANTIALIASING, ". Correct project.cfg.");
 	}
@@ -126,19 +151,19 @@ uint32_t choose_antialiasing(
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common) {
 	r_command
 			.add_option("--stage", r_common.stage,
-					"auto (default): a scene without camera or light gets what is missing, and a "
-					"ground; "
-					"on: it gets all three; off: nothing")
+					"auto (default): a scene without camera gets one, and a scene without light "
+					"gets a light and a ground; on: it gets all three; off: nothing")
 			->check(CLI::IsMember({ "auto", "on", "off" }));
 }
 
 void add_animation_options(CLI::App &r_command, CommonOptions &r_common) {
 	r_command.add_option("--animation", r_common.animation,
-			"The name of the animation that poses the scene; default: the first");
+			"The name of the animation that poses the scene; default: run takes that of the "
+			"project, "
+			"else the first; other commands the first if --at is given, else none");
 	r_command.add_option("--at", r_common.at_s,
-			"The time in s, from 0, at which the animation poses the scene; beyond its end it "
-			"begins "
-			"again");
+			"The time in s, from 0, at which the animation poses the scene (run plays it from "
+			"there); a time after its end wraps around");
 }
 
 void pose_as_requested(Scene &r_scene, const CommonOptions &p_common) {
@@ -202,11 +227,16 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
 			return *light;
 		}
 	}
+	if (lights.empty()) {
+		fail("Scene ", p_scene.path,
+				" has no light. Add a light (KHR_lights_punctual) with extras.shadow_enabled true, "
+				"or "
+				"use --stage auto.");
+	}
 	fail("Scene ", p_scene.path,
-			lights.empty() ? " has no light" : " has no light that casts shadows",
-			". Add a light (KHR_lights_punctual) with extras.shadow_enabled true, or name one "
-			"with ",
-			"--light, or use --stage auto.");
+			" has no light that casts shadows. Set extras.shadow_enabled of a light to true, or "
+			"name "
+			"one with --light, or use --stage on.");
 }
 
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting) {
@@ -265,9 +295,9 @@ std::string find_cpu_name() {
 std::string describe_program() {
 	const char *const self = "/proc/self/exe";
 	std::error_code code;
-	const bool is_known = fs::exists(self, code); // a chroot may lack /proc
+	const bool has_proc = fs::exists(self, code); // a chroot may lack /proc
 	return std::string(PROGRAM_VERSION) +
-			(is_known ? " " + format_hash(compute_hash(load_file(self))) : "");
+			(has_proc ? " " + format_hash(compute_hash(load_file(self))) : "");
 }
 
 } // namespace gnomon

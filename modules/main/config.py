@@ -3,7 +3,8 @@ def get_dependencies():
 
 
 def get_optional_dependencies():
-    # Without them: no window; no visibility, and no --reference and --time of run; no report. See SCsub.
+    # Each adds features to the program (see SCsub). desktop: the window. masks: the command `visibility`, and `run` with
+    # --reference, --time and --still. error_report: the command `report`.
     return ["desktop", "masks", "error_report"]
 
 

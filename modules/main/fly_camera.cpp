@@ -7,12 +7,13 @@ namespace gnomon {
 
 namespace {
 
-constexpr double MAX_PITCH_RAD = 1.55;
-constexpr double FAST_FACTOR = 5.0;
+constexpr double MAX_PITCH_RAD = 1.55; // just below 90 degrees, where yaw is undefined
+constexpr double FAST_FACTOR = 5.0;	   // speed with Shift, as a multiple of normal speed
 
 } // namespace
 
-FlyCamera::FlyCamera(const Camera3D &p_start, double p_speed_m) : speed_m(p_speed_m) {
+FlyCamera::FlyCamera(const Camera3D &p_start, double p_speed_m_per_s) :
+		speed_m_per_s(p_speed_m_per_s) {
 	const glm::dmat4 world_from_camera = p_start.compute_world_from_node();
 	position_world = glm::dvec3(world_from_camera[3]);
 	const glm::dvec3 forward = -glm::normalize(glm::dvec3(world_from_camera[2]));
@@ -28,11 +29,11 @@ glm::dmat3 FlyCamera::compute_axes() const {
 }
 
 void FlyCamera::move(const glm::dvec3 &p_direction, double p_seconds, bool p_is_fast) {
-	position_world +=
-			compute_axes() * p_direction * (speed_m * p_seconds * (p_is_fast ? FAST_FACTOR : 1.0));
+	position_world += compute_axes() * p_direction *
+			(speed_m_per_s * p_seconds * (p_is_fast ? FAST_FACTOR : 1.0));
 }
 
-void FlyCamera::turn(double p_yaw_rad, double p_pitch_rad) {
+void FlyCamera::rotate(double p_yaw_rad, double p_pitch_rad) {
 	yaw_rad += p_yaw_rad;
 	pitch_rad = std::clamp(pitch_rad + p_pitch_rad, -MAX_PITCH_RAD, MAX_PITCH_RAD);
 }

@@ -18,11 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Chosen so that a whole scene crosses the view in a few seconds, whatever its units.
+/// Speed of the fly camera in scene sizes per second: it crosses any scene in a few seconds.
 constexpr double SPEED_PER_SCENE_SIZE = 0.4;
-constexpr double TURN_RAD_PER_PX = 0.004;
-constexpr double SIZE_STEP = 1.15;
-constexpr size_t MAX_SHOWN_PASSES = 24;
+constexpr double ROTATION_RAD_PER_PX = 0.004; // per pixel of mouse drag
+constexpr double LIGHT_SIZE_FACTOR = 1.15;	  // factor of the light size per key press
+constexpr size_t MAX_SHOWN_PASSES = 24;		  // with times in the overlay; others are omitted
 
 std::string format_milliseconds(const char *p_name, double p_milliseconds) {
 	char line[128];
@@ -37,9 +37,10 @@ struct GameState {
 	AnimationPlayback playback;
 	bool has_reference = false;
 	bool shows_text = true;
-	std::string shown; // instead of the lit image; empty: what --debug-view names
+	/// Debug view that key V selects ("mask" or "error"); empty: the view of --debug-view, if any.
+	std::string shown;
 
-	/// The light's own technique, then each of the registry's, then again.
+	/// Cycles through no override (each light's own technique) and all registered techniques.
 	void choose_next_technique() {
 		const std::vector<ShadowTechniqueInfo> &all = ShadowRegistry::get_all();
 		size_t next = 0;
@@ -83,11 +84,11 @@ struct GameState {
 				break;
 			case GLFW_KEY_EQUAL:
 			case GLFW_KEY_KP_ADD:
-				scale_light_sizes(SIZE_STEP);
+				scale_light_sizes(LIGHT_SIZE_FACTOR);
 				break;
 			case GLFW_KEY_MINUS:
 			case GLFW_KEY_KP_SUBTRACT:
-				scale_light_sizes(1 / SIZE_STEP);
+				scale_light_sizes(1 / LIGHT_SIZE_FACTOR);
 				break;
 			default:
 				break;
@@ -100,7 +101,7 @@ void fly(FlyCamera &r_camera, const Window &p_window, double p_seconds) {
 		return double(p_window.is_down(p_positive)) - double(p_window.is_down(p_negative));
 	};
 	const glm::dvec2 drag_px = p_window.get_drag_px();
-	r_camera.turn(-drag_px.x * TURN_RAD_PER_PX, -drag_px.y * TURN_RAD_PER_PX);
+	r_camera.rotate(-drag_px.x * ROTATION_RAD_PER_PX, -drag_px.y * ROTATION_RAD_PER_PX);
 	r_camera.move({ axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
 						  axis(GLFW_KEY_S, GLFW_KEY_W) },
 			p_seconds, p_window.is_down(GLFW_KEY_LEFT_SHIFT));
@@ -144,13 +145,15 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	FlyCamera fly_camera(start, scene_size_m * SPEED_PER_SCENE_SIZE);
 	RenderRequest request;
 	request.technique_override = p_options.technique;
-	request.antialiasing = p_options.antialiasing.value_or(1);
+	request.antialiasing = p_options.antialiasing.value_or(1); // `gnomon run` has set it
 	request.mode = RenderGraph::Mode::QUEUE;
 	const std::shared_ptr<const ReferenceMask> &reference = p_options.reference;
 	GameState state{ r_scene, request, p_options.playback, reference != nullptr };
 	RenderResult result;
 	Clock::time_point last = Clock::now();
 	uint32_t drawn_count = 0;
+	const bool has_files = !p_options.capture.empty() || !p_options.dot.empty();
+	bool has_drawn_last = false;
 	while (window.poll()) {
 		const Clock::time_point now = Clock::now();
 		const double seconds = std::chrono::duration<double>(now - last).count();
@@ -170,12 +173,15 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		request.size_px = size_px;
 		request.acquire_window_image = [&] { return swapchain->acquire(size_px); };
 		request.debug_view = state.shown.empty() ? p_options.debug_view : state.shown;
-		// A view that never was is refused; one that T or a light has taken away gives way.
+		// In the first frame an unknown debug view is an Error. Later a view may disappear because
+		// the technique or the lights change; then the lit image is shown.
 		request.needs_debug_view = drawn_count == 0;
-		// So does a reference of another size, once the window has been resized.
+		// Likewise, a reference mask of another size is an Error in the first frame and is ignored
+		// after the window was resized.
 		const bool fits = reference && (drawn_count == 0 || reference->size_px == size_px);
 		request.reference = fits ? reference : nullptr;
 		request.wants_image = is_last && !p_options.capture.empty();
+		request.wants_graph = is_last && !p_options.dot.empty();
 		request.overlay = state.shows_text
 				? make_overlay_text(describe_frame(request, device->get_info(), result, seconds),
 						  window.get_scale())
@@ -184,13 +190,25 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		r_size_px = size_px;
 		++drawn_count;
 		if (is_last) {
+			has_drawn_last = true;
 			break;
 		}
+	}
+	if (has_files && !has_drawn_last) {
+		// The window was closed. That its last frame was the last is known only now: it is drawn
+		// again for the files.
+		request.scene = build_snapshot(r_scene, camera);
+		request.size_px = r_size_px;
+		request.acquire_window_image = nullptr;
+		request.wants_image = !p_options.capture.empty();
+		request.wants_graph = !p_options.dot.empty();
+		result = renderer.render(request);
 	}
 	device->wait_idle();
 	return result;
 }
 
+// Declared in commands.h.
 void initialize_desktop_part() {
 	RunPartRegistry::add({ DESKTOP_PART, &run_in_window });
 }

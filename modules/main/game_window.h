@@ -10,28 +10,30 @@
 
 namespace gnomon {
 
+/// The options of `gnomon run`.
 struct RunOptions {
 	std::string scene;
 	bool is_headless = false;
-	uint32_t frame_count = 0; // 0 = one frame headless, or until the window is closed
-	std::string capture;
-	std::optional<std::string> size;	  // nothing = the project's
-	std::optional<uint32_t> antialiasing; // nothing = the project's; 1..4
-	std::string camera;
-	std::string technique;
-	std::string debug_view;
+	uint32_t frame_count = 0;		 // 0: one frame if headless, else until the window is closed
+	std::string capture;			 // path of the PNG of the last frame; empty: none
+	std::optional<std::string> size; // "WIDTHxHEIGHT"; unset: see choose_size
+	std::optional<uint32_t> antialiasing; // 1..4; unset: see choose_antialiasing
+	std::string camera;					  // name; empty: the first camera
+	std::string technique;				  // id that replaces every light's; empty: no override
+	std::string debug_view;				  // see RenderRequest::debug_view; empty: the lit image
 	std::shared_ptr<const ReferenceMask> reference; // null: none
-	std::vector<std::string> settings;
+	std::vector<std::string> settings;				// arguments of --set, see apply_setting
 	AnimationPlayback playback;
-	bool prints_plan = false;
-	std::string dot;
-	std::string time; // headless: path for the JSON of frame times
-	bool is_still = false;
-	bool skips_nothing = false;
+	bool prints_plan = false;	// prints the frame plan: passes that ran and that were skipped
+	std::string dot;			// path of the frame graph in Graphviz format; empty: none
+	std::string time_path;		// --time, headless: the JSON file to write; empty: none
+	bool is_still = false;		// --still: the frames of --time may reuse cached results
+	bool skips_nothing = false; // headless: also runs passes that the image does not need
 };
 
-/// Shows the scene in a window until it is closed or frame_count is reached. Returns the last
-/// frame, with its image when options request a capture (r_size_px: its size).
+/// Shows the scene in a window until the window is closed or p_options.frame_count frames are
+/// drawn. r_size_px: initial size of the window in pixels; receives the size of the last frame.
+/// Returns the result of the last frame, with its image if a capture is requested.
 RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptions &p_options,
 		const CommonOptions &p_common);
 

@@ -1,5 +1,6 @@
-// The program's entry: reads the command line, starts the modules, runs one command.
-// Exit codes: 0 done, 1 failed, 2 wrong usage. Errors are one line on stderr.
+// Entry point of the program: initializes the modules, parses the command line and runs one
+// command. Exit codes: 0 success, 1 failure, 2 wrong usage. An error is printed as one line on
+// stderr.
 
 #include "modules/core/command_registry.h"
 #include "modules/core/error.h"
@@ -24,12 +25,12 @@ namespace {
 
 using namespace gnomon;
 
-/// Commands that some builds lack, and the module that they need.
+/// Optional commands, each with the module that provides it.
 const std::pair<const char *, const char *> MODULES_OF_COMMANDS[] = { { "edit", "editor" },
 	{ "visibility", "masks" }, { "compare", "masks" }, { "report", "error_report" } };
 
-/// Fails for an unknown command: one that this build lacks is reported with the module it needs,
-/// any other with the list of commands.
+/// Throws a UsageError for an unknown command. If a module that this build lacks would provide the
+/// command, the message names the module; otherwise it lists the commands.
 void check_command(const CLI::App &p_app, const std::string &p_command) {
 	for (const auto &[command, module] : MODULES_OF_COMMANDS) {
 		const auto has_name = [&](const CLI::App *p_found) {
@@ -53,7 +54,7 @@ void check_command(const CLI::App &p_app, const std::string &p_command) {
 	}
 }
 
-/// Lists the commands in the order of --help.
+/// Returns the commands in the order of --help.
 std::vector<CommandInfo> list_commands() {
 	std::vector<CommandInfo> commands = CommandRegistry::get_all();
 	std::ranges::sort(commands, {}, [](const CommandInfo &p_command) {
@@ -99,7 +100,7 @@ int main(int p_argument_count, char **p_arguments) {
 		register_modules();
 		ModuleRegistry::initialize(ModuleLevel::FEATURES);
 		initialize_main_module(
-				ModuleLevel::FEATURES); // not in the registry: tests link all but main
+				ModuleLevel::FEATURES); // not in the registry, because tests link without main
 		result = run_program(p_argument_count, p_arguments);
 	} catch (const UsageError &error) {
 		log_error(error.what());
@@ -111,7 +112,7 @@ int main(int p_argument_count, char **p_arguments) {
 	ModuleRegistry::uninitialize();
 	if (has_device_hung()) {
 		std::fflush(nullptr);
-		std::_Exit(result); // the driver's own threads would be waited for
+		std::_Exit(result); // a normal exit would wait for the hung driver's threads
 	}
 	return result;
 }

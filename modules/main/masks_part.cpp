@@ -1,4 +1,5 @@
-// What main can do with the module masks.
+// Registers the features that need the module masks: the command `visibility`, and --reference,
+// --time and --still of `run`.
 
 #include "modules/core/command_registry.h"
 #include "modules/main/commands.h"

@@ -16,9 +16,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-const char *const LIGHTING_PASS = "lighting"; // of a whole frame: no part of the shadow
+const char *const LIGHTING_PASS = "lighting"; // not counted, since it is not part of the shadow
 
-/// Returns the passes of the light, or of every light, without the light's name.
+/// Returns the costs of the shadow passes of the request's mask_light, or of all lights if that is
+/// empty.
 std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {
 	std::vector<PassCost> passes;
 	for (const LightSnapshot &light : p_request.scene->lights) {
@@ -29,7 +30,7 @@ std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRe
 			if (timing.name == LIGHTING_PASS) {
 				continue;
 			}
-			// If there are several lights, each has its own row.
+			// With all lights, the light's name keeps their passes apart.
 			const std::string name =
 					p_request.mask_light.empty() ? light.name + ": " + timing.name : timing.name;
 			passes.push_back({ name, timing.gpu_ms, timing.wall_ms, timing.is_on_host });
@@ -56,10 +57,10 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		}
 		samples.add_frame(select_passes(r_renderer.render(p_request), p_request));
 		const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-		const bool is_enough = seconds >= p_limits.seconds ||
+		const bool can_stop = seconds >= p_limits.seconds ||
 				(p_limits.median_error > 0 &&
 						samples.compute_median_error() <= p_limits.median_error);
-		if (is_enough && samples.get_frame_count() >= p_limits.least_frame_count) {
+		if (can_stop && samples.get_frame_count() >= p_limits.min_frame_count) {
 			break;
 		}
 	}
@@ -67,11 +68,11 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 }
 
 std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count,
-		uint32_t p_count, const RunPart::SnapshotMaker &p_make_snapshot) {
+		uint32_t p_count, const RunPart::SnapshotBuilder &p_build_snapshot) {
 	Progress progress("Measuring");
 	const MaskTiming timing =
 			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count, 0, 0 },
-					[&](double p_share) { progress.update(p_share * 0.5); });
+					[&](double p_fraction) { progress.update(p_fraction * 0.5); });
 	p_request.wants_mask = false;
 	p_request.mode = RenderGraph::Mode::WAIT;
 	std::vector<double> gpu_ms;
@@ -81,8 +82,8 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 	for (uint32_t index = 0; index < p_count; ++index) {
 		progress.update(0.5 + 0.5 * double(index) / p_count);
 		const Clock::time_point start = Clock::now();
-		if (p_make_snapshot) {
-			p_request.scene = p_make_snapshot();
+		if (p_build_snapshot) {
+			p_request.scene = p_build_snapshot();
 		}
 		result = r_renderer.render(p_request);
 		call_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-// The header defines its functions static; those that are not called must not be an error.
+// The header defines static functions, not all of which are called here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wsign-compare"
@@ -15,11 +15,11 @@ namespace gnomon {
 namespace {
 
 constexpr float MARGIN_PX = 6.0f;
-constexpr float LINE_HEIGHT = 12.0f;
+constexpr float LINE_HEIGHT = 12.0f; // in font pixels
 const glm::vec4 PANEL_COLOR(0.0f, 0.0f, 0.0f, 0.6f);
 const glm::vec4 TEXT_COLOR(1.0f, 1.0f, 1.0f, 1.0f);
 
-/// stb_easy_font's vertex: position and a colour of four bytes.
+/// The vertex layout of stb_easy_font: position and RGBA8 colour.
 struct FontVertex {
 	float x, y, z;
 	unsigned char color[4];
@@ -44,7 +44,7 @@ std::vector<OverlayVertex> make_overlay_text(
 		std::string ascii;
 		std::copy_if(line.begin(), line.end(), std::back_inserter(ascii),
 				[](char p_letter) { return p_letter >= 32 && p_letter < 127; });
-		// The font needs about 270 bytes a letter.
+		// stb_easy_font needs about 270 bytes per character.
 		std::vector<char> buffer(ascii.size() * 300 + 300);
 		const int quad_count = stb_easy_font_print(
 				0, 0, ascii.data(), nullptr, buffer.data(), static_cast<int>(buffer.size()));

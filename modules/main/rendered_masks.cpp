@@ -17,10 +17,12 @@ namespace gnomon {
 
 namespace {
 
-// Limits for a cell of the report: 20 frames by default, or 3 s but at least 5 frames. Drawing the
-// mask itself has created the pipelines and warmed up; without a mask there is one warm-up frame.
+// Limits for the timing of a report cell: at most 20 frames by default, or 3 s, but at least 5
+// frames. No warm-up frames, because rendering the mask first has created the pipelines. measure()
+// adds one warm-up frame if it renders no mask.
 const MeasureLimits CELL_LIMITS = { 0, 20, 5, 3.0, 0 };
-const char *const SAMPLES_ENDING = "_samples"; // <id>_samples: the reference's rays per pixel
+/// The light property <technique id>_samples is the reference's number of rays per pixel.
+const char *const SAMPLES_SUFFIX = "_samples";
 
 const ShadowTechniqueInfo &get_reference() {
 	if (const ShadowTechniqueInfo *info = ShadowRegistry::find_reference()) {
@@ -30,65 +32,67 @@ const ShadowTechniqueInfo &get_reference() {
 			"Enable the module of one; `gnomon modules` lists them.");
 }
 
-RenderRequest make_request(const MaskQuestion &p_question, const std::string &p_technique) {
+RenderRequest make_request(const MaskTask &p_task, const std::string &p_technique) {
 	RenderRequest request;
-	request.scene = p_question.scene;
-	request.size_px = p_question.size_px;
+	request.scene = p_task.scene;
+	request.size_px = p_task.size_px;
 	request.technique_override = p_technique;
 	if (MaskFilterRegistry::find(p_technique) != nullptr) {
-		request.technique_override = ShadowRegistry::find_default()->id; // see find_techniques
+		// A mask filter is measured after the default technique, which find_techniques checks.
+		request.technique_override = ShadowRegistry::find_default()->id;
 	}
-	request.mask_light = p_question.light;
-	request.wants_mask = !p_question.light.empty();
+	request.mask_light = p_task.light;
+	request.wants_mask = !p_task.light.empty();
 	return request;
 }
 
-std::vector<uint8_t> find_whole_light(
-		const MaskQuestion &p_question, const RenderResult &p_result) {
-	const LightSnapshot &light = get_light(*p_question.scene, p_question.light);
-	const glm::vec3 position = p_question.scene->to_camera_relative(light.position_world);
+/// Returns 1 for each receiver pixel whose horizon, the plane of its surface, does not cut the
+/// light's disc, else 0.
+std::vector<uint8_t> find_pixels_seeing_whole_light(
+		const MaskTask &p_task, const RenderResult &p_result) {
+	const LightSnapshot &light = get_light(*p_task.scene, p_task.light);
+	const glm::vec3 position = p_task.scene->to_camera_relative(light.position_world);
 	std::vector<uint8_t> sees(p_result.surfaces.size());
 	for (size_t index = 0; index < sees.size(); ++index) {
 		const SurfacePoint &point = p_result.surfaces[index];
-		sees[index] = point.is_there && p_result.receiver[index] >= 0.5f &&
-				sees_whole_disc(light, position, point.position, point.geometric_normal);
+		sees[index] = point.is_valid && p_result.receiver[index] >= 0.5f &&
+				is_light_disc_above_horizon(
+						light, position, point.position, point.geometric_normal);
 	}
 	return sees;
 }
 
 } // namespace
 
-ReportMachine RenderedMasks::get_machine() const {
+ReportMachine RenderedMaskSource::get_machine() const {
 	const DeviceInfo &info = device.get_info();
 	return { info.name, info.driver, find_cpu_name(), std::thread::hardware_concurrency() };
 }
 
-TracedReference RenderedMasks::trace_reference(
-		const MaskQuestion &p_question, uint32_t p_sample_count) {
+TracedReference RenderedMaskSource::trace_reference(
+		const MaskTask &p_task, uint32_t p_sample_count) {
 	const ShadowTechniqueInfo &reference = get_reference();
-	const std::string samples = reference.id + SAMPLES_ENDING;
+	const std::string samples = reference.id + SAMPLES_SUFFIX;
 	if (!ShadowRegistry::get_light_properties(reference.id).find(samples)) {
 		fail("Technique \"", reference.id, "\" is the reference, but has no property ", samples,
 				" that states how many rays it takes. Declare it.");
 	}
-	auto scene = std::make_shared<SceneSnapshot>(*p_question.scene);
+	auto scene = std::make_shared<SceneSnapshot>(*p_task.scene);
 	for (LightSnapshot &light : scene->lights) {
 		light.properties[samples] = int64_t(p_sample_count);
 	}
-	RenderRequest request = make_request(p_question, reference.id);
+	RenderRequest request = make_request(p_task, reference.id);
 	request.scene = scene;
 	request.wants_surfaces = true;
 	Renderer renderer(device);
-	// The reference technique logs two lines for each mask, which are hidden: the report records
-	// their contents.
-	set_log_level(LogLevel::WARNING);
-	const struct Restore {
-		~Restore() { set_log_level(LogLevel::INFO); }
-	} restore;
+	// Hides the two lines that the reference technique logs per mask; the report contains their
+	// values.
+	const LogFilterScope only_warnings(
+			[](LogLevel p_level, const std::string &) { return p_level >= LogLevel::WARNING; });
 	RenderResult result = renderer.render(request);
 	TracedReference traced;
-	traced.sees_whole_light = find_whole_light(p_question, result);
-	traced.mask = { p_question.size_px, std::move(result.visibility), std::move(result.receiver) };
+	traced.sees_whole_light = find_pixels_seeing_whole_light(p_task, result);
+	traced.mask = { p_task.size_px, std::move(result.visibility), std::move(result.receiver) };
 	for (const SurfacePoint &point : result.surfaces) {
 		traced.positions.push_back(point.position);
 		traced.normals.push_back(point.geometric_normal);
@@ -100,19 +104,18 @@ TracedReference RenderedMasks::trace_reference(
 	return traced;
 }
 
-MeasuredMask RenderedMasks::measure(
-		const MaskQuestion &p_question, const std::string &p_technique) {
-	RenderRequest request = make_request(p_question, p_technique);
+MeasuredMask RenderedMaskSource::measure(const MaskTask &p_task, const std::string &p_technique) {
+	RenderRequest request = make_request(p_task, p_technique);
 	Renderer renderer(device);
 	MeasuredMask measured;
 	if (request.wants_mask) {
 		RenderResult result = renderer.render(request);
-		measured.mask = { p_question.size_px, std::move(result.visibility),
+		measured.mask = { p_task.size_px, std::move(result.visibility),
 			std::move(result.receiver) };
 	}
 	MeasureLimits limits = CELL_LIMITS;
 	limits.frame_count = frame_count;
-	limits.least_frame_count = std::min(limits.least_frame_count, frame_count);
+	limits.min_frame_count = std::min(limits.min_frame_count, frame_count);
 	limits.warm_up_count = request.wants_mask ? 0 : 1;
 	limits.median_error = median_error;
 	request.may_reuse = false;
@@ -121,7 +124,7 @@ MeasuredMask RenderedMasks::measure(
 	return measured;
 }
 
-std::vector<uint8_t> RenderedMasks::draw_scene(
+std::vector<uint8_t> RenderedMaskSource::draw_scene(
 		const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) {
 	RenderRequest request;
 	request.scene = p_scene;
@@ -131,8 +134,8 @@ std::vector<uint8_t> RenderedMasks::draw_scene(
 	return Renderer(device).render(request).image;
 }
 
-DrawnMasks RenderedMasks::draw(
-		std::span<const MaskQuestion> p_questions, const std::string &p_technique) {
+DrawnMasks RenderedMaskSource::draw(
+		std::span<const MaskTask> p_tasks, const std::string &p_technique) {
 	DrawnMasks drawn;
 	const unsigned message_count = get_validation_message_count();
 	const LogFilterScope scope([&](LogLevel p_level, const std::string &p_line) {
@@ -142,10 +145,10 @@ DrawnMasks RenderedMasks::draw(
 		return p_level != LogLevel::WARNING;
 	});
 	Renderer renderer(device);
-	for (const MaskQuestion &question : p_questions) {
-		RenderRequest request = make_request(question, p_technique);
-		if (question.scene->lights.size() > 1) {
-			// All lights are drawn too, not only the one that is measured.
+	for (const MaskTask &task : p_tasks) {
+		RenderRequest request = make_request(task, p_technique);
+		if (task.scene->lights.size() > 1) {
+			// Also draws all lights in one frame, not only the light that is measured.
 			RenderRequest whole_frame = request;
 			whole_frame.mask_light.clear();
 			whole_frame.wants_mask = false;
@@ -153,7 +156,7 @@ DrawnMasks RenderedMasks::draw(
 		}
 		RenderResult result = renderer.render(request);
 		drawn.frames.push_back(
-				{ question.size_px, std::move(result.visibility), std::move(result.receiver) });
+				{ task.size_px, std::move(result.visibility), std::move(result.receiver) });
 	}
 	drawn.validation_message_count = get_validation_message_count() - message_count;
 	return drawn;
@@ -161,7 +164,7 @@ DrawnMasks RenderedMasks::draw(
 
 namespace {
 
-/// Lists the ids of the techniques, then those of the mask filters.
+/// Returns the ids of all techniques, then those of all mask filters.
 std::vector<std::string> list_ids() {
 	std::vector<std::string> ids;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
@@ -177,8 +180,8 @@ bool contains(const std::vector<std::string> &p_ids, const std::string &p_id) {
 	return std::ranges::find(p_ids, p_id) != p_ids.end();
 }
 
-TechniqueSource make_source(const ShadowTechniqueInfo &p_info) {
-	TechniqueSource source;
+MeasurableTechnique make_measurable_technique(const ShadowTechniqueInfo &p_info) {
+	MeasurableTechnique source;
 	source.info = { p_info.id, p_info.name, p_info.source, p_info.color, p_info.is_fallback };
 	const std::shared_ptr<const ShadowTechnique> technique = p_info.make();
 	source.get_settings = [technique](const LightSnapshot &p_light) {
@@ -189,8 +192,8 @@ TechniqueSource make_source(const ShadowTechniqueInfo &p_info) {
 	return source;
 }
 
-TechniqueSource make_source(const MaskFilterInfo &p_info) {
-	TechniqueSource source;
+MeasurableTechnique make_measurable_technique(const MaskFilterInfo &p_info) {
+	MeasurableTechnique source;
 	source.info = { p_info.id, p_info.name, p_info.source, p_info.color, false };
 	const std::shared_ptr<const MaskFilter> filter = p_info.make();
 	source.get_settings = [filter](const LightSnapshot & /*p_light*/) {
@@ -198,20 +201,21 @@ TechniqueSource make_source(const MaskFilterInfo &p_info) {
 		filter->get_quality_settings(settings);
 		return settings;
 	};
-	source.applies = [filter](const MaskQuestion &p_question) {
-		return filter->may_change(*p_question.scene, p_question.size_px);
+	source.applies = [filter](const MaskTask &p_task) {
+		return filter->may_change(*p_task.scene, p_task.size_px);
 	};
 	return source;
 }
 
 } // namespace
 
-std::vector<TechniqueSource> RenderedMasks::find_techniques(const std::vector<std::string> &p_ids) {
-	check_known("--techniques", p_ids, list_ids());
-	std::vector<TechniqueSource> sources;
+std::vector<MeasurableTechnique> RenderedMaskSource::find_techniques(
+		const std::vector<std::string> &p_ids) {
+	check_names("--techniques", p_ids, list_ids());
+	std::vector<MeasurableTechnique> sources;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		if (p_ids.empty() ? !info.is_reference && !info.is_example : contains(p_ids, info.id)) {
-			sources.push_back(make_source(info));
+			sources.push_back(make_measurable_technique(info));
 		}
 	}
 	for (const MaskFilterInfo &info : MaskFilterRegistry::get_all()) {
@@ -223,7 +227,7 @@ std::vector<TechniqueSource> RenderedMasks::find_techniques(const std::vector<st
 		}
 		if (ShadowRegistry::find_default() != nullptr &&
 				(p_ids.empty() || contains(p_ids, info.id))) {
-			sources.push_back(make_source(info));
+			sources.push_back(make_measurable_technique(info));
 		}
 	}
 	return sources;

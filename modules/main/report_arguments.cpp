@@ -51,7 +51,8 @@ NamedFiles name_files(const std::vector<fs::path> &p_files, const fs::path &p_fo
 	return named;
 }
 
-/// A build without the module that adds the sweeps draws none, and refuses requests for them.
+/// Reads --stability and --sweeps. Without the module stability_report there are no sweeps, and
+/// requesting them is a UsageError.
 void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r_options) {
 	const std::string extent = p_arguments.stability.value_or("quick");
 	const ReportPart *part = ReportPartRegistry::find_part(STABILITY_GROUP);
@@ -66,19 +67,19 @@ void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r
 		return;
 	}
 	r_options.stability = parse_extent(extent);
-	check_known("--sweeps", r_options.sweeps, part->list_sweeps());
+	check_names("--sweeps", r_options.sweeps, part->list_sweeps());
 }
 
 } // namespace
 
-void check_known(const char *p_option, const std::vector<std::string> &p_requested,
-		const std::vector<std::string> &p_known) {
+void check_names(const char *p_option, const std::vector<std::string> &p_requested,
+		const std::vector<std::string> &p_valid_names) {
 	std::string names;
-	for (const std::string &name : p_known) {
+	for (const std::string &name : p_valid_names) {
 		names += (names.empty() ? "" : ", ") + name;
 	}
 	for (const std::string &name : p_requested) {
-		if (std::ranges::find(p_known, name) == p_known.end()) {
+		if (std::ranges::find(p_valid_names, name) == p_valid_names.end()) {
 			throw UsageError(
 					text(p_option, ": there is no \"", name, "\", must be of ", names, "."));
 		}
@@ -93,8 +94,8 @@ ReportRunOptions parse_run_options(const ReportArguments &p_arguments) {
 		const std::string_view shard = p_arguments.shard;
 		uint32_t index = 0;
 		uint32_t count = 0;
-		if (slash == std::string::npos || !parse_whole(shard.substr(0, slash), index) ||
-				!parse_whole(shard.substr(slash + 1), count) || index < 1 || index > count) {
+		if (slash == std::string::npos || !parse_uint32(shard.substr(0, slash), index) ||
+				!parse_uint32(shard.substr(slash + 1), count) || index < 1 || index > count) {
 			throw UsageError(text("--shard is \"", p_arguments.shard,
 					"\", must be I/N with 1 <= I <= N, for example 2/8."));
 		}
@@ -139,7 +140,7 @@ ReportOptions make_report_options(
 	}
 	options.size_px = parse_size(p_arguments.size);
 	options.scaling = parse_extent(p_arguments.scaling);
-	options.animation = parse_extent(p_arguments.animation);
+	options.animation = parse_extent(p_arguments.change);
 	read_stability_options(p_arguments, options);
 	return options;
 }
@@ -181,7 +182,7 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 			selected.scenes.push_back({ name, file });
 		}
 	}
-	check_known("--scenes", requested, names);
+	check_names("--scenes", requested, names);
 	if (selected.scenes.empty()) {
 		fail("Project ", selected.folder,
 				all.empty() ? " names no scene that exists. Set scenes in its project.cfg."

@@ -10,46 +10,54 @@
 
 namespace gnomon {
 
-/// The options of `gnomon report` and `report merge`, as CLI11 fills them in.
+/// The arguments of `gnomon report` and `gnomon report merge`, as CLI11 stores them. Each is the
+/// option of the same name unless a comment says otherwise.
 struct ReportArguments {
 	std::string project;
-	std::vector<std::string> scenes;
-	std::vector<std::string> techniques;
-	std::vector<std::string> sizes; // metres, or only "own"
+	std::vector<std::string> scenes;	 // names; empty: all
+	std::vector<std::string> techniques; // ids; empty: all but the reference and examples
+	std::vector<std::string> sizes;		 // metres, or only "own"; empty: the default sizes
 	std::string settings = "all";
-	uint32_t frame_count = 20;
-	std::vector<std::string> skipped_scenes; // names or patterns, as of fnmatch
-	std::vector<std::string> light_types;
-	std::string size = "256x256";
+	uint32_t frame_count = 20;				 // --frames: maximum per cell
+	std::vector<std::string> skipped_scenes; // --skip: names or fnmatch patterns
+	std::vector<std::string> light_types;	 // "spot", "omni", "directional", or only "own"
+	std::string size = "256x256";			 // of the masks, pixels
 	std::string scaling = "quick";
-	std::string animation = "quick";
-	std::optional<std::string> stability; // absent: "quick" if a module adds the sweeps
-	ReportOptions options;				  // options that need no conversion
+	std::string change = "quick";
+	std::optional<std::string> stability; // unset: "quick" if the build has the sweeps
+	ReportOptions options;				  // receives options that need no conversion
 	std::string out;
-	bool resumes = false;
-	std::string against;
-	std::optional<double> budget_ms;
-	std::string shard;
-	std::vector<std::string> merged;
-	std::string merge_out;
+	bool resumes = false;			 // --resume
+	std::string against;			 // path of an older report.json; empty: none
+	std::optional<double> budget_ms; // --budget
+	std::string shard;				 // "I/N"; empty: the whole report
+	std::vector<std::string> merged; // folders of the shards to merge
+	std::string merge_out;			 // --out of `report merge`
 };
 
-/// Throws a UsageError for that option if a requested name is not known.
-void check_known(const char *p_option, const std::vector<std::string> &p_requested,
-		const std::vector<std::string> &p_known);
-// Each function throws a UsageError that names the option, the value and what is allowed.
+/// Throws a UsageError that names the option p_option and the valid names if a requested name is
+/// not one of p_valid_names.
+void check_names(const char *p_option, const std::vector<std::string> &p_requested,
+		const std::vector<std::string> &p_valid_names);
+// Convert the arguments. Both throw a UsageError that names the option, the value and the allowed
+// values.
 ReportRunOptions parse_run_options(const ReportArguments &p_arguments);
 ReportOptions make_report_options(const ReportArguments &p_arguments, const std::string &p_project);
 
+/// Scene files by name: the file name without extension.
 using NamedFiles = std::vector<std::pair<std::string, std::filesystem::path>>;
 
 /// The scenes that a project or a single scene file names.
 struct SelectedScenes {
-	std::string project; // name of the project
-	std::filesystem::path folder;
-	NamedFiles scenes; // scenes of the report's matrix; at least one
-	NamedFiles stability_scenes;
+	std::string project;		  // name of the project, else of the scene file
+	std::filesystem::path folder; // of the project or scene file
+	NamedFiles scenes;			  // scenes of the report's matrix (MATRIX_GROUP); at least one
+	NamedFiles stability_scenes;  // scenes of the stability sweep "scenes"
 };
+/// Selects the scenes of the project or scene file. --scenes and --skip restrict
+/// SelectedScenes::scenes, but not stability_scenes. Throws an Error if the project does not exist,
+/// two scenes of one list have the same name or no scene remains in `scenes`, and a UsageError for
+/// an unknown scene in --scenes.
 SelectedScenes select_scenes(const ReportArguments &p_arguments);
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-// `gnomon compare`: the metrics of doc/glossary.md, as JSON.
+// `gnomon compare`: prints the metrics of doc/glossary.md as JSON.
 
 #include "modules/masks/command_compare.h"
 
@@ -25,7 +25,7 @@ struct CompareOptions {
 
 void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 	static CompareOptions options;
-	CLI::App *command = r_app.add_subcommand("compare", "How far a mask is from the reference");
+	CLI::App *command = r_app.add_subcommand("compare", "Measures the error of a mask");
 	command->add_option("reference_mask", options.reference, "EXR of the exact mask")->required();
 	command->add_option("result", options.result, "EXR to measure")->required();
 	command->add_option("--heatmap", options.heatmap,

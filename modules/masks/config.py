@@ -18,7 +18,7 @@ def get_hosts():
 
 
 def can_disable():
-    return False  # commands and the editor's error panel are made of it
+    return False  # commands and the editor's error panel need it
 
 
 def can_build(env):

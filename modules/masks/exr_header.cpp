@@ -11,21 +11,21 @@ namespace gnomon {
 namespace {
 
 constexpr uint8_t MAGIC[] = { 0x76, 0x2f, 0x31, 0x01 };
-constexpr size_t FIRST_ATTRIBUTE = 8;			  // after magic, version and flags
-constexpr uint8_t DEEP_OR_MULTI_PART = 0x18;	  // of the second byte of version and flags
-constexpr size_t CHANNEL_BYTES = 16;			  // after its name
-constexpr int64_t MAX_LINES_IN_BLOCK = 256;		  // DWAB, the most of all compressions
-constexpr int64_t BYTES_PER_VALUE = 4;			  // at most: half, float or uint
-constexpr int64_t MAX_BLOCK_BYTES = 1 << 28;	  // lines or tiles that are unpacked together
-constexpr int64_t OFFSET_BYTES = sizeof(int64_t); // of each tile, in a table behind the header
+constexpr size_t FIRST_ATTRIBUTE_OFFSET = 8;	   // after magic, version and flags
+constexpr uint8_t DEEP_OR_MULTI_PART_FLAGS = 0x18; // flags in the second byte of the version
+constexpr size_t CHANNEL_BYTES = 16;			   // of its description, after its name
+constexpr int64_t MAX_LINES_IN_BLOCK = 256;		   // DWAB, the maximum of all compressions
+constexpr int64_t BYTES_PER_VALUE = 4;			   // maximum of half, float and uint
+constexpr int64_t MAX_BLOCK_BYTES = 1 << 28;	   // lines or a tile, decompressed together
+constexpr int64_t OFFSET_BYTES = sizeof(int64_t);  // per tile, in a table after the header
 
-/// What OpenEXR reads by type, whatever length the file gives.
+/// An attribute that OpenEXR reads by its type, whatever length the file states.
 struct KnownAttribute {
 	std::string_view name;
 	std::string_view type;
 	size_t size_bytes; // 0: any
 };
-constexpr KnownAttribute KNOWN[] = {
+constexpr KnownAttribute KNOWN_ATTRIBUTES[] = {
 	{ "channels", "chlist", 0 },
 	{ "compression", "compression", 1 },
 	{ "dataWindow", "box2i", 16 },
@@ -37,20 +37,21 @@ constexpr KnownAttribute KNOWN[] = {
 	{ "tiles", "tiledesc", 9 },
 };
 
-class HeaderWalk {
+/// Walks through the attributes of a header and checks each of them.
+class HeaderChecker {
 public:
-	HeaderWalk(std::span<const uint8_t> p_bytes, const std::string &p_name) :
+	HeaderChecker(std::span<const uint8_t> p_bytes, const std::string &p_name) :
 			bytes(p_bytes), name(p_name) {}
 
-	std::vector<uint8_t> walk() {
+	std::vector<uint8_t> check() {
 		if (!std::equal(std::begin(MAGIC), std::end(MAGIC), bytes.begin(),
 					bytes.begin() + std::ptrdiff_t(std::min(bytes.size(), std::size(MAGIC))))) {
 			fail("Mask ", name, ": not an OpenEXR file. Name one that `gnomon visibility` wrote.");
 		}
-		if (bytes.size() > FIRST_ATTRIBUTE && (bytes[5] & DEEP_OR_MULTI_PART) != 0) {
+		if (bytes.size() > FIRST_ATTRIBUTE_OFFSET && (bytes[5] & DEEP_OR_MULTI_PART_FLAGS) != 0) {
 			fail("Mask ", name, ": has several parts or deep pixels; a mask has one flat part.");
 		}
-		position = FIRST_ATTRIBUTE;
+		position = FIRST_ATTRIBUTE_OFFSET;
 		while (read_byte() != 0) {
 			--position;
 			read_attribute();
@@ -66,16 +67,16 @@ public:
 private:
 	uint8_t read_byte() {
 		if (position >= bytes.size()) {
-			fail_cut_short();
+			fail_truncated();
 		}
 		return bytes[position++];
 	}
-	[[noreturn]] void fail_cut_short() const {
+	[[noreturn]] void fail_truncated() const {
 		fail("Mask ", name,
 				": not an OpenEXR file, or damaged, or cut short: its header goes beyond its ",
 				bytes.size(), " bytes. Write it again.");
 	}
-	std::string_view read_text() {
+	std::string_view read_string() {
 		const size_t first = position;
 		while (read_byte() != 0) {
 		}
@@ -91,17 +92,17 @@ private:
 	int64_t read_i32() { return static_cast<int32_t>(read_u32()); }
 
 	void read_attribute() {
-		const std::string_view attribute = read_text();
+		const std::string_view attribute = read_string();
 		const size_t type_position = position;
-		const std::string_view type = read_text();
+		const std::string_view type = read_string();
 		const uint64_t length = read_u32();
-		if (length >= bytes.size() - position) { // the header ends with one more byte
-			fail_cut_short();
+		if (length >= bytes.size() - position) { // the header's final 0 byte must follow
+			fail_truncated();
 		}
 		const size_t end = position + length;
-		const auto known = std::find_if(std::begin(KNOWN), std::end(KNOWN),
-				[&](const KnownAttribute &p_one) { return p_one.name == attribute; });
-		if (known == std::end(KNOWN)) {
+		const auto known = std::find_if(std::begin(KNOWN_ATTRIBUTES), std::end(KNOWN_ATTRIBUTES),
+				[&](const KnownAttribute &p_known) { return p_known.name == attribute; });
+		if (known == std::end(KNOWN_ATTRIBUTES)) {
 			if (!type.empty()) {
 				unneeded_types.push_back(type_position);
 			}
@@ -119,7 +120,7 @@ private:
 			channel_count = 0;
 			while (read_byte() != 0) {
 				--position;
-				read_text();
+				read_string();
 				position += CHANNEL_BYTES;
 				++channel_count;
 			}
@@ -137,9 +138,10 @@ private:
 			tile_height = read_u32();
 		}
 	}
-	/// Sizes beyond what masks may have are refused by the caller, and by OpenEXR before it takes
-	/// memory for them. Here all sizes are at most 2^32, and products of them could overflow, so
-	/// limits are divided instead.
+	/// Fails if blocks of lines, tiles or the table of tiles would need too much memory. Images
+	/// larger than a mask may be are refused by the caller, and by OpenEXR before it allocates
+	/// memory. Sizes are up to 2^32 here and products of them could overflow, so limits are divided
+	/// instead.
 	void check_memory() const {
 		const bool has_tiles = tile_width > 0 && tile_height > 0;
 		const int64_t columns = std::max(width, tile_width);
@@ -164,7 +166,7 @@ private:
 	std::span<const uint8_t> bytes;
 	const std::string &name;
 	size_t position = 0;
-	std::vector<size_t> unneeded_types; // where their names begin
+	std::vector<size_t> unneeded_types; // positions of types that no mask needs
 	int64_t channel_count = 0;
 	int64_t width = 0;
 	int64_t height = 0;
@@ -176,7 +178,7 @@ private:
 
 std::vector<uint8_t> make_safe_exr_header(
 		std::span<const uint8_t> p_bytes, const std::string &p_name) {
-	return HeaderWalk(p_bytes, p_name).walk();
+	return HeaderChecker(p_bytes, p_name).check();
 }
 
 } // namespace gnomon

@@ -22,12 +22,13 @@ namespace {
 
 constexpr const char *VISIBILITY_CHANNEL = "Y";
 constexpr const char *RECEIVER_CHANNEL = "receiver";
-/// Deflate packs at most 1032 to 1 and a pixel has at least 4 bytes (two half floats): a header
-/// that promises more than this for the bytes that follow is a lie, found before memory is taken.
+/// A header that claims more pixels than this per byte of the file is damaged, which is detected
+/// before memory is allocated: Deflate compresses at most 1032 to 1, and a pixel has at least 4
+/// bytes (two half floats), so that a byte holds at most 258 pixels.
 constexpr uint64_t MAX_PIXELS_PER_BYTE = 512;
 constexpr uint64_t FILE_LIMIT_BYTES = uint64_t(1) << 32;
 
-/// Bytes whose beginning is replaced.
+/// A stream that reads bytes in memory, the first of them from a replacement: the checked header.
 class MemoryInput : public Imf::IStream {
 public:
 	MemoryInput(std::span<const uint8_t> p_bytes, std::vector<uint8_t> p_header) :
@@ -55,10 +56,10 @@ private:
 	uint64_t position = 0;
 };
 
-/// A slice whose first pixel is the data window's corner.
+/// Makes a slice whose first pixel is the data window's corner.
 Imf::Slice make_slice(float *p_values, const Imath::V2i &p_corner, uint32_t p_width) {
-	// Addresses as integers: for a window far from (0, 0) the base is no valid address in the
-	// array.
+	// Computed as integers, because for a window far from (0, 0) the base address is outside of
+	// the array.
 	const intptr_t row = static_cast<intptr_t>(p_width);
 	const intptr_t offset = p_corner.x + p_corner.y * row;
 	const uintptr_t origin =
@@ -91,7 +92,7 @@ void check_size(int64_t p_width, int64_t p_height, const std::string &p_name) {
 
 MaskImage decode(std::span<const uint8_t> p_bytes, const std::string &p_name) {
 	MemoryInput stream(p_bytes, make_safe_exr_header(p_bytes, p_name));
-	Imf::InputFile file(stream, 0); // no threads of OpenEXR's own
+	Imf::InputFile file(stream, 0); // 0: OpenEXR starts no threads
 	check_channel(file.header().channels(), VISIBILITY_CHANNEL, p_name);
 	check_channel(file.header().channels(), RECEIVER_CHANNEL, p_name);
 	const Imath::Box2i window = file.header().dataWindow();
@@ -131,7 +132,7 @@ std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string
 		header.compression() = Imf::ZIP_COMPRESSION;
 		header.channels().insert(VISIBILITY_CHANNEL, Imf::Channel(Imf::FLOAT));
 		header.channels().insert(RECEIVER_CHANNEL, Imf::Channel(Imf::FLOAT));
-		// A frame buffer has no const form; writing does not change it.
+		// OpenEXR has no const frame buffer; writing does not change the pixels.
 		Imf::FrameBuffer buffer;
 		buffer.insert(VISIBILITY_CHANNEL,
 				make_slice(const_cast<float *>(p_image.visibility.data()), { 0, 0 },
@@ -150,7 +151,7 @@ std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string
 }
 
 MaskImage decode_mask_exr(std::span<const uint8_t> p_bytes, const std::string &p_name) {
-	// Held against the header before OpenEXR takes memory for a line.
+	// OpenEXR compares headers with these limits before it allocates memory for a line.
 	static std::once_flag once;
 	std::call_once(once, [] {
 		Imf::Header::setMaxImageSize(MAX_IMAGE_SIZE_PX, MAX_IMAGE_SIZE_PX);

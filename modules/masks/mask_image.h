@@ -29,11 +29,12 @@ void save_mask_exr(const std::filesystem::path &p_path, const MaskImage &p_image
 
 /// Reads a file that save_mask_exr wrote. Other channels are ignored and half floats widened. A
 /// file that is missing, damaged or truncated, lacks a channel (named in the message), has a
-/// subsampled channel or is larger than MAX_IMAGE_SIZE_PX is an Error naming the file. Values are
-/// not checked here.
+/// subsampled channel or is larger than MAX_IMAGE_SIZE_PX is an Error naming the file. Pixel
+/// values are not checked.
 MaskImage load_mask_exr(const std::filesystem::path &p_path);
 
-/// Encode to, and decode from, bytes in memory; p_name stands for the file in messages.
+/// Encode to and decode from bytes in memory, with the same errors; p_name replaces the file name
+/// in messages.
 std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string &p_name);
 MaskImage decode_mask_exr(std::span<const uint8_t> p_bytes, const std::string &p_name);
 

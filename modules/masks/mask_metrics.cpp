@@ -12,13 +12,14 @@ namespace gnomon {
 
 namespace {
 
-constexpr float PENUMBRA_MINIMUM = 0.002f;
-constexpr float PENUMBRA_MAXIMUM = 0.998f;
+constexpr float PENUMBRA_MIN = 0.002f;
+constexpr float PENUMBRA_MAX = 0.998f;
 constexpr float UMBRA_OVER_REFERENCE = 0.05f; // visibly lit in the reference ...
 constexpr float UMBRA_OVER_RESULT = 0.01f;	  // ... and black in the result
 constexpr double PERCENTILE = 0.99;
-constexpr float WRONG_ERROR = 0.2f; // a float as masks are: 0.2f before 0 does not exceed it
+constexpr float WRONG_ERROR = 0.2f; // float as masks are, so that an error of 0.2f is not above
 
+/// Throws if a pixel is not finite.
 void check_finite(const MaskImage &p_image, const std::string &p_name) {
 	GNOMON_ASSERT(p_image.visibility.size() == p_image.get_pixel_count() &&
 					p_image.receiver.size() == p_image.get_pixel_count(),
@@ -32,7 +33,7 @@ void check_finite(const MaskImage &p_image, const std::string &p_name) {
 	}
 }
 
-/// Throws unless both answer the same question.
+/// Throws unless both masks are finite and have the same size and receiver pixels.
 void check_pair(const MaskImage &p_reference, const MaskImage &p_result,
 		const std::string &p_reference_name, const std::string &p_result_name) {
 	if (p_reference.size_px != p_result.size_px) {
@@ -58,8 +59,8 @@ void check_pair(const MaskImage &p_reference, const MaskImage &p_result,
 	}
 }
 
-/// Sums up errors of one set of pixels.
-class ErrorSum {
+/// Accumulates the errors of a set of pixels.
+class ErrorAccumulator {
 public:
 	void add(double p_error) {
 		absolute_errors.push_back(std::abs(p_error));
@@ -107,14 +108,14 @@ void add_metrics(const ErrorMetrics &p_metrics, nlohmann::ordered_json &r_json) 
 } // namespace
 
 bool is_penumbra(float p_reference) {
-	return p_reference > PENUMBRA_MINIMUM && p_reference < PENUMBRA_MAXIMUM;
+	return p_reference > PENUMBRA_MIN && p_reference < PENUMBRA_MAX;
 }
 
 MaskMetrics compute_mask_metrics(const MaskImage &p_reference, const MaskImage &p_result,
 		const std::string &p_reference_name, const std::string &p_result_name) {
 	check_pair(p_reference, p_result, p_reference_name, p_result_name);
-	ErrorSum receiver;
-	ErrorSum penumbra;
+	ErrorAccumulator receiver;
+	ErrorAccumulator penumbra;
 	uint64_t lit_count = 0;
 	uint64_t black_count = 0;
 	for (size_t i = 0; i < p_reference.get_pixel_count(); ++i) {

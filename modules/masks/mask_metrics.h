@@ -18,11 +18,11 @@ struct ErrorMetrics {
 	double p99 = 0;	 // |error| that 99 % of the pixels do not exceed (nearest rank)
 	double bias = 0; // mean error: negative = too dark, positive = too light
 	/// Fraction 0..1 of the pixels whose |error| exceeds 0.2, which is visible as a wrong shadow.
-	/// Absent only in the data of a report by an earlier version.
+	/// Absent only if read from the report of an earlier version.
 	std::optional<double> wrong = 0.0;
 };
 
-/// Whether a reference value is penumbra: neither umbra nor fully lit.
+/// Whether a reference value is penumbra, in (0.002, 0.998): neither umbra nor fully lit.
 bool is_penumbra(float p_reference);
 
 /// The error of a result against the reference. Both are linear visibility, before tone mapping.

@@ -16,8 +16,8 @@ uint8_t to_byte(float p_value) {
 
 glm::u8vec3 compute_heat_map_color(float p_error) {
 	const float error = p_error / HEAT_MAP_RANGE;
-	const uint8_t rest = to_byte(1.0f - std::abs(error));
-	return { error > 0 ? 255 : rest, rest, error > 0 ? rest : 255 };
+	const uint8_t other_channels = to_byte(1.0f - std::abs(error));
+	return { error > 0 ? 255 : other_channels, other_channels, error > 0 ? other_channels : 255 };
 }
 
 } // namespace
@@ -35,7 +35,7 @@ std::vector<uint8_t> compute_mask_pixels(const MaskImage &p_image) {
 }
 
 std::vector<uint8_t> compute_error_pixels(const MaskImage &p_reference, const MaskImage &p_result) {
-	compute_mask_metrics(p_reference, p_result); // its checks: size, receivers, finite values
+	compute_mask_metrics(p_reference, p_result); // checks size, receivers, finite values
 	std::vector<uint8_t> pixels;
 	pixels.reserve(3 * p_reference.get_pixel_count());
 	for (size_t i = 0; i < p_reference.get_pixel_count(); ++i) {

@@ -24,9 +24,11 @@ void save_error_png(const std::filesystem::path &p_path, const MaskImage &p_refe
 		const MaskImage &p_result);
 
 /// Returns the colours of errors from -HEAT_MAP_RANGE to HEAT_MAP_RANGE in equal steps, RGB.
+/// p_count: at least 2.
 std::vector<glm::u8vec3> compute_heat_map_colors(uint32_t p_count);
 
-/// Compute the pixels that the two functions above write: grey, and RGB.
+/// Compute the pixels that save_mask_png (grey) and save_error_png (RGB) write. Values that these
+/// functions reject are an Error here too.
 std::vector<uint8_t> compute_mask_pixels(const MaskImage &p_image);
 std::vector<uint8_t> compute_error_pixels(const MaskImage &p_reference, const MaskImage &p_result);
 

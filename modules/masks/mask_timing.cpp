@@ -9,12 +9,12 @@ namespace gnomon {
 
 using Json = nlohmann::ordered_json;
 
-double compute_percentile(std::vector<double> p_values, double p_share) {
+double compute_percentile(std::vector<double> p_values, double p_fraction) {
 	if (p_values.empty()) {
 		return 0;
 	}
 	std::sort(p_values.begin(), p_values.end());
-	const double position = p_share * static_cast<double>(p_values.size() - 1);
+	const double position = p_fraction * static_cast<double>(p_values.size() - 1);
 	const size_t below = static_cast<size_t>(position);
 	const size_t above = std::min(below + 1, p_values.size() - 1);
 	return p_values[below] + (p_values[above] - p_values[below]) * (position - double(below));
@@ -62,11 +62,11 @@ double TimingSamples::compute_median_error() const {
 	for (const double cost_ms : costs_ms) {
 		distances_ms.push_back(std::abs(cost_ms - median_ms));
 	}
-	// 1.4826 makes a normal distribution's deviation of it, 1.2533 is how much wider its median
-	// varies than its mean.
+	// For a normal distribution, 1.4826 times the median absolute deviation is the standard
+	// deviation, and the standard error of the median is 1.2533 times that of the mean.
 	const double count = double(costs_ms.size());
-	// The last factor: of few values the median distance comes out too small (Croux, Rousseeuw
-	// 1992).
+	// count / (count - 0.8): the median absolute deviation of few values is too small (Croux,
+	// Rousseeuw 1992).
 	const double deviation_ms =
 			1.4826 * compute_percentile(distances_ms, 0.5) * count / (count - 0.8);
 	return 1.2533 * deviation_ms / std::sqrt(count) / median_ms;

@@ -24,6 +24,7 @@ struct FrameCost {
 	double wall_ms_p90 = 0;
 };
 
+/// The cost of one pass over the frames of a measurement.
 struct PassMedians {
 	std::string name;
 	FrameCost cost;
@@ -41,18 +42,20 @@ struct MaskTiming {
 };
 
 /// Returns the value at a fraction 0..1 of the sorted values, interpolated; 0 without values.
-double compute_percentile(std::vector<double> p_values, double p_share);
+double compute_percentile(std::vector<double> p_values, double p_fraction);
 
 /// Collects the pass times of successive frames.
 class TimingSamples {
 public:
-	/// Adds the passes of one frame. The first frame that contains a pass decides its position.
+	/// Adds the passes of one frame. The first frame that contains a pass decides its position in
+	/// MaskTiming::passes.
 	void add_frame(const std::vector<PassCost> &p_passes);
 	uint32_t get_frame_count() const { return static_cast<uint32_t>(costs_ms.size()); }
-	/// Relative standard error of cost_ms, estimated from the frames: 1.2533 times that of the
-	/// mean, with the median absolute deviation as the spread. 1 below two frames or if cost_ms is
-	/// 0.
+	/// Estimates the relative standard error of MaskTiming::cost_ms, a median: 1.2533 times that of
+	/// the mean, with the standard deviation estimated from the median absolute deviation. Returns
+	/// 1 if there are fewer than two frames or cost_ms is 0.
 	double compute_median_error() const;
+	/// Computes the cost over all frames so far.
 	MaskTiming compute() const;
 
 private:
@@ -67,10 +70,11 @@ private:
 	std::vector<double> costs_ms;
 };
 
+/// Computes the medians and 90th percentiles of times in milliseconds.
 FrameCost compute_frame_cost(
 		const std::vector<double> &p_gpu_ms, const std::vector<double> &p_wall_ms);
 
-// Formats as doc/command_line.md and doc/report_format.md describe.
+/// Format costs as doc/command_line.md and doc/report_format.md describe.
 nlohmann::ordered_json to_json(const FrameCost &p_cost);
 nlohmann::ordered_json to_json(const std::vector<PassMedians> &p_passes);
 

@@ -9,10 +9,11 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t LEAF_SIZE = 4;
+constexpr uint32_t LEAF_SIZE = 4; // maximum number of items
 constexpr int BIN_COUNT = 16;
-/// Unlucky boxes (sizes that double each time) peel off one by one; below this depth halves are
-/// taken instead, so that the traversal's stack is bounded.
+/// Nodes at this depth or deeper are split in halves instead of by the surface area heuristic. That
+/// bounds the depth and so the stack of a traversal: the heuristic may split off a single box at
+/// each level, for example if their sizes double.
 constexpr int MAX_SAH_DEPTH = 32;
 
 double get_half_area(const Bounds &p_bounds) {
@@ -23,13 +24,13 @@ double get_half_area(const Bounds &p_bounds) {
 	return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-bool is_usable(const Bounds &p_box) {
+bool is_valid(const Bounds &p_box) {
 	// Written so that NaN fails.
 	return p_box.minimum.x <= p_box.maximum.x && p_box.minimum.y <= p_box.maximum.y &&
 			p_box.minimum.z <= p_box.maximum.z;
 }
 
-/// Infinite boxes are clamped: their position in the tree then has a number.
+/// Returns the centre. Infinite boxes are clamped, so that it is finite.
 glm::dvec3 get_centre(const Bounds &p_box) {
 	const glm::dvec3 limit(1e150);
 	return 0.5 * glm::clamp(p_box.minimum, -limit, limit) +
@@ -47,22 +48,22 @@ int find_bin(double p_centre, double p_minimum, double p_maximum) {
 	return std::clamp(static_cast<int>(position * BIN_COUNT), 0, BIN_COUNT - 1);
 }
 
-/// Reorders the items and returns how many go left, by the surface area heuristic over bins of the
-/// longest axis (Wald 2007); 0 when no split separates them.
+/// Splits the items by the surface area heuristic over bins of the given axis (Wald 2007). Reorders
+/// them and returns the number of items on the left; 0 if no split separates them.
 size_t split_by_area(std::span<BuildItem> p_items, int p_axis, double p_minimum, double p_maximum) {
 	std::array<Bounds, BIN_COUNT> bin_bounds;
-	std::array<size_t, BIN_COUNT> bin_items{};
+	std::array<size_t, BIN_COUNT> bin_counts{};
 	for (const BuildItem &item : p_items) {
 		const int bin = find_bin(item.centre[p_axis], p_minimum, p_maximum);
 		bin_bounds[bin].add(item.box);
-		++bin_items[bin];
+		++bin_counts[bin];
 	}
 	std::array<double, BIN_COUNT> cost_right{};
 	Bounds right;
 	size_t right_count = 0;
 	for (int bin = BIN_COUNT - 1; bin > 0; --bin) {
 		right.add(bin_bounds[bin]);
-		right_count += bin_items[bin];
+		right_count += bin_counts[bin];
 		cost_right[bin] = get_half_area(right) * static_cast<double>(right_count);
 	}
 	Bounds left;
@@ -72,7 +73,7 @@ size_t split_by_area(std::span<BuildItem> p_items, int p_axis, double p_minimum,
 	double best_cost = INFINITY;
 	for (int bin = 1; bin < BIN_COUNT; ++bin) {
 		left.add(bin_bounds[bin - 1]);
-		left_count += bin_items[bin - 1];
+		left_count += bin_counts[bin - 1];
 		const double cost = get_half_area(left) * static_cast<double>(left_count) + cost_right[bin];
 		if (left_count > 0 && left_count < p_items.size() && cost < best_cost) {
 			best_cost = cost;
@@ -88,6 +89,7 @@ size_t split_by_area(std::span<BuildItem> p_items, int p_axis, double p_minimum,
 	return best_count;
 }
 
+/// Splits the items at the median of their centres. Returns the number of items on the left.
 size_t split_in_halves(std::span<BuildItem> p_items, int p_axis) {
 	const size_t half = p_items.size() / 2;
 	std::nth_element(p_items.begin(), p_items.begin() + static_cast<ptrdiff_t>(half), p_items.end(),
@@ -117,7 +119,7 @@ Bvh::Bvh(std::span<const Bounds> p_boxes) {
 	std::vector<BuildItem> build;
 	build.reserve(p_boxes.size());
 	for (size_t i = 0; i < p_boxes.size(); ++i) {
-		if (is_usable(p_boxes[i])) {
+		if (is_valid(p_boxes[i])) {
 			build.push_back({ p_boxes[i], get_centre(p_boxes[i]), static_cast<uint32_t>(i) });
 		}
 	}

@@ -6,14 +6,15 @@
 
 namespace gnomon {
 
-/// Counts over all casters of a light's shadow.
+/// Number of triangles and edges of all shadow casters of a light.
 struct CasterCounts {
 	uint64_t triangle_count = 0;
 	uint64_t edge_count = 0;
 };
 
-/// Counts the casters. p_light: only those on the light's layers, cut-outs with the level of detail
-/// for this light; null: all casters, cut-outs with the scene's usual level.
+/// Counts the triangles and edges of the shadow casters. p_light: counts only casters on the
+/// light's layers, with the level of detail of cut-out (alpha-masked) meshes for this light. Null:
+/// counts all casters, with the scene's default level of detail.
 CasterCounts count_casters(const SceneSnapshot &p_scene, const LightSnapshot *p_light);
 
 } // namespace gnomon

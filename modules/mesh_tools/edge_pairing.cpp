@@ -10,8 +10,8 @@ namespace gnomon {
 
 namespace {
 
-/// Two directions that complete the edge's direction to a right-handed frame.
-void find_frame(const glm::dvec3 &p_direction, glm::dvec3 &r_x, glm::dvec3 &r_y) {
+/// Computes two unit vectors that form a right-handed orthogonal frame with p_direction.
+void compute_frame(const glm::dvec3 &p_direction, glm::dvec3 &r_x, glm::dvec3 &r_y) {
 	const glm::dvec3 size = glm::abs(p_direction);
 	glm::dvec3 helper(0.0);
 	helper[size.x <= size.y && size.x <= size.z ? 0 : (size.y <= size.z ? 1 : 2)] = 1.0;
@@ -22,10 +22,10 @@ void find_frame(const glm::dvec3 &p_direction, glm::dvec3 &r_x, glm::dvec3 &r_y)
 } // namespace
 
 std::vector<FacePair> pair_faces_at_edge(
-		const glm::dvec3 &p_edge_direction, std::span<const FaceAtEdge> p_faces) {
+		const glm::dvec3 &p_edge_direction, std::span<const EdgeFace> p_faces) {
 	glm::dvec3 x;
 	glm::dvec3 y;
-	find_frame(p_edge_direction, x, y);
+	compute_frame(p_edge_direction, x, y);
 	std::vector<double> angles_rad(p_faces.size());
 	for (size_t i = 0; i < p_faces.size(); ++i) {
 		angles_rad[i] = std::atan2(
@@ -37,16 +37,18 @@ std::vector<FacePair> pair_faces_at_edge(
 		if (angles_rad[p_left] != angles_rad[p_right]) {
 			return angles_rad[p_left] < angles_rad[p_right];
 		}
-		// Two sides of one double-sided face are a wedge of no thickness, not one all around it.
+		// Faces at the same angle, such as the two sides of a double-sided face, enclose an empty
+		// wedge and not the full circle.
 		if (p_faces[p_left].runs_along != p_faces[p_right].runs_along) {
 			return !p_faces[p_left].runs_along;
 		}
 		return p_left < p_right;
 	});
 
-	// A face that runs along the edge looks toward growing angles, so the inside is below its
-	// angle; for the others it is above. Hence an opening and a closing bracket, on a circle:
-	// the second round closes the wedges that contain the angle of +-pi.
+	// The front of a face that runs along the edge points toward larger angles, so the inside is at
+	// smaller angles; for the other faces it is at larger angles. The others are therefore opening
+	// brackets and the faces that run along the edge are closing brackets, on a circle: the second
+	// round closes the wedges that contain the angle +-pi.
 	std::vector<FacePair> pairs;
 	std::vector<bool> is_paired(p_faces.size(), false);
 	std::vector<uint32_t> open;
@@ -67,20 +69,20 @@ std::vector<FacePair> pair_faces_at_edge(
 			}
 		}
 	}
-	uint32_t waiting = NO_FACE;
+	uint32_t unpaired_face = NO_FACE;
 	for (const uint32_t face : order) {
 		if (is_paired[face]) {
 			continue;
 		}
-		if (waiting == NO_FACE) {
-			waiting = face;
+		if (unpaired_face == NO_FACE) {
+			unpaired_face = face;
 		} else {
-			pairs.push_back({ waiting, face });
-			waiting = NO_FACE;
+			pairs.push_back({ unpaired_face, face });
+			unpaired_face = NO_FACE;
 		}
 	}
-	if (waiting != NO_FACE) {
-		pairs.push_back({ waiting, NO_FACE });
+	if (unpaired_face != NO_FACE) {
+		pairs.push_back({ unpaired_face, NO_FACE });
 	}
 	return pairs;
 }

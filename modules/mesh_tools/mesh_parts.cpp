@@ -7,7 +7,8 @@ namespace gnomon {
 
 namespace {
 
-/// A root has the least index of its set, so that every parent comes before its children.
+/// Disjoint sets of faces (union-find). The root of a set is its lowest index, so that every parent
+/// comes before its children.
 class FaceSets {
 public:
 	explicit FaceSets(uint32_t p_face_count) : parents(p_face_count) {
@@ -20,8 +21,9 @@ public:
 		parents[std::max(root0, root1)] = std::min(root0, root1);
 	}
 
-	/// Turns the sets into indices that ascend with the first face of each. Returns their number.
-	uint32_t number(std::vector<uint32_t> &r_indices) const {
+	/// Assigns indices to the sets, in the order of their first face, and stores for each face the
+	/// index of its set. Returns the count of sets.
+	uint32_t assign_indices(std::vector<uint32_t> &r_indices) const {
 		uint32_t count = 0;
 		r_indices.resize(parents.size());
 		for (uint32_t face = 0; face < parents.size(); ++face) {
@@ -51,7 +53,7 @@ void find_mesh_parts(MeshTopology &r_topology) {
 			sets.join(edge.face0, edge.face1);
 		}
 	}
-	r_topology.parts.assign(sets.number(r_topology.part_indices), MeshPart());
+	r_topology.parts.assign(sets.assign_indices(r_topology.part_indices), MeshPart());
 	for (const MeshEdge &edge : r_topology.edges) {
 		if (edge.face1 == NO_FACE || edge.is_inconsistent) {
 			r_topology.parts[r_topology.part_indices[edge.face0]].is_closed = false;
@@ -64,8 +66,8 @@ void find_mesh_parts(MeshTopology &r_topology) {
 			const uint32_t vertex = r_topology.triangles[3 * size_t(face) + p_corner];
 			return glm::dvec3(r_topology.welded_positions_node[vertex]);
 		};
-		// Relative to a point of the part, because far from the origin the terms would cancel
-		// digits.
+		// Relative to a point of the part: far from the origin, the terms would lose precision by
+		// cancellation.
 		glm::dvec3 &origin = origins[r_topology.part_indices[face]];
 		if (part.face_count++ == 0) {
 			origin = get_corner(0);

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// Fills MeshTopology::parts and part_indices, and the counts of parts, from faces and edges.
+/// Computes MeshTopology::parts, part_indices and the counts of parts from the faces and edges.
 void find_mesh_parts(MeshTopology &r_topology);
 
 } // namespace gnomon

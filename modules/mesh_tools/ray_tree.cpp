@@ -23,8 +23,8 @@ std::vector<Bounds> compute_triangle_bounds(const Mesh &p_mesh) {
 	return bounds;
 }
 
-/// Moeller and Trumbore 1997, from both sides. Along an edge either triangle may be met, or, in the
-/// last bit, none.
+/// Intersects a ray with both sides of a triangle (Moeller and Trumbore 1997) and returns t. On an
+/// edge shared by two triangles, either of them may be hit or, because of rounding, neither.
 std::optional<double> find_triangle_hit(const Mesh &p_mesh, uint32_t p_triangle,
 		const glm::dvec3 &p_origin, const glm::dvec3 &p_direction) {
 	const glm::dvec3 corner = get_corner(p_mesh, p_triangle, 0);
@@ -75,16 +75,16 @@ std::optional<double> RayTree::find_nearest(
 		return std::nullopt;
 	}
 	double nearest = std::numeric_limits<double>::infinity();
-	std::vector<uint32_t> waiting = { 0 };
-	while (!waiting.empty()) {
-		const Bvh::Node &node = tree.get_nodes()[waiting.back()];
-		waiting.pop_back();
+	std::vector<uint32_t> stack = { 0 };
+	while (!stack.empty()) {
+		const Bvh::Node &node = tree.get_nodes()[stack.back()];
+		stack.pop_back();
 		if (!find_box_entry(node.bounds, p_origin_node, p_direction_node, p_begin, nearest)) {
 			continue;
 		}
 		if (node.item_count == 0) {
-			waiting.push_back(node.first);
-			waiting.push_back(node.first + 1);
+			stack.push_back(node.first);
+			stack.push_back(node.first + 1);
 			continue;
 		}
 		for (uint32_t item = 0; item < node.item_count; ++item) {

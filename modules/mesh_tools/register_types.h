@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: the module has only pure functions that techniques call.
+// The module registers no types: it has only functions and classes that other modules call.

@@ -14,11 +14,12 @@ bool is_finite(const glm::dvec4 &p_value) {
 
 } // namespace
 
-std::vector<uint8_t> compute_facing(
-		const MeshTopology &p_topology, const glm::dvec4 &p_light_node) {
+std::vector<uint8_t> compute_light_facing(
+		const MeshTopology &p_topology, const glm::dvec4 &p_light_position_node) {
 	std::vector<uint8_t> is_facing(p_topology.get_face_count(), 0);
-	// A negative w names the same point as the negated vector.
-	const glm::dvec4 light = p_light_node.w < 0 ? -p_light_node : p_light_node;
+	// The negated vector is the same point, with a positive w.
+	const glm::dvec4 light =
+			p_light_position_node.w < 0 ? -p_light_position_node : p_light_position_node;
 	for (size_t face = 0; face < is_facing.size(); ++face) {
 		const FacePlane &plane = p_topology.planes[face];
 		const double side = glm::dot(glm::dvec3(plane.normal), glm::dvec3(light)) +
@@ -37,13 +38,14 @@ int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is
 	return weight;
 }
 
-Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_light_node) {
+Silhouette build_silhouette(
+		const MeshTopology &p_topology, const glm::dvec4 &p_light_position_node) {
 	Silhouette silhouette;
-	if (!is_finite(p_light_node)) {
+	if (!is_finite(p_light_position_node)) {
 		silhouette.is_facing.assign(p_topology.get_face_count(), 0);
 		return silhouette;
 	}
-	silhouette.is_facing = compute_facing(p_topology, p_light_node);
+	silhouette.is_facing = compute_light_facing(p_topology, p_light_position_node);
 	for (uint32_t i = 0; i < p_topology.edges.size(); ++i) {
 		const MeshEdge &edge = p_topology.edges[i];
 		const int sum = compute_edge_weight(edge, silhouette.is_facing);

@@ -9,11 +9,11 @@
 
 namespace gnomon {
 
-/// An edge between a light-facing and a back-facing side of the surface. In a part that is not
-/// closed this can be a boundary edge, or one whose two faces have opposite winding.
+/// An edge between a light-facing and a back-facing face. In a part that is not closed it can also
+/// be a boundary edge, or an edge whose two faces have opposite winding.
 struct SilhouetteEdge {
 	uint32_t edge_index = 0; // into MeshTopology::edges
-	/// Welded vertices, in the direction in which the surface winds on its light-facing side.
+	/// Welded vertices, in the direction in which the light-facing face runs along the edge.
 	uint32_t from = 0;
 	uint32_t to = 0;
 	/// Multiplicity of the edge in a shadow volume: 1, or 2 for an interior edge of a double-sided
@@ -26,20 +26,23 @@ struct Silhouette {
 	std::vector<SilhouetteEdge> edges; // in the order of MeshTopology::edges
 };
 
-/// Returns one entry per face. p_light_node: xyz/w is a point of node space; w = 0: the direction
-/// xyz towards a light at infinity. A light in the face's plane, and any face without area, gives
-/// 0.
-std::vector<uint8_t> compute_facing(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
+/// Returns for each face 1 if the light is strictly in front of it, otherwise 0.
+/// p_light_position_node: homogeneous position in node space; w = 0 is a light at infinity in the
+/// direction xyz. A light in the face's plane, and any face without area, gives 0.
+std::vector<uint8_t> compute_light_facing(
+		const MeshTopology &p_topology, const glm::dvec4 &p_light_position_node);
 
-/// Sum over the edge's faces of (+1 if the face winds a -> b, else -1) x (+1 if it faces the light,
-/// else -1): 0, +-1 or +-2; closed parts halve it. The sign is that of the direction in which
-/// the silhouette runs: above 0 a -> b, below 0 b -> a.
+/// Returns the sum over the edge's faces of (+1 if the face winds a -> b, else -1) x (+1 if it
+/// faces the light, else -1): 0, +-1 or +-2. For closed parts, build_silhouette halves it. The sign
+/// gives the direction of the silhouette edge: a -> b if positive, b -> a if negative.
 int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing);
 
-/// Returns all edges with a nonzero weight. At every vertex the incoming and outgoing weights are
-/// equal, so that they form closed loops. Parts that are not closed are double-sided: each of their
-/// faces counts as light-facing. The directions apply to node space: a mirroring transform swaps
-/// from and to in the world. A light that is not finite has no silhouette and faces nothing.
-Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
+/// Returns all edges with a nonzero weight. The incoming and outgoing weights of every vertex are
+/// equal, so the edges form closed loops. Parts that are not closed are double-sided: each of their
+/// faces counts as light-facing. The directions apply to node space; a mirroring transform swaps
+/// from and to in the world. For a light that is not finite there are no edges and no face is
+/// light-facing.
+Silhouette build_silhouette(
+		const MeshTopology &p_topology, const glm::dvec4 &p_light_position_node);
 
 } // namespace gnomon

@@ -20,14 +20,17 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t NO_HALF_EDGE = 0xffffffffu;
-/// Above what double rounds in the cross product of two float differences, below any real sliver.
+/// Triangles with a smaller sine between two sides have no area. It exceeds the rounding error of
+/// the cross product in double, and is below that of any real sliver.
 constexpr double ZERO_AREA_SINE = 8 * DBL_EPSILON;
-/// Corners of a flat quad that was rotated in float miss its plane by about this angle.
+/// Largest sine between coplanar faces: about the error of a flat quad that was rotated in float.
 constexpr double COPLANAR_SINE = 1e-6;
-/// A sum of normals this short, relative to its terms, has a direction made of rounding errors.
+/// A sum of normals that is shorter than this, relative to the sum of their lengths, is mostly
+/// rounding error and has no useful direction.
 constexpr double ZERO_NORMAL_RATIO = 1e-6;
 
-/// Half edge h runs along face h / 3 from its corner h % 3 to the next corner.
+/// Gives access to the half edges of all faces. Half edge h runs along face h / 3 from its corner
+/// h % 3 to the next corner.
 struct HalfEdges {
 	const std::vector<uint32_t> &triangles;
 
@@ -56,7 +59,8 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 				position_count);
 	}
 	r_topology.welded_from_position.assign(position_count, NO_VERTEX);
-	// Compared by bits, so that NaN equals itself, and by the hash of what moves the vertex.
+	// Vertices are compared by the bits of their position, so that NaN equals itself, and by the
+	// hash of their joints, weights and morph targets.
 	using Bits = std::array<uint32_t, 5>;
 	const MeshRig *rig = p_mesh.attributes.rig.get();
 	const auto hash = [](const Bits &p_bits) { return compute_value_hash(p_bits, 1); };
@@ -95,7 +99,7 @@ void collect_triangles(const Mesh &p_mesh, MeshTopology &r_topology) {
 	}
 }
 
-/// The cross product of two sides of a triangle; zero where rounding is all of it.
+/// Returns the cross product of two sides of a triangle; zero if it is only rounding error.
 glm::dvec3 compute_cross(const glm::dvec3 &p_0, const glm::dvec3 &p_1, const glm::dvec3 &p_2) {
 	const glm::dvec3 cross = glm::cross(p_1 - p_0, p_2 - p_0);
 	const bool has_area =
@@ -103,15 +107,15 @@ glm::dvec3 compute_cross(const glm::dvec3 &p_0, const glm::dvec3 &p_1, const glm
 	return has_area ? cross : glm::dvec3(0.0);
 }
 
-/// Computes that cross product for a triangle of a mesh.
+/// Like compute_cross above, for a triangle of a mesh.
 glm::dvec3 compute_cross(const Mesh &p_mesh, uint32_t p_triangle) {
 	const uint32_t *corner = &p_mesh.indices[3 * size_t(p_triangle)];
 	return compute_cross(p_mesh.positions_node[corner[0]], p_mesh.positions_node[corner[1]],
 			p_mesh.positions_node[corner[2]]);
 }
 
-/// Computes planes, vertex normals and volume. Returns the unit normals in double; zero without
-/// area.
+/// Computes planes, vertex normals and volume. Returns the unit face normals in double; zero for a
+/// face without area.
 std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topology) {
 	const size_t face_count = r_topology.source_triangles.size();
 	const size_t vertex_count = r_topology.welded_positions_node.size();
@@ -121,8 +125,9 @@ std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topo
 	std::vector<bool> is_used(vertex_count, false); // by a face, not only by a degenerate triangle
 	r_topology.planes.resize(face_count);
 	const std::shared_ptr<const Mesh> source = p_mesh.source.mesh.lock();
-	// Relative to a point of the mesh, because far from the origin the terms would cancel digits.
-	const glm::dvec3 centre =
+	// Relative to a point of the mesh: far from the origin, the volume's terms would lose precision
+	// by cancellation.
+	const glm::dvec3 reference_point =
 			vertex_count > 0 ? glm::dvec3(r_topology.welded_positions_node[0]) : glm::dvec3(0.0);
 	for (size_t face = 0; face < face_count; ++face) {
 		const uint32_t *corner = &r_topology.triangles[3 * face];
@@ -132,18 +137,18 @@ std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topo
 		const glm::dvec3 p2 = r_topology.welded_positions_node[corner[2]];
 		const glm::dvec3 cross = compute_cross(p0, p1, p2);
 		const double length = glm::length(cross);
-		r_topology.signed_volume_m3 += glm::dot(p0 - centre, cross) / 6;
+		r_topology.signed_volume_m3 += glm::dot(p0 - reference_point, cross) / 6;
 		r_topology.counts.zero_area_triangle_count += length > 0 ? 0 : 1;
-		const glm::dvec3 whole = source
+		const glm::dvec3 source_cross = source
 				? compute_cross(*source, p_mesh.source.triangles[r_topology.source_triangles[face]])
 				: cross;
-		if (!(glm::length(whole) > 0)) {
+		if (!(glm::length(source_cross) > 0)) {
 			continue;
 		}
-		unit_normals[face] = glm::normalize(whole);
+		unit_normals[face] = glm::normalize(source_cross);
 		FacePlane &plane = r_topology.planes[face];
 		plane.normal = glm::vec3(unit_normals[face]);
-		// From the rounded normal: the plane then fits the triangle itself best.
+		// Computed from the normal after rounding, so that the plane fits the triangle best.
 		plane.offset_m =
 				static_cast<float>(-glm::dot(glm::dvec3(plane.normal), (p0 + p1 + p2) / 3.0));
 		for (int k = 0; k < 3; ++k) {
@@ -163,15 +168,16 @@ std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topo
 	return unit_normals;
 }
 
-/// Half edges grouped by their lower vertex, sorted by the higher one within. A counting sort plus
-/// small sorts takes a fifth of the time of one large sort.
+/// Returns the half edges grouped by their lower vertex, and sorted by the higher vertex within
+/// each group. r_first_of_vertex: offset of each vertex's group, and the total number at the end.
+/// This counting sort with small sorts takes a fifth of the time of one large sort.
 std::vector<SortedHalfEdge> sort_half_edges(
 		const MeshTopology &p_topology, std::vector<uint32_t> &r_first_of_vertex) {
-	const HalfEdges halves{ p_topology.triangles };
+	const HalfEdges half_edges{ p_topology.triangles };
 	const uint32_t half_count = static_cast<uint32_t>(p_topology.triangles.size());
 	r_first_of_vertex.assign(p_topology.welded_positions_node.size() + 1, 0);
 	for (uint32_t half = 0; half < half_count; ++half) {
-		++r_first_of_vertex[std::min(halves.get_start(half), halves.get_end(half)) + 1];
+		++r_first_of_vertex[std::min(half_edges.get_start(half), half_edges.get_end(half)) + 1];
 	}
 	for (size_t i = 1; i < r_first_of_vertex.size(); ++i) {
 		r_first_of_vertex[i] += r_first_of_vertex[i - 1];
@@ -179,8 +185,8 @@ std::vector<SortedHalfEdge> sort_half_edges(
 	std::vector<SortedHalfEdge> sorted(half_count);
 	std::vector<uint32_t> next = r_first_of_vertex;
 	for (uint32_t half = 0; half < half_count; ++half) {
-		const uint32_t start = halves.get_start(half);
-		const uint32_t end = halves.get_end(half);
+		const uint32_t start = half_edges.get_start(half);
+		const uint32_t end = half_edges.get_end(half);
 		sorted[next[std::min(start, end)]++] = { std::max(start, end), half };
 	}
 	for (size_t i = 0; i + 1 < r_first_of_vertex.size(); ++i) {
@@ -189,8 +195,8 @@ std::vector<SortedHalfEdge> sort_half_edges(
 	return sorted;
 }
 
-/// Counts copies among the faces of one edge. Each triangle is checked on one edge only, the one
-/// without its highest vertex, so that no copy is counted twice.
+/// Counts the duplicates among the faces of an edge. Each triangle is checked only at its edge
+/// opposite to its highest vertex, so that no duplicate is counted twice.
 uint32_t count_duplicates(
 		const HalfEdges &p_halves, const SortedHalfEdge *p_group, uint32_t p_count) {
 	if (p_count < 2) {
@@ -219,11 +225,12 @@ public:
 	EdgeBuilder(const Mesh &p_mesh, MeshTopology &r_topology,
 			const std::vector<glm::dvec3> &p_unit_normals) :
 			mesh(p_mesh),
-			topology(r_topology), unit_normals(p_unit_normals), halves{ r_topology.triangles },
+			topology(r_topology), unit_normals(p_unit_normals), half_edges{ r_topology.triangles },
 			partners(r_topology.triangles.size(), NO_HALF_EDGE) {}
 
+	/// Adds the edges between two vertices. The group has all of their half edges.
 	void add_group(uint32_t p_low_vertex, const SortedHalfEdge *p_group, uint32_t p_count) {
-		topology.counts.duplicate_triangle_count += count_duplicates(halves, p_group, p_count);
+		topology.counts.duplicate_triangle_count += count_duplicates(half_edges, p_group, p_count);
 		if (p_count == 1) {
 			add_edge(p_group[0].half, NO_HALF_EDGE);
 		} else if (p_count == 2) {
@@ -238,8 +245,8 @@ public:
 		topology.adjacency_indices.resize(2 * partners.size());
 		for (uint32_t half = 0; half < partners.size(); ++half) {
 			const uint32_t other = partners[half] == NO_HALF_EDGE ? half : partners[half];
-			topology.adjacency_indices[2 * half] = halves.get_start(half);
-			topology.adjacency_indices[2 * half + 1] = halves.get_opposite(other);
+			topology.adjacency_indices[2 * half] = half_edges.get_start(half);
+			topology.adjacency_indices[2 * half + 1] = half_edges.get_opposite(other);
 		}
 	}
 
@@ -247,22 +254,22 @@ private:
 	const Mesh &mesh;
 	MeshTopology &topology;
 	const std::vector<glm::dvec3> &unit_normals;
-	HalfEdges halves;
+	HalfEdges half_edges;
 	std::vector<uint32_t> partners;
 
 	void add_edge(uint32_t p_half0, uint32_t p_half1) {
 		MeshEdge edge;
-		edge.a = halves.get_start(p_half0);
-		edge.b = halves.get_end(p_half0);
+		edge.a = half_edges.get_start(p_half0);
+		edge.b = half_edges.get_end(p_half0);
 		edge.face0 = p_half0 / 3;
 		if (p_half1 == NO_HALF_EDGE) {
 			++topology.counts.boundary_edge_count;
 		} else {
 			edge.face1 = p_half1 / 3;
-			edge.is_inconsistent = halves.get_start(p_half1) == edge.a;
+			edge.is_inconsistent = half_edges.get_start(p_half1) == edge.a;
 			topology.counts.inconsistent_edge_count += edge.is_inconsistent ? 1 : 0;
 			const glm::dvec3 normal1 = unit_normals[edge.face1];
-			edge.is_coplanar = stay_in_plane(edge) &&
+			edge.is_coplanar = stays_coplanar(edge) &&
 					are_coplanar(
 							unit_normals[edge.face0], edge.is_inconsistent ? -normal1 : normal1);
 			partners[p_half0] = p_half1;
@@ -271,8 +278,9 @@ private:
 		topology.edges.push_back(edge);
 	}
 
-	/// Returns false if a pose may bend the mesh at the edge, however flat it is at rest.
-	bool stay_in_plane(const MeshEdge &p_edge) const {
+	/// Returns false if a pose may bend the mesh at the edge, even if it is flat at rest. Triangles
+	/// cut out of the same source triangle always stay in one plane.
+	bool stays_coplanar(const MeshEdge &p_edge) const {
 		if (!topology.is_deformable) {
 			return true;
 		}
@@ -285,12 +293,13 @@ private:
 	void split_group(uint32_t p_low_vertex, const SortedHalfEdge *p_group, uint32_t p_count) {
 		const glm::dvec3 low = topology.welded_positions_node[p_low_vertex];
 		const glm::dvec3 high = topology.welded_positions_node[p_group[0].high_vertex];
-		std::vector<FaceAtEdge> faces(p_count);
+		std::vector<EdgeFace> faces(p_count);
 		for (uint32_t i = 0; i < p_count; ++i) {
 			const uint32_t half = p_group[i].half;
-			const glm::dvec3 opposite = topology.welded_positions_node[halves.get_opposite(half)];
+			const glm::dvec3 opposite =
+					topology.welded_positions_node[half_edges.get_opposite(half)];
 			faces[i].toward_face = opposite - low;
-			faces[i].runs_along = halves.get_start(half) == p_low_vertex;
+			faces[i].runs_along = half_edges.get_start(half) == p_low_vertex;
 		}
 		for (const FacePair &pair : pair_faces_at_edge(high - low, faces)) {
 			add_edge(p_group[pair.first].half,
@@ -301,7 +310,7 @@ private:
 
 } // namespace
 
-uint32_t MeshTopology::find_opposite(uint32_t p_face, uint32_t p_a, uint32_t p_b) const {
+uint32_t MeshTopology::find_opposite_vertex(uint32_t p_face, uint32_t p_a, uint32_t p_b) const {
 	const uint32_t *corners = &triangles[3 * size_t(p_face)];
 	for (int corner = 0; corner < 3; ++corner) {
 		if (corners[corner] != p_a && corners[corner] != p_b) {

@@ -16,7 +16,7 @@ struct CacheEntry {
 std::mutex cache_mutex;
 std::map<uint64_t, std::shared_ptr<CacheEntry>> cache; // by mesh id, which is never used twice
 
-/// The lock must be held.
+/// Removes the entries of freed meshes. The caller must hold cache_mutex.
 void erase_expired() {
 	std::erase_if(cache, [](const auto &p_item) { return p_item.second->mesh.expired(); });
 }
@@ -37,12 +37,12 @@ std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mes
 		if (!slot) {
 			slot = std::make_shared<CacheEntry>();
 			slot->mesh = p_mesh;
-			// A new mesh is a rare event, and so a good moment to drop the entries of freed meshes.
+			// New meshes are rare, so this search for freed meshes is not expensive.
 			erase_expired();
 		}
 		entry = slot;
 	}
-	// Outside the lock: a large mesh must not hold up the threads that need another.
+	// Outside the lock, so that building a large mesh does not block threads that need another one.
 	std::call_once(entry->once, [&] {
 		entry->topology = std::make_shared<const MeshTopology>(build_topology(*p_mesh));
 	});

@@ -10,8 +10,8 @@ namespace gnomon {
 double compute_triangle_distance(const glm::dvec3 &p_point, const glm::dvec3 &p_a,
 		const glm::dvec3 &p_b, const glm::dvec3 &p_c);
 
-/// Returns whether a triangle of the mesh is nearer to the point, in world space, than the
-/// distance. It visits every triangle, but usually tests only its box: some milliseconds per
+/// Returns whether a triangle of the mesh is closer than p_distance (m) to the point, in world
+/// space. Visits every triangle, but usually tests only its bounds: takes some milliseconds per
 /// million triangles.
 bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node,
 		const glm::dvec3 &p_point_world, double p_distance);

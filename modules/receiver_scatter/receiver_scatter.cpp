@@ -18,9 +18,10 @@ const char ENABLED[] = "receiver_scatter_enabled";
 const char METHOD[] = "receiver_scatter_method";
 const char SAMPLES[] = "receiver_scatter_samples";
 const char REFUSAL[] = "receiver_scatter_refusal";
-const std::vector<std::string> METHODS = { "auto", "metres", "pixels" }; // SCATTER_METHOD_*
-const std::vector<std::string> REFUSALS = { "auto", "on", "off" };		 // SCATTER_REFUSAL_*
+const std::vector<std::string> METHODS = { "auto", "metres", "pixels" }; // by SCATTER_METHOD_*
+const std::vector<std::string> REFUSALS = { "auto", "on", "off" };		 // by SCATTER_REFUSAL_*
 
+/// Returns the index of an enum property's value among its choices.
 uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 		const std::vector<std::string> &p_choices) {
 	const std::string &value = std::get<std::string>(p_properties.at(p_name));
@@ -28,24 +29,24 @@ uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 			std::find(p_choices.begin(), p_choices.end(), value) - p_choices.begin());
 }
 
-enum class Scatter { ANY, IN_METRES };
+enum class ScatterKind { ANY, IN_METRES };
 
-/// IN_METRES: one with a scatter distance.
-bool is_translucent(const Material &p_material, Scatter p_which) {
+/// Whether the material scatters. IN_METRES: counts only a material with a scatter distance.
+bool is_translucent(const Material &p_material, ScatterKind p_kind) {
 	return clamp_scatter(p_material.scatter) > 0.0f &&
-			(p_which == Scatter::ANY || p_material.scatter_distance_m > 0.0f);
+			(p_kind == ScatterKind::ANY || p_material.scatter_distance_m > 0.0f);
 }
 
-/// Is there a translucent surface that the camera may see in the light?
-bool has_scatter(const ShadowTechnique::Inputs &p_inputs, Scatter p_which) {
+/// Whether the light reaches a translucent surface that the camera may see.
+bool has_scatter(const ShadowTechnique::Inputs &p_inputs, ScatterKind p_kind) {
 	return std::any_of(p_inputs.lit_receivers.begin(), p_inputs.lit_receivers.end(),
 			[&](const VisibleReceiver &p_receiver) {
 				return is_translucent(
-						*p_inputs.scene.instances[p_receiver.instance_index].material, p_which);
+						*p_inputs.scene.instances[p_receiver.instance_index].material, p_kind);
 			});
 }
 
-/// Four words of each pixel.
+/// Packs depth, normal, material key and mask of each pixel into four 32-bit words (pack.comp).
 RGTexture add_pack_pass(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, RGTexture p_mask) {
 	const RGTexture pixels = r_graph.create_texture({ "scatter pixels", Format::RGBA32_UINT,
@@ -77,12 +78,13 @@ void ReceiverScatter::get_light_properties(PropertyList &r_list) const {
 			"pixels = 16 times scatter, auto = metres where there is a scatter_distance.",
 			"", GROUP });
 	r_list.add({ SAMPLES, PropertyType::INT, int64_t(48), "8,1024,8",
-			"Samples per pixel; in pixels that many at scatter 0.5, and twice at 1. Few make "
-			"noise, many cost time.",
+			"Samples per pixel; with the method pixels at scatter 0.5, and twice as many at 1. "
+			"Few make noise, many cost time.",
 			"", GROUP });
 	r_list.add({ REFUSAL, PropertyType::ENUM, std::string("auto"), "auto,on,off",
 			"Whether samples on other surfaces are skipped, so that light does not leak between "
-			"them; auto = in metres only, as the paper's pixels take all.",
+			"them; auto = with the method metres only, because the paper's method, pixels, uses "
+			"all samples.",
 			"", GROUP });
 }
 
@@ -102,7 +104,7 @@ bool ReceiverScatter::may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size
 	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
 	return std::any_of(p_scene.instances.begin(), p_scene.instances.end(),
 			[&](const InstanceSnapshot &p_instance) {
-				return is_translucent(*p_instance.material, Scatter::ANY) &&
+				return is_translucent(*p_instance.material, ScatterKind::ANY) &&
 						camera_view.may_see(p_instance.bounds_world);
 			});
 }
@@ -117,17 +119,17 @@ bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		r_plan.skip("scatter", "the host draws no materials");
 		return false;
 	}
-	if (p_inputs.may_skip && !has_scatter(p_inputs, Scatter::ANY)) {
+	if (p_inputs.may_skip && !has_scatter(p_inputs, ScatterKind::ANY)) {
 		r_plan.skip("scatter", "it lights no visible surface that scatters");
 		return false;
 	}
-	may_average =
+	needs_average =
 			std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_METRES] ||
 			!p_inputs.may_skip ||
 			(std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_AUTO] &&
-					has_scatter(p_inputs, Scatter::IN_METRES));
+					has_scatter(p_inputs, ScatterKind::IN_METRES));
 	r_plan.run("scatter");
-	if (!may_average) {
+	if (!needs_average) {
 		r_plan.skip("scatter average", "it lights no visible surface that scatters in metres");
 	}
 	return true;
@@ -140,13 +142,14 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 	push.sector_count = compute_sector_count(push.sample_count);
 	push.method = find_choice(p_properties, METHOD, METHODS);
 	push.refusal = find_choice(p_properties, REFUSAL, REFUSALS);
-	if (points_count != push.sample_count) {
-		points = make_scatter_samples(spread, push.sample_count);
-		points_count = push.sample_count;
+	if (samples_per_set != push.sample_count) {
+		sample_offsets = make_scatter_samples(spread, push.sample_count);
+		samples_per_set = push.sample_count;
 	}
-	const RGBuffer samples = r_graph.upload(
-			"scatter samples", BufferUsage::STORAGE, bytes_of(std::span<const glm::vec2>(points)));
+	const RGBuffer samples = r_graph.upload("scatter samples", BufferUsage::STORAGE,
+			bytes_of(std::span<const glm::vec2>(sample_offsets)));
 	const RGTexture pixels = add_pack_pass(r_graph, p_inputs, p_mask);
+	// Replaces p_mask by the pass's result.
 	const auto add_pass = [&](const char *p_name, const char *p_shader,
 								  std::vector<PassBinding> p_own_bindings) {
 		TextureDesc desc = r_graph.get_desc(p_mask);
@@ -169,7 +172,7 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 	};
 	add_pass("scatter", "receiver_scatter/spread.comp",
 			{ PassBinding::read(SCATTER_BINDING_SAMPLES, samples) });
-	if (may_average) {
+	if (needs_average) {
 		add_pass("scatter average", "receiver_scatter/average.comp", {});
 	}
 	return p_mask;

@@ -5,14 +5,15 @@
 
 namespace gnomon {
 
-/// Spreads a mask over translucent receivers, as light spreads below their surfaces: the mean of
-/// the mask about each pixel, for materials with s > 0. Two methods: the source's disc in pixels
-/// (Wang, Xiao 2015), and one in metres whose samples follow the dipole of Jensen et al. 2001.
+/// Blurs a visibility mask on translucent receivers, because light spreads below their surfaces:
+/// averages the mask around each pixel whose material has a scatter coefficient s above 0. Two
+/// methods: the disc of Wang and Xiao 2015, whose radius is in pixels, and samples in metres that
+/// follow the dipole of Jensen et al. 2001.
 class ReceiverScatter : public MaskFilter {
 public:
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_quality_settings(std::vector<QualitySetting> &r_settings) const override;
-	/// Is there a translucent surface that the camera may see, of whichever method?
+	/// Returns true if the camera may see a translucent surface, for either of the methods.
 	bool may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) const override;
 	bool plan(const ShadowTechnique::Inputs &p_inputs, const PropertyValues &p_properties,
 			TechniquePlan &r_plan) override;
@@ -22,9 +23,9 @@ public:
 
 private:
 	const DipoleSpread spread;
-	std::vector<glm::vec2> points; // for points_count samples, see make_scatter_samples
-	uint32_t points_count = 0;
-	bool may_average = true; // of the light that is planned
+	std::vector<glm::vec2> sample_offsets; // in radii, see make_scatter_samples
+	uint32_t samples_per_set = 0;		   // in `sample_offsets`
+	bool needs_average = true; // whether the light that plan() saw last needs the averaging pass
 };
 
 } // namespace gnomon

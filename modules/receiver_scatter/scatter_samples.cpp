@@ -11,10 +11,10 @@ namespace {
 
 constexpr double GOLDEN_ANGLE_RAD = 2.399963229728653;
 constexpr double TWO_PI = 6.283185307179586;
-constexpr uint32_t RINGS_OF_HALF = 8; // of s = 0.5
+constexpr uint32_t RINGS_AT_HALF_SCATTER = 8; // rings of the disc at s = 0.5
 
-/// Index with its bits turned round, so that sets of like number differ much. p_count: a power
-/// of 2.
+/// Reverses the bits of an index below p_count, a power of 2, so that sets with close indices use
+/// distant substrata.
 constexpr uint32_t reverse_bits(uint32_t p_index, uint32_t p_count) {
 	uint32_t reversed = 0;
 	for (uint32_t bit = 1; bit < p_count; bit *= 2) {
@@ -26,7 +26,7 @@ constexpr uint32_t reverse_bits(uint32_t p_index, uint32_t p_count) {
 } // namespace
 
 uint32_t compute_sector_count(uint32_t p_sample_count) {
-	return std::max(1u, (p_sample_count + RINGS_OF_HALF / 2) / RINGS_OF_HALF);
+	return std::max(1u, (p_sample_count + RINGS_AT_HALF_SCATTER / 2) / RINGS_AT_HALF_SCATTER);
 }
 
 std::vector<glm::vec2> make_scatter_samples(
@@ -34,11 +34,12 @@ std::vector<glm::vec2> make_scatter_samples(
 	std::vector<glm::vec2> samples;
 	for (const uint32_t set_count : { 1u, 4u, 16u }) {
 		for (uint32_t set = 0; set < set_count; ++set) {
-			const double part = (reverse_bits(set, set_count) + 0.5) / set_count;
+			const double stratum_offset = (reverse_bits(set, set_count) + 0.5) / set_count;
 			for (uint32_t index = 0; index < p_sample_count; ++index) {
-				const float share = static_cast<float>((index + part) / p_sample_count);
+				const float fraction =
+						static_cast<float>((index + stratum_offset) / p_sample_count);
 				const double angle_rad = index * GOLDEN_ANGLE_RAD + set * TWO_PI / set_count;
-				samples.push_back(p_spread.compute_distance(share) *
+				samples.push_back(p_spread.compute_distance(fraction) *
 						glm::vec2(std::cos(angle_rad), std::sin(angle_rad)));
 			}
 		}

@@ -9,16 +9,17 @@ namespace gnomon {
 
 class SurfaceSpread;
 
-/// How many sectors the source's disc has with p_sample_count samples: samples / 8, rounded, as its
-/// disc for scatter s = 0.5 has 8 rings. 48 samples give 6 sectors, 120 give the 15 of its figure 4
-/// (Wang, Xiao 2015, section 1.2). At least 1.
+/// Returns the number of sectors of the sampling disc of Wang and Xiao 2015 (section 1.2):
+/// p_sample_count / 8, rounded, at least 1, because the disc has 8 rings at s = 0.5. 48 samples per
+/// pixel give 6 sectors; 120 give 15, as in figure 4 of the paper.
 uint32_t compute_sector_count(uint32_t p_sample_count);
 
-/// Points of equal weight about a receiver, in radii, distributed as the spread: a group of 1, one
-/// of 4 and one of 16 sets, one after another, of p_sample_count points each. A set is even by
-/// itself: point i takes the i-th share of the light, golden angles apart. So is a group of n
-/// sets: set k takes one of n parts of every share (k with its bits reversed) and is turned by k /
-/// n of the circle.
+/// Returns sample offsets around a receiver, in radii, of equal weight and distributed as the
+/// spread: a group of 1 set, one of 4 and one of 16 sets, one after another, with p_sample_count
+/// samples per set. Each set is stratified: sample i is in the i-th of p_sample_count strata, which
+/// are equal fractions of the light, at i times the golden angle. Each group of n sets is
+/// stratified as a whole: every stratum is split into n substrata, set k uses the k-th of them in
+/// bit-reversed order, and is rotated by k / n of the circle.
 std::vector<glm::vec2> make_scatter_samples(const SurfaceSpread &p_spread, uint32_t p_sample_count);
 
 } // namespace gnomon

@@ -19,8 +19,8 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 	for (const Use &use : passes[p_pass_index].uses) {
 		Resource &resource = resources[use.resource];
 		if (use.access == Access::HOST_READ || use.access == Access::HOST_WRITE) {
-			// The submission's end makes device writes visible to the host, and a submission's
-			// begin the host's writes to the device.
+			// No barrier is needed: the end of a submission makes the GPU's writes visible to the
+			// host, and its begin makes the host's writes visible to the GPU.
 			resource.last_access = use.access;
 			continue;
 		}
@@ -35,7 +35,8 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 					: Access::NONE;
 			barrier.earlier_users = resource.earlier_users;
 		}
-		// Each change of access gets a barrier; they chain, so that the last one waits for all.
+		// Each change of access gets a barrier. The barriers form a chain, so that the last one
+		// waits for all.
 		const bool is_hazard = is_write(barrier.before) || is_write(barrier.after);
 		if (is_hazard || barrier.before != barrier.after) {
 			r_barriers.push_back(barrier);
@@ -44,7 +45,7 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 	}
 }
 
-void RenderGraph::rest_imported(std::vector<Barrier> &r_barriers) {
+void RenderGraph::transition_imported(std::vector<Barrier> &r_barriers) {
 	for (Resource &resource : resources) {
 		const bool is_unused = resource.first_pass == ~0u;
 		if (!resource.is_imported || !resource.is_texture || is_unused || resource.acquire) {
@@ -106,7 +107,7 @@ void RenderGraph::execute(Mode p_mode) {
 	try {
 		run_passes(p_mode);
 	} catch (...) {
-		device.abandon_commands(); // what was recorded so far must not meet the next frame
+		device.abandon_commands(); // the next frame must not contain these commands
 		throw;
 	}
 }
@@ -145,7 +146,7 @@ void RenderGraph::run_passes(Mode p_mode) {
 		if (window_image) {
 			const std::optional<TextureRID> image = window_image->acquire();
 			if (!image) {
-				continue; // minimised
+				continue; // the window has no image now, for example because it is minimised
 			}
 			window_image->texture = *image;
 		}
@@ -170,7 +171,7 @@ void RenderGraph::run_passes(Mode p_mode) {
 		}
 	}
 	barriers.clear();
-	rest_imported(barriers);
+	transition_imported(barriers);
 	if (!barriers.empty() && !commands) {
 		commands = &device.begin_commands();
 	}

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: the renderer makes its graphs itself.
+// Nothing to register: the renderer creates its graphs directly.

@@ -113,7 +113,7 @@ std::vector<std::string> RenderGraph::get_culled_passes() const {
 void RenderGraph::cull() {
 	std::vector<bool> is_needed(resources.size());
 	for (size_t index = 0; index < resources.size(); ++index) {
-		// Imported resources outlive the frame, so that whoever writes them has a reader.
+		// Imported resources outlive the frame, so that passes that write them are needed.
 		is_needed[index] = resources[index].is_imported;
 	}
 	for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {

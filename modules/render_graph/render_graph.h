@@ -24,7 +24,8 @@ struct RGBuffer : RGResource {};
 class RenderGraph;
 class TransientPool;
 
-/// Passed to a pass's function: the command list, and the resources behind the graph's handles.
+/// Passed to the function that records a pass: the command list, and access to the resources of the
+/// graph's handles.
 class PassContext {
 public:
 	CommandList &commands;
@@ -40,7 +41,8 @@ private:
 	const RenderGraph &graph;
 };
 
-/// Passed to a host pass: its buffers as mapped memory, after the GPU has finished its work.
+/// Passed to the function of a host pass: access to its buffers as mapped memory. The GPU has
+/// finished all earlier passes.
 class HostContext {
 public:
 	uint8_t *get_mapped(RGBuffer p_buffer) const;
@@ -51,8 +53,9 @@ private:
 	const RenderGraph &graph;
 };
 
-/// Time of one pass. gpu_ms is the time between two timestamps; wall_ms is what the CPU's clock saw
-/// from recording to the end of the pass, known only when passes ran one by one.
+/// Time of one pass. gpu_ms is the time between two GPU timestamps. wall_ms is the wall time from
+/// the start of recording to the end of the pass; it is measured only for host passes and with
+/// Mode::ONE_BY_ONE.
 struct PassTiming {
 	std::string name;
 	double gpu_ms = 0;
@@ -60,27 +63,31 @@ struct PassTiming {
 	bool is_on_host = false; // a host pass: its cost is wall_ms, its gpu_ms is 0
 };
 
-/// Declares one pass: what it reads, what it writes, then the function that records it.
+/// Declares one pass: first what it reads and writes, then the function that records it.
 class PassBuilder {
 public:
-	/// Shader reads, vertex and index buffers, indirect arguments, uniforms, copies.
+	/// Declares a read: by shaders, as vertex or index buffer, indirect arguments or uniforms, or
+	/// by copies.
 	PassBuilder &reads(RGResource p_resource, Access p_access);
-	/// Storage images and buffers, copies. FRESH: the pass writes every texel that is read later,
-	/// and earlier content is discarded. UPDATE: earlier content is preserved.
+	/// Declares a write: to a storage texture or buffer, or by copies. FRESH: the pass writes every
+	/// texel that is read later, and earlier content is discarded. UPDATE: earlier content is
+	/// preserved.
 	enum class Content { FRESH, UPDATE };
 	PassBuilder &writes(RGResource p_resource, Access p_access, Content p_content = Content::FRESH);
-	/// Attachments: the graph begins and ends the rendering around the pass's function.
+	/// Declares an attachment. The graph begins and ends the rendering around the pass's function.
 	PassBuilder &color(RGTexture p_texture, LoadOp p_load = LoadOp::CLEAR,
 			glm::vec4 p_clear = glm::vec4(0.0f), uint32_t p_layer = 0);
 	PassBuilder &depth(
 			RGTexture p_texture, LoadOp p_load, float p_clear = 0.0f, uint32_t p_layer = 0);
 	/// Renders without attachments, at a given size: for fragment shaders that only store.
 	PassBuilder &without_targets(glm::uvec2 p_size_px);
-	/// Keeps the pass even if nothing reads its output.
+	/// Prevents culling of the pass, even if nothing reads its output.
 	PassBuilder &keep();
+	/// Sets the function that records the pass.
 	void execute(std::function<void(PassContext &)> p_record);
-	/// Runs on the CPU: everything before it is submitted and waited for. Its buffers are READBACK
-	/// (HOST_READ) or UPLOAD (HOST_WRITE) ones.
+	/// Makes it a host pass: p_run is called on the CPU after all earlier passes have been
+	/// submitted and have finished. It uses only READBACK buffers (HOST_READ) and UPLOAD buffers
+	/// (HOST_WRITE).
 	void execute_on_host(std::function<void(HostContext &)> p_run);
 
 	PassBuilder(RenderGraph &p_graph, uint32_t p_pass_index) :
@@ -91,11 +98,11 @@ private:
 	uint32_t pass_index;
 };
 
-/// The passes of one frame, in the order in which they were added. Passes declare reads and
-/// writes; the graph culls passes whose results are unused, gives transient textures memory
-/// that they share when they do not live at the same time, and puts the barriers between passes.
+/// The passes of one frame, in the order in which they were added. Passes declare reads and writes;
+/// the graph culls passes whose results are unused, lets transient textures with disjoint lifetimes
+/// share memory, and records the barriers between passes.
 ///
-/// Recreated each frame; what can be reused (memory) is cached in the TransientPool.
+/// A graph is created for each frame. Its memory is cached in the TransientPool.
 class RenderGraph {
 public:
 	RenderGraph(RenderingDevice &p_device, TransientPool &p_pool);
@@ -108,24 +115,25 @@ public:
 	/// Creates a buffer with these bytes; for constants and small lists of this frame.
 	RGBuffer upload(
 			const std::string &p_name, BufferUsage p_usage, std::span<const uint8_t> p_bytes);
-	/// For storage blocks of std140 layout, or for uniform blocks. Mesa's lavapipe 22.3 compiles a
-	/// shader again for each value of a uniform block that its branches depend on, for each light
-	/// and frame that is; of a storage block it never does. But it loads nothing from storage
-	/// blocks in helper invocations, which derivatives need, and slower ones in fragment shaders.
+	/// Uploads a struct of constants for a storage block of std140 layout, or for a uniform block.
+	/// Mesa's lavapipe 22.3 recompiles a shader for each new value in a uniform block on which the
+	/// shader's branches depend, which can be for each light and frame. For storage blocks it does
+	/// not recompile. But it loads nothing from storage blocks in helper invocations, which
+	/// derivatives need, and in fragment shaders it loads from them more slowly.
 	template <typename T>
 	RGBuffer upload_constants(const std::string &p_name, const T &p_block,
 			BufferUsage p_usage = BufferUsage::STORAGE) {
 		return upload(
 				p_name, p_usage, std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
 	}
-	/// A resource that outlives the frame. Between frames imported textures rest as
-	/// SHADER_READ_COMPUTE. NONE: it has no content yet (it was just made).
+	/// Imports a resource that outlives the frame. Between frames, imported textures are in
+	/// Access::SHADER_READ_COMPUTE. NONE: the texture has no content yet, or none that is needed.
 	enum class ImportedContent { NONE, PRESERVED };
 	RGTexture import_texture(TextureRID p_texture, ImportedContent p_content);
 	RGBuffer import_buffer(BufferRID p_buffer);
-	/// Imports the window's next image, acquired by p_acquire when its first pass is recorded and
-	/// presented when that pass is submitted; one pass uses it. The pass is skipped if p_acquire
-	/// returns nothing.
+	/// Imports the window's next image, acquired by p_acquire when the pass that uses it is
+	/// recorded, and presented when that pass is submitted. Only one pass may use it. The pass is
+	/// skipped if p_acquire returns nothing.
 	RGTexture import_window_image(std::function<std::optional<TextureRID>()> p_acquire);
 
 	/// Returned by value, because creating another resource would invalidate a reference.
@@ -136,11 +144,12 @@ public:
 	/// Sets the prefix of the names of passes added from now on: "Lamp: ". Empty = no prefix.
 	void set_pass_prefix(const std::string &p_prefix) { pass_prefix = p_prefix; }
 
-	/// QUEUE: returns at once; timings() then belong to an earlier frame. WAIT: returns when the
-	/// GPU has finished. ONE_BY_ONE: each pass is a submission of its own that is waited for, so
-	/// that wall_ms is known.
+	/// QUEUE: returns without waiting for the passes after the last host pass; for these,
+	/// get_timings() has the times of an earlier frame. WAIT: returns when the GPU has finished.
+	/// ONE_BY_ONE: submits each pass separately and waits for it, to measure PassTiming::wall_ms.
 	enum class Mode { QUEUE, WAIT, ONE_BY_ONE };
-	/// Compiles and runs the passes; at most once.
+	/// Culls passes, allocates resources, then records and submits the passes. Call it at most
+	/// once.
 	void execute(Mode p_mode);
 
 	const std::vector<PassTiming> &get_timings() const { return timings; }
@@ -148,10 +157,11 @@ public:
 	double get_wall_ms() const { return wall_ms; }
 	/// Names of the passes that were culled because nothing uses their output.
 	std::vector<std::string> get_culled_passes() const;
-	/// Bytes of transient textures without aliasing, and as placed. Valid after execute().
+	/// Bytes of the transient textures without and with aliasing. Valid after execute().
 	uint64_t get_unaliased_bytes() const { return unaliased_bytes; }
 	uint64_t get_aliased_bytes() const { return aliased_bytes; }
-	/// Graphviz text: passes as boxes, resources as ellipses, culled passes dashed.
+	/// Graphviz text: passes as boxes (culled ones dashed), resources as ellipses (imported ones
+	/// with a double outline).
 	std::string to_dot() const;
 
 private:
@@ -169,7 +179,7 @@ private:
 	void collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &r_barriers);
 	void run_passes(Mode p_mode);
 	void record_pass(Pass &p_pass, CommandList &p_commands);
-	void rest_imported(std::vector<Barrier> &r_barriers);
+	void transition_imported(std::vector<Barrier> &r_barriers);
 	Resource *find_window_image(const Pass &p_pass);
 	void collect_spans();
 

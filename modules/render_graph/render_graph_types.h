@@ -12,18 +12,19 @@ struct RenderGraph::Resource {
 	std::string name;
 	bool is_texture = false;
 	bool is_imported = false;
-	std::function<std::optional<TextureRID>()> acquire; // of the window's image
-	bool has_content = false;							// imported only
+	std::function<std::optional<TextureRID>()> acquire; // only for the window's image
+	bool has_content = false;							// of an imported resource
 	TextureDesc texture_desc;
 	BufferDesc buffer_desc;
 	TextureRID texture;
 	BufferRID buffer;
-	// First and last pass that use it, culled passes excluded; first > last: it is unused.
+	// Indices of the first and last pass that use it, without culled passes.
+	// first_pass > last_pass: unused.
 	uint32_t first_pass = ~0u;
 	uint32_t last_pass = 0;
-	/// Accesses of the resources that used this memory before (aliasing).
+	/// Last accesses to the resources that used the same (aliased) memory before.
 	std::vector<Access> earlier_users;
-	Access last_access = Access::NONE; // while barriers are derived
+	Access last_access = Access::NONE; // latest access for which a barrier was derived
 };
 
 struct RenderGraph::Use {
@@ -36,7 +37,7 @@ struct RenderGraph::Use {
 struct RenderGraph::Pass {
 	std::string name;
 	std::vector<Use> uses;
-	// Their TextureRID is known when the pass is recorded.
+	// Attachments. The `texture` of ColorTarget and DepthTarget is set when the pass is recorded.
 	std::vector<std::pair<RGTexture, ColorTarget>> colors;
 	std::optional<std::pair<RGTexture, DepthTarget>> depth;
 	std::optional<glm::uvec2> size_without_targets_px;

@@ -9,10 +9,11 @@ namespace gnomon {
 
 namespace {
 
-// A frame shape per debug view and per set of skipped passes; more would only hold memory.
+// Each debug view and each set of skipped passes has its own frame layout. Caching more layouts
+// would waste memory.
 constexpr size_t MAX_CACHED_ENTRIES = 3;
 
-bool lives_with(const PlacedBlock &p_left, const PlacedBlock &p_right) {
+bool overlaps_in_time(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 	return p_left.first_pass <= p_right.last_pass && p_right.first_pass <= p_left.last_pass;
 }
 
@@ -20,7 +21,7 @@ uint64_t align_up(uint64_t p_value, uint64_t p_alignment) {
 	return (p_value + p_alignment - 1) / p_alignment * p_alignment;
 }
 
-bool shares_memory(const PlacedBlock &p_left, const PlacedBlock &p_right) {
+bool overlaps_in_memory(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 	return p_left.offset_bytes < p_right.offset_bytes + p_right.size_bytes &&
 			p_right.offset_bytes < p_left.offset_bytes + p_left.size_bytes;
 }
@@ -38,12 +39,13 @@ uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks) {
 	for (uint32_t index : order) {
 		PlacedBlock &block = r_blocks[index];
 		block.offset_bytes = 0;
-		// Move behind each neighbour in the way, lowest first, until none is.
+		// Move it behind each block that it overlaps, lowest offset first, until it overlaps none.
 		std::sort(placed.begin(), placed.end(), [&](uint32_t p_left, uint32_t p_right) {
 			return r_blocks[p_left].offset_bytes < r_blocks[p_right].offset_bytes;
 		});
 		for (uint32_t other : placed) {
-			if (lives_with(block, r_blocks[other]) && shares_memory(block, r_blocks[other])) {
+			if (overlaps_in_time(block, r_blocks[other]) &&
+					overlaps_in_memory(block, r_blocks[other])) {
 				block.offset_bytes =
 						align_up(r_blocks[other].offset_bytes + r_blocks[other].size_bytes,
 								block.alignment_bytes);
@@ -67,11 +69,12 @@ std::vector<uint32_t> share_resources(const std::vector<TransientRequest> &p_req
 		return p_requests[p_left].first_pass < p_requests[p_right].first_pass;
 	});
 	const auto may_share = [&](const TransientRequest &p_request) {
-		// What the host maps is ordered by submissions, not by barriers: each has its own.
+		// Submissions, not barriers, order accesses to host-mapped buffers, so these are not
+		// shared.
 		return p_request.is_texture ? p_kinds == SharedKinds::BUFFERS_AND_TEXTURES
 									: p_request.buffer.memory == MemoryKind::GPU;
 	};
-	const auto is_alike = [](TransientRequest p_left, const TransientRequest &p_right) {
+	const auto has_same_desc = [](TransientRequest p_left, const TransientRequest &p_right) {
 		p_left.texture.name = p_right.texture.name;
 		p_left.buffer.name = p_right.buffer.name;
 		return p_left.is_texture == p_right.is_texture &&
@@ -87,7 +90,7 @@ std::vector<uint32_t> share_resources(const std::vector<TransientRequest> &p_req
 			continue;
 		}
 		const auto free_slot = std::find_if(slots.begin(), slots.end(), [&](const Slot &p_slot) {
-			return is_alike(p_requests[p_slot.owner], request) &&
+			return has_same_desc(p_requests[p_slot.owner], request) &&
 					p_requests[p_slot.last].last_pass < request.first_pass;
 		});
 		if (free_slot == slots.end()) {
@@ -172,7 +175,7 @@ void TransientPool::place_textures(Entry &r_entry) {
 		if (!request.is_texture) {
 			continue;
 		}
-		const auto needs = device.compute_placement_needs(request.texture);
+		const auto needs = device.get_placement_requirements(request.texture);
 		blocks.push_back(
 				{ needs.size_bytes, needs.alignment_bytes, request.first_pass, request.last_pass });
 		block_requests.push_back(index);
@@ -191,7 +194,7 @@ void TransientPool::place_textures(Entry &r_entry) {
 		placement.textures[request] = r_entry.textures.back().get();
 		for (size_t other = 0; other < blocks.size(); ++other) {
 			if (blocks[other].last_pass < blocks[index].first_pass &&
-					shares_memory(blocks[index], blocks[other])) {
+					overlaps_in_memory(blocks[index], blocks[other])) {
 				placement.predecessors[request].push_back(block_requests[other]);
 			}
 		}

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// A transient resource and the passes between which it lives, both included.
+/// A transient resource, and the first and last pass of its lifetime.
 struct TransientRequest {
 	bool is_texture = true;
 	TextureDesc texture;
@@ -28,7 +28,7 @@ struct TransientPlacement {
 	uint64_t aliased_bytes = 0;	  // of the textures, as placed
 };
 
-/// A block that lives during some passes and needs an offset.
+/// A memory block with a lifetime, from first_pass to last_pass, that needs an offset.
 struct PlacedBlock {
 	uint64_t size_bytes = 0;
 	uint64_t alignment_bytes = 1;
@@ -36,32 +36,34 @@ struct PlacedBlock {
 	uint32_t last_pass = 0;
 	uint64_t offset_bytes = 0; // set by place_blocks
 };
-/// Gives each block an offset such that blocks that live at the same time do not overlap. Largest
-/// first, each at the lowest free offset. Returns the size of the whole.
+/// Gives each block an offset such that blocks that live at the same time do not overlap: largest
+/// block first, each at the lowest free offset. Returns the total size in bytes.
 uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks);
 
+/// The kinds of resources that share_resources() shares.
 enum class SharedKinds { BUFFERS, BUFFERS_AND_TEXTURES };
-/// Chooses for each request the one whose resource it uses: its own, or that of an earlier request
-/// with the same description (names may differ) that has ended. r_predecessors, one list per
-/// request, gets the requests that used it before. Host-mapped buffers, and kinds that are not
-/// shared, get their own.
+/// Returns for each request the index of the request whose resource it uses: its own, or that of a
+/// request with the same description (names may differ) whose lifetime ended before.
+/// r_predecessors, one list per request, receives the request that used the resource directly
+/// before. Host-mapped buffers, and kinds that are not shared, get their own resource.
 std::vector<uint32_t> share_resources(const std::vector<TransientRequest> &p_requests,
 		SharedKinds p_kinds, std::vector<std::vector<uint32_t>> &r_predecessors);
 
-/// Caches the transient resources of the last few frame layouts, so that a frame like an earlier
-/// one allocates nothing. Resources unused for many frames are freed.
+/// Caches the transient resources of the last few frame layouts, so that a frame with the same
+/// requests as an earlier one allocates nothing. Resources that were unused for MAX_UNUSED_FRAMES
+/// frames are freed.
 class TransientPool {
 public:
 	explicit TransientPool(RenderingDevice &p_device) : device(p_device) {}
 
-	/// Valid until the frame after the next call.
+	/// Returns the resources of a frame. They stay valid until the call after the next one.
 	const TransientPlacement &place(const std::vector<TransientRequest> &p_requests);
 
 private:
 	struct Entry {
 		std::vector<TransientRequest> requests;
 		TransientPlacement placement;
-		OwnedMemory memory; // where textures alias it
+		OwnedMemory memory; // of the textures, if the device has aliased memory
 		std::vector<OwnedTexture> textures;
 		std::vector<OwnedBuffer> buffers;
 		uint64_t last_use = 0;

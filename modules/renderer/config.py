@@ -7,7 +7,7 @@ def get_layer():
 
 
 def get_description():
-    return "G-buffer, lighting with the masks of shadows, tone map and debug views"
+    return "G-buffer, lighting with shadow masks, tone mapping and debug views"
 
 
 def can_disable():

@@ -12,7 +12,7 @@ namespace gnomon {
 namespace {
 
 const char ERROR_VIEW[] = "error";
-const float NO_RECEIVER = -1.0f; // as error_view.comp
+const float NO_RECEIVER = -1.0f; // reference value of pixels without receiver, see error_view.comp
 
 } // namespace
 
@@ -48,32 +48,33 @@ ShadowTechnique::DebugView add_error_view(
 }
 
 const ShadowTechnique::DebugView *choose_debug_view(
-		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish) {
-	if (p_wish.id.empty()) {
+		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewRequest &p_request) {
+	if (p_request.id.empty()) {
 		return nullptr;
 	}
 	std::string ids;
 	for (const ShadowTechnique::DebugView &view : p_views) {
-		if (view.id == p_wish.id) {
+		if (view.id == p_request.id) {
 			return &view;
 		}
 		ids += (ids.empty() ? "\"" : ", \"") + view.id + "\"";
 	}
-	if (!p_wish.is_needed) {
+	if (!p_request.is_needed) {
 		return nullptr;
 	}
 	if (ids.empty()) {
-		fail("Debug view \"", p_wish.id,
+		fail("Debug view \"", p_request.id,
 				"\": no light in view has a shadow. `gnomon run --plan` lists why; see "
 				"shadow_enabled, "
 				"intensity and range of the lights.");
 	}
-	if (p_wish.id == ERROR_VIEW && !p_wish.has_reference) {
+	if (p_request.id == ERROR_VIEW && !p_request.has_reference) {
 		fail("Debug view \"error\": no reference is loaded. Make one with `gnomon visibility SCENE "
-			 "--out reference.exr` and the reference as its --technique, and give it with --reference "
+			 "--out reference.exr` and the reference as its --technique, and give it with "
+			 "--reference "
 			 "reference.exr.");
 	}
-	fail("Debug view \"", p_wish.id,
+	fail("Debug view \"", p_request.id,
 			"\" does not exist for this light's technique, must be one of ", ids, ".");
 }
 

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-// Intermediate images instead of the lit image: a technique's own, the mask, and its error.
+// Debug views, which are shown instead of the lit image: intermediate images of a technique, the
+// mask, and the mask's error.
 
 namespace gnomon {
 
-/// The reference mask of a light, one value per pixel, rows from the top.
+/// The reference mask of a light: one value per pixel, rows from the top.
 struct ReferenceMask {
 	glm::uvec2 size_px = glm::uvec2(0);
 	std::vector<float> visibility; // 0..1
@@ -22,18 +23,18 @@ struct ReferenceMask {
 ShadowTechnique::DebugView add_error_view(
 		const LitImage &p_image, const LightShadow &p_shadow, const ReferenceMask &p_reference);
 
-/// Which view is requested, see RenderRequest.
-struct DebugViewWish {
+/// The debug view that a RenderRequest requests.
+struct DebugViewRequest {
 	const std::string &id;
-	bool is_needed = true;
+	bool is_needed = true; // RenderRequest::needs_debug_view
 	bool has_reference = false;
 };
 
-/// Returns the requested view. Null: show the lit image, because none was requested, or one that
-/// does not exist and is not needed. A needed one that does not exist is an Error that lists the
-/// available views.
+/// Returns the requested view. Returns null, to show the lit image, if none was requested, or if it
+/// does not exist and is_needed is false. If it does not exist and is_needed is true, an Error
+/// lists the available views.
 const ShadowTechnique::DebugView *choose_debug_view(
-		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish);
+		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewRequest &p_request);
 
 /// Draws a debug view's texture instead of the lit image, as RGBA8_UNORM.
 RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view);

@@ -9,15 +9,15 @@ namespace gnomon {
 
 namespace {
 
-/// Pipelines of one G-buffer, made when first needed.
+/// The pipelines of a G-buffer pass, created when first needed.
 class GBufferPipelines {
 public:
 	explicit GBufferPipelines(RenderingDevice &p_device) :
-			device(p_device), has_faces(p_device.get_features().geometry_shader) {}
+			device(p_device), has_geometric_normal(p_device.get_features().geometry_shader) {}
 
-	/// For surfaces without vertex colours and textures.
-	PipelineRID get_plain(bool p_is_mirrored, bool p_is_double_sided) {
-		PipelineRID &r_pipeline = plain[p_is_mirrored][p_is_double_sided];
+	/// For surfaces without textures, vertex colours and alpha cutoff.
+	PipelineRID get_untextured(bool p_is_mirrored, bool p_is_double_sided) {
+		PipelineRID &r_pipeline = untextured[p_is_mirrored][p_is_double_sided];
 		if (!r_pipeline) {
 			r_pipeline =
 					device.get_raster_pipeline(make_desc(p_is_mirrored, p_is_double_sided, ""));
@@ -45,13 +45,14 @@ private:
 		RasterPipelineDesc desc;
 		desc.name = "G-buffer";
 		desc.vertex_shader = "renderer/gbuffer" + p_variant + ".vert";
-		desc.fragment_shader = (has_faces ? "renderer/gbuffer" : "renderer/gbuffer_without_faces") +
+		desc.fragment_shader =
+				(has_geometric_normal ? "renderer/gbuffer" : "renderer/gbuffer_without_faces") +
 				p_variant + ".frag";
 		desc.attributes = get_position_normal_attributes();
 		desc.vertex_strides_bytes = { sizeof(glm::vec3), sizeof(glm::vec3) };
 		desc.color_formats = { Format::RGBA8_SRGB, Format::R32_UINT, Format::RGBA16_SFLOAT,
 			Format::RGBA16_SFLOAT };
-		if (has_faces) {
+		if (has_geometric_normal) {
 			desc.color_formats.push_back(Format::R32_UINT);
 		}
 		desc.depth_compare = CompareOp::GREATER;
@@ -61,15 +62,15 @@ private:
 	}
 
 	RenderingDevice &device;
-	bool has_faces;
-	PipelineRID plain[2][2]; // mirrored, double-sided
+	bool has_geometric_normal;
+	PipelineRID untextured[2][2]; // mirrored, double-sided
 };
 
 struct GBufferDraw {
 	const GpuMesh *mesh;
 	shader::InstancePush push;
 	PipelineRID pipeline;
-	const GpuMaterial *material = nullptr; // null: push has all of it
+	const GpuMaterial *material = nullptr; // null: `push` describes all of it
 	std::array<VertexStream, 4> streams;
 };
 
@@ -89,12 +90,12 @@ shader::InstancePush make_push(const SceneSnapshot &p_scene, const InstanceSnaps
 	return push;
 }
 
-void record_draw(
-		PassContext &p_context, const GBufferDraw &p_draw, RGBuffer p_frame, bool p_has_faces) {
+void record_draw(PassContext &p_context, const GBufferDraw &p_draw, RGBuffer p_frame,
+		bool p_has_geometric_normal) {
 	CommandList &commands = p_context.commands;
 	std::vector<BufferRID> vertices = { p_draw.mesh->positions.get(), p_draw.mesh->normals.get() };
 	std::vector<Binding> bindings = { { GBUFFER_BINDING_FRAME, p_context.get(p_frame) } };
-	if (p_has_faces) { // the corners of a face are found by the primitive's index
+	if (p_has_geometric_normal) { // the shader loads the corners by gl_PrimitiveID
 		bindings.emplace_back(GBUFFER_BINDING_POSITIONS, p_draw.mesh->positions.get());
 		bindings.emplace_back(GBUFFER_BINDING_INDICES, p_draw.mesh->indices.get());
 	}
@@ -124,7 +125,7 @@ void record_draw(
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,
 		MaterialStore &r_materials, const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
 		RGBuffer p_frame, uint32_t &r_drawn_count) {
-	const bool has_faces = p_device.get_features().geometry_shader;
+	const bool has_geometric_normal = p_device.get_features().geometry_shader;
 	const auto create = [&](const char *p_name, Format p_format) {
 		const TextureUsage target = p_format == Format::D32_SFLOAT ? TextureUsage::DEPTH_ATTACHMENT
 																   : TextureUsage::COLOR_ATTACHMENT;
@@ -136,7 +137,7 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 	GBuffer gbuffer;
 	gbuffer.depth = create("camera depth", Format::D32_SFLOAT);
 	gbuffer.base_color = create("base colour", Format::RGBA8_SRGB);
-	if (has_faces) {
+	if (has_geometric_normal) {
 		gbuffer.geometric_normal = create("geometric normal", Format::R32_UINT);
 	}
 	gbuffer.shading_normal = create("shading normal", Format::R32_UINT);
@@ -154,13 +155,13 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 		draw.mesh = &r_meshes.get(instance.mesh);
 		draw.push = make_push(p_scene, instance);
 		const bool is_double_sided = instance.material->is_double_sided;
-		if (has_look(*instance.mesh, *instance.material)) {
+		if (needs_gpu_material(*instance.mesh, *instance.material)) {
 			draw.material = &r_materials.get(instance.material);
 			draw.streams = r_materials.get_streams(r_meshes, instance.mesh, *instance.material);
 			draw.pipeline =
 					pipelines.get_textured(instance.is_mirrored(), is_double_sided, draw.streams);
 		} else {
-			draw.pipeline = pipelines.get_plain(instance.is_mirrored(), is_double_sided);
+			draw.pipeline = pipelines.get_untextured(instance.is_mirrored(), is_double_sided);
 		}
 	}
 	r_drawn_count = static_cast<uint32_t>(draws.size());
@@ -170,13 +171,14 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 			.color(gbuffer.shading_normal)
 			.color(gbuffer.material)
 			.color(gbuffer.emissive);
-	if (has_faces) {
+	if (has_geometric_normal) {
 		pass.color(gbuffer.geometric_normal);
 	}
 	pass.depth(gbuffer.depth, LoadOp::CLEAR, 0.0f)
-			.execute([draws = std::move(draws), p_frame, has_faces](PassContext &p_context) {
+			.execute([draws = std::move(draws), p_frame, has_geometric_normal](
+							 PassContext &p_context) {
 				for (const GBufferDraw &draw : draws) {
-					record_draw(p_context, draw, p_frame, has_faces);
+					record_draw(p_context, draw, p_frame, has_geometric_normal);
 				}
 			});
 	return gbuffer;

@@ -9,16 +9,16 @@ namespace gnomon {
 
 /// The geometry that the camera sees, one texel per pixel.
 struct GBuffer {
-	RGTexture depth;			// D32_SFLOAT, reversed
-	RGTexture base_color;		// RGBA8_SRGB; alpha: how much ambient light arrives
+	RGTexture depth;			// D32_SFLOAT, reversed: 0 is the background
+	RGTexture base_color;		// RGBA8_SRGB; alpha: ambient occlusion, 1 = open
 	RGTexture geometric_normal; // R32_UINT; empty without DeviceFeatures::geometry_shader
-	RGTexture shading_normal;	// R32_UINT
-	RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness
+	RGTexture shading_normal;	// R32_UINT; normals are packed, see normal_inc.glsl
+	RGTexture material;			// RGBA16_SFLOAT: scatter, scatter_distance_m, roughness
 								// (-1 - roughness for Phong's model), metallic
 	RGTexture emissive;			// RGBA16_SFLOAT, cd/m^2
 };
 
-/// Draws the instances that may be in the camera's view. r_drawn_count: the number of those.
+/// Draws the instances that may be in the camera's view. r_drawn_count: their number.
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,
 		MaterialStore &r_materials, const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
 		RGBuffer p_frame, uint32_t &r_drawn_count);

@@ -12,9 +12,10 @@ namespace gnomon {
 
 namespace {
 
-// Ambient light relative to the exposure: enough to read shapes in the umbra.
-constexpr float AMBIENT_SHOWN = 0.06f;
-constexpr float WHITE_SHOWN = 0.8f;
+// Exposed radiance of a white surface: in ambient light, enough to see shapes in the umbra, and
+// facing the brightest light.
+constexpr float EXPOSED_AMBIENT = 0.06f;
+constexpr float EXPOSED_WHITE = 0.8f;
 
 float compute_light_illuminance(const LightSnapshot &p_light, const glm::dvec3 &p_position_world) {
 	const float brightest = std::max({ p_light.color.x, p_light.color.y, p_light.color.z });
@@ -27,7 +28,7 @@ float compute_light_illuminance(const LightSnapshot &p_light, const glm::dvec3 &
 }
 
 shader::ExposurePush make_exposure(const LitImage &p_image) {
-	return { glm::vec4(glm::vec3(AMBIENT_SHOWN / p_image.exposure), p_image.exposure) };
+	return { glm::vec4(glm::vec3(EXPOSED_AMBIENT / p_image.exposure), p_image.exposure) };
 }
 
 } // namespace
@@ -44,7 +45,8 @@ float compute_exposure(const SceneSnapshot &p_scene) {
 			brightest = std::max(brightest, compute_light_illuminance(light, centre));
 		}
 	}
-	return brightest > 0 && std::isfinite(brightest) ? WHITE_SHOWN * 3.14159265f / brightest : 1.0f;
+	return brightest > 0 && std::isfinite(brightest) ? EXPOSED_WHITE * 3.14159265f / brightest
+													 : 1.0f;
 }
 
 RGTexture add_ambient_pass(const LitImage &p_image) {

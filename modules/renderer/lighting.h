@@ -5,19 +5,19 @@
 
 namespace gnomon {
 
-/// Computes the exposure that makes a white surface at the centre of the casters, facing the
-/// brightest light, show at about 0.8, whatever unit the intensities are in. Returns 1 without
-/// lights.
+/// Computes the exposure at which a white surface at the centre of the scene's bounds, facing the
+/// brightest light, has an exposed radiance of 0.8. The intensities may have any unit. Returns 1
+/// without lights or meshes.
 float compute_exposure(const SceneSnapshot &p_scene);
 
-/// Data that the passes of one image share.
+/// The data that all passes of one image use.
 struct LitImage {
 	RenderGraph &graph;
 	RenderingDevice &device;
 	GBuffer gbuffer;
 	RGBuffer frame;						// FrameConstants
-	glm::uvec2 size_px = glm::uvec2(0); // size of the drawn image
-	uint32_t antialiasing = 1;			// texels per pixel along each axis
+	glm::uvec2 size_px = glm::uvec2(0); // drawn size: antialiasing times that of the output image
+	uint32_t antialiasing = 1;			// drawn texels per output pixel along each axis
 	float exposure = 1.0f;
 };
 

@@ -30,7 +30,7 @@ struct Taps {
 
 std::vector<Taps> find_taps(uint32_t p_from, uint32_t p_to) {
 	std::vector<Taps> taps(p_to);
-	const double scale = double(p_from) / p_to; // 1, 2, or between 2 and 3 of odd sizes
+	const double scale = double(p_from) / p_to; // 1, 2, or for odd sizes up to 3
 	for (uint32_t index = 0; index < p_to; ++index) {
 		const double low = index * scale;
 		const double high = std::min((index + 1) * scale, double(p_from));
@@ -109,8 +109,9 @@ shader::MaterialConstants make_constants(const Material &p_material) {
 	return constants;
 }
 
-/// Generated tangents of a mesh that has none, for its first or second coordinates.
-template <int SET> struct MadeTangents { OwnedBuffer buffer; };
+/// Generated tangents of a mesh that has none, for its first (SET = 0) or second (SET = 1) texture
+/// coordinates. MeshStore::get_derived has one entry per mesh and type, hence two types.
+template <int SET> struct GeneratedTangents { OwnedBuffer buffer; };
 
 } // namespace
 
@@ -130,7 +131,7 @@ std::vector<uint8_t> make_mip_levels(
 	return texels;
 }
 
-bool has_look(const Mesh &p_mesh, const Material &p_material) {
+bool needs_gpu_material(const Mesh &p_mesh, const Material &p_material) {
 	const auto textures = p_material.list_textures();
 	return !p_mesh.attributes.colors.empty() || p_material.is_cut_out() ||
 			std::any_of(textures.begin(), textures.end(),
@@ -177,8 +178,8 @@ SamplerRID MaterialStore::get_sampler(const Texture &p_texture) {
 				: p_texture.mip_filter == MipFilter::NEAREST ? MipMode::NEAREST
 															 : MipMode::LINEAR,
 		get_address(p_texture.wrap_u), get_address(p_texture.wrap_v) };
-	OwnedSampler &sampler = samplers[{ int(desc.magnified), int(desc.minified), int(desc.mip_mode),
-			int(desc.address_u), int(desc.address_v) }];
+	OwnedSampler &sampler = samplers[{ int(desc.mag_filter), int(desc.min_filter),
+			int(desc.mip_mode), int(desc.address_u), int(desc.address_v) }];
 	if (!sampler) {
 		sampler = OwnedSampler(device, device.create_sampler(desc));
 	}
@@ -207,7 +208,7 @@ const GpuMaterial &MaterialStore::get(const std::shared_ptr<const Material> &p_m
 	return made;
 }
 
-BufferRID MaterialStore::get_constant(size_t p_stream) {
+BufferRID MaterialStore::get_constant_stream(size_t p_stream) {
 	const glm::vec4 values[] = { glm::vec4(0.0f), glm::vec4(0.0f), glm::vec4(1, 0, 0, 1),
 		glm::vec4(1.0f) };
 	OwnedBuffer &buffer = constant_streams[p_stream];
@@ -223,8 +224,9 @@ BufferRID MaterialStore::get_constant(size_t p_stream) {
 
 std::array<VertexStream, 4> MaterialStore::get_streams(MeshStore &r_meshes,
 		const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material) {
+	// deform_tangents.comp reads the tangents of deformable meshes as a storage buffer.
 	const BufferUsage usage = BufferUsage::VERTEX | BufferUsage::COPY_TARGET |
-			(p_mesh->is_deformable() ? BufferUsage::STORAGE : BufferUsage::VERTEX); // of tangents
+			(p_mesh->is_deformable() ? BufferUsage::STORAGE : BufferUsage::VERTEX);
 	const auto upload = [&](const char *p_what, const auto &p_values) {
 		if (p_values.empty()) {
 			return OwnedBuffer();
@@ -248,11 +250,11 @@ std::array<VertexStream, 4> MaterialStore::get_streams(MeshStore &r_meshes,
 					compute_tangents(p_mesh->positions_node, p_mesh->normals_node, p_mesh->indices,
 							attributes.uvs[set]));
 		};
-		tangents = set == 0 ? r_meshes.get_derived<MadeTangents<0>>(
-											  p_mesh, [&] { return MadeTangents<0>{ make() }; })
+		tangents = set == 0 ? r_meshes.get_derived<GeneratedTangents<0>>(p_mesh,
+											  [&] { return GeneratedTangents<0>{ make() }; })
 									  .buffer.get()
-							: r_meshes.get_derived<MadeTangents<1>>(
-											  p_mesh, [&] { return MadeTangents<1>{ make() }; })
+							: r_meshes.get_derived<GeneratedTangents<1>>(p_mesh,
+											  [&] { return GeneratedTangents<1>{ make() }; })
 									  .buffer.get();
 	}
 	if (tangents && p_mesh->rest) {
@@ -263,7 +265,7 @@ std::array<VertexStream, 4> MaterialStore::get_streams(MeshStore &r_meshes,
 		uploaded.colors.get() };
 	for (size_t index = 0; index < streams.size(); ++index) {
 		streams[index] = buffers[index] ? VertexStream{ buffers[index], false }
-										: VertexStream{ get_constant(index), true };
+										: VertexStream{ get_constant_stream(index), true };
 	}
 	return streams;
 }

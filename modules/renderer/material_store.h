@@ -12,8 +12,8 @@
 
 namespace gnomon {
 
-/// Returns an image with all its mip levels, RGBA8: each texel of a level is the mean of those it
-/// covers, weighted by their alpha; sRGB colours are averaged in linear space.
+/// Returns all mip levels of an image, RGBA8. Each texel is the mean of the texels that it covers
+/// in the level before. sRGB colours are averaged in linear space and weighted by alpha.
 std::vector<uint8_t> make_mip_levels(const Image &p_image, bool p_is_srgb, uint32_t &r_level_count);
 
 /// A material's textures in GPU memory, and its shader constants.
@@ -31,24 +31,27 @@ struct GpuAttributes {
 	OwnedBuffer colors;
 };
 
-/// One vertex stream: from a mesh, or with a single element that all vertices share.
+/// A vertex buffer of a mesh, or one with a single element that is used for all vertices
+/// (is_constant).
 struct VertexStream {
 	BufferRID buffer;
 	bool is_constant = false;
 };
 
-/// The textures of the materials in use; those that are no longer referenced are freed.
+/// Textures and constants of the materials in use, in GPU memory. Those of materials and images
+/// that no longer exist are freed.
 class MaterialStore {
 public:
 	explicit MaterialStore(RenderingDevice &p_device);
 
-	/// Uploads the material and its images the first time.
+	/// Returns the GPU data of a material. Uploads the material and its images at the first call.
 	const GpuMaterial &get(const std::shared_ptr<const Material> &p_material);
-	/// Returns first and second texture coordinates, tangents and colours of a mesh, in the order
-	/// of gbuffer.vert. Computes tangents if the material needs them and the mesh has none.
+	/// Returns the first and second texture coordinates, tangents and colours of a mesh, in the
+	/// order of the inputs of gbuffer.vert. Computes tangents if the material needs them and the
+	/// mesh has none.
 	std::array<VertexStream, 4> get_streams(MeshStore &r_meshes,
 			const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material);
-	/// Frees resources of materials that were freed. Call it once a frame.
+	/// Frees the resources of materials and images that no longer exist. Call it once per frame.
 	void collect_garbage();
 	size_t get_texture_count() const { return images.size(); }
 
@@ -59,17 +62,18 @@ private:
 	};
 	TextureRID get_texture(const Texture &p_texture, bool p_is_srgb);
 	SamplerRID get_sampler(const Texture &p_texture);
-	BufferRID get_constant(size_t p_stream);
+	BufferRID get_constant_stream(size_t p_stream);
 
 	RenderingDevice &device;
 	std::map<const Material *, GpuMaterial> materials;
-	std::map<std::pair<uint64_t, bool>, GpuImage> images; // by id, and whether sRGB
+	std::map<std::pair<uint64_t, bool>, GpuImage> images; // key: image id, is sRGB
 	std::map<std::array<int, 5>, OwnedSampler> samplers;
 	OwnedTexture white;
 	std::array<OwnedBuffer, 4> constant_streams;
 };
 
-/// Whether the G-buffer pass needs more of the surface than InstancePush contains.
-bool has_look(const Mesh &p_mesh, const Material &p_material);
+/// Returns whether the G-buffer pass needs more data about the surface than InstancePush contains:
+/// textures, vertex colours or an alpha cutoff.
+bool needs_gpu_material(const Mesh &p_mesh, const Material &p_material);
 
 } // namespace gnomon

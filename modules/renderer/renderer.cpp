@@ -35,13 +35,13 @@ void check_request(const RenderRequest &p_request, const RenderingDevice &p_devi
 	}
 }
 
-/// Returns the factor by which the image is drawn larger.
-uint32_t get_drawn_factor(const RenderRequest &p_request) {
+/// Returns the supersampling factor along each axis. Masks alone and debug views have 1.
+uint32_t get_supersampling_factor(const RenderRequest &p_request) {
 	return p_request.mask_light.empty() && p_request.debug_view.empty() ? p_request.antialiasing
 																		: 1;
 }
 
-/// True when the request names a light whose technique can be looked at.
+/// Returns whether the light named for the debug view exists and casts a shadow.
 bool has_debug_light(const RenderRequest &p_request) {
 	const LightSnapshot *light = p_request.scene->find_light(p_request.debug_light);
 	return light != nullptr && light->casts_shadow;
@@ -55,7 +55,7 @@ struct Renderer::Frame {
 	RenderGraph graph;
 	ShadowFrame shadows;
 	LitImage image;
-	std::vector<ShadowTechnique::DebugView> debug_views; // those there are, when one is requested
+	std::vector<ShadowTechnique::DebugView> debug_views; // available ones, if one is requested
 	bool has_debug_view = false;
 	MaskReadback mask;
 	std::vector<uint8_t> material_texels;
@@ -63,13 +63,13 @@ struct Renderer::Frame {
 	Frame(Renderer &r_renderer, const RenderRequest &p_request, RenderResult &r_result) :
 			request(p_request), result(r_result), graph(r_renderer.device, r_renderer.transients),
 			shadows(r_renderer.shadows, graph, result.plan, request.scene,
-					request.size_px * get_drawn_factor(request),
+					request.size_px * get_supersampling_factor(request),
 					{ request.technique_override, request.may_skip, request.may_reuse }),
 			image{ graph, r_renderer.device, {}, shadows.get_constants(),
-				request.size_px * get_drawn_factor(request), get_drawn_factor(request),
-				compute_exposure(*request.scene) } {}
+				request.size_px * get_supersampling_factor(request),
+				get_supersampling_factor(request), compute_exposure(*request.scene) } {}
 
-	/// The light whose intermediate images are shown: nothing of it is skipped.
+	/// Returns whether this light's debug view is shown. Its passes are then not skipped.
 	bool shows_debug_view(const LightSnapshot &p_light) const {
 		return !request.debug_view.empty() && !has_debug_view && p_light.casts_shadow &&
 				(p_light.name == request.debug_light || !has_debug_light(request));
@@ -240,7 +240,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 				"outside the camera's view");
 	}
 	frame.shadows.set_surfaces({ gbuffer.depth,
-			p_request.has_depth_alone ? RGTexture() : gbuffer.geometric_normal, gbuffer.material });
+			p_request.has_depth_only ? RGTexture() : gbuffer.geometric_normal, gbuffer.material });
 	if (p_request.mask_light.empty()) {
 		add_image(frame);
 	} else {

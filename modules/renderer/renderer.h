@@ -28,22 +28,22 @@ struct OverlayVertex {
 struct RenderRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
 	glm::uvec2 size_px = glm::uvec2(512); // 1..16384 each
-	/// Supersampling, 1..4: the image and its masks are drawn at this many times the width and
+	/// Supersampling, 1..4: the image and its masks are drawn with this many times the width and
 	/// height, and each pixel is the mean of its texels. Masks alone and debug views are drawn at
 	/// size_px.
 	uint32_t antialiasing = 1;
 	/// Replaces the technique of every light. Empty = each light's own.
 	std::string technique_override;
-	/// Shows an intermediate image of a light's technique: its id, or "mask", or "error" if there
-	/// is a reference.
+	/// The debug view to show instead of the lit image: the id of a technique's view, "mask", or
+	/// "error", which needs `reference`. Empty = the lit image.
 	std::string debug_view;
-	/// Name of the light of the debug view. If empty, or if it casts no shadow: the first that
-	/// does.
+	/// Name of the light of the debug view. If empty, or if that light casts no shadow: the first
+	/// light that does.
 	std::string debug_light;
-	/// Reference mask of that light for the same camera; of the frame's size.
+	/// Reference mask of that light for the same camera, with the frame's size.
 	std::shared_ptr<const ReferenceMask> reference;
-	/// False: if the debug view does not exist, the lit image is shown, as a user expects who
-	/// changes the technique or the lights while looking at a view.
+	/// True: a debug view that does not exist is an Error. False: the lit image is shown then, for
+	/// users who change techniques or lights while a view is shown.
 	bool needs_debug_view = true;
 	bool wants_image = false; // RenderResult::image
 	bool wants_graph = false; // RenderResult::dot
@@ -53,26 +53,26 @@ struct RenderRequest {
 	std::string mask_light;
 	bool wants_mask = false;	 // with mask_light: RenderResult::visibility and receiver
 	bool wants_surfaces = false; // with wants_mask: RenderResult::surfaces and their texels
-	/// Acquires the window's next image to show the lit image in; see
+	/// If set, the image is shown in a window: returns the window's next image, see
 	/// RenderGraph::import_window_image.
 	std::function<std::optional<TextureRID>()> acquire_window_image;
 	std::vector<OverlayVertex> overlay; // three per triangle
 	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
-	/// False: runs all passes, even those that the image does not need (for the test that compares
-	/// both).
+	/// False: runs all passes, even those that the image does not need (for tests).
 	bool may_skip = true;
 	/// False: techniques use nothing cached from earlier frames, as if everything had moved.
 	bool may_reuse = true;
-	/// True: shadows derive geometric normals from the depth, for a host that draws none.
-	bool has_depth_alone = false;
+	/// True: shadows derive geometric normals from the depth, as for a host that provides no
+	/// normals.
+	bool has_depth_only = false;
 };
 
-/// The mask's values are set if they were requested.
+/// The results of one frame. The values of the mask (base class) are set if they were requested.
 struct RenderResult : MaskValues {
 	FramePlan plan;
 	std::vector<PassTiming> timings;	  // QUEUE: of an earlier frame
 	double gpu_ms = 0;					  // sum of the passes
-	double wall_ms = 0;					  // of the frame's submission
+	double wall_ms = 0;					  // see RenderGraph::get_wall_ms
 	std::vector<uint8_t> image;			  // RGBA8, sRGB-encoded, rows from the top
 	std::vector<std::string> debug_views; // available views, if one was requested
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
@@ -84,7 +84,8 @@ struct RenderResult : MaskValues {
 	uint64_t unaliased_bytes = 0; // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
 
-	/// Returns the passes of one light, without the light's name in their names.
+	/// Returns the passes of one light, without the light's name in their names, and the pass that
+	/// deforms meshes for all lights.
 	std::vector<PassTiming> find_light_passes(const std::string &p_light) const;
 };
 
@@ -96,8 +97,8 @@ public:
 
 	/// An unknown technique, light or debug view, or a size out of range, is an Error.
 	RenderResult render(const RenderRequest &p_request);
-	/// Makes techniques discard their caches, as after shaders were replaced.
-	void forget_cached() { shadows.forget_cached(); }
+	/// Destroys all techniques and their caches, for example after shaders were replaced.
+	void clear_caches() { shadows.clear_caches(); }
 	RenderingDevice &get_device() { return device; }
 
 private:

@@ -7,4 +7,4 @@ def get_layer():
 
 
 def get_description():
-    return "What a device does: resources, pipelines, command lists, timers; a backend implements it"
+    return "Interface of GPU devices: resources, pipelines, command lists, timers; a backend implements it"

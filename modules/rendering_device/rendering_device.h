@@ -14,27 +14,29 @@ namespace gnomon {
 
 class CommandList;
 struct DeviceFeatures;
-/// { &DeviceFeatures::geometry_shader, ... }
+/// A list of features, such as { &DeviceFeatures::geometry_shader, ... }.
 using FeatureList = std::vector<bool DeviceFeatures::*>;
 
-/// The user's choices for the device.
+/// Options of create_rendering_device.
 struct DeviceOptions {
-	std::string
-			device; // index ("0") or part of a name, any case; empty = discrete > integrated > CPU
+	/// Index ("0") or part of a name, any case. Empty = a usable device of the best type: discrete
+	/// GPU, else integrated GPU, virtual GPU, CPU, other.
+	std::string device;
 	bool validation = false; // validation and synchronization layers
-	/// 0 = $GNOMON_MEMORY_BUDGET_MIB, else what the device reports, but at most 90 % of its heap.
+	/// Limit of the memory that resources use. 0 = $GNOMON_MEMORY_BUDGET_MIB if it is set, else the
+	/// budget that the device reports, but at most 90 % of its heap.
 	uint64_t memory_budget_bytes = 0;
-	/// Timeout without progress, in seconds: a wait in which no submission ends and no pass begins
-	/// for this long is an Error. 0 = no timeout. Absent = $GNOMON_DEVICE_TIMEOUT_S, else 60 s (600
-	/// s on a CPU device).
+	/// Timeout of waits, in seconds: if no submission ends and no pass begins for this long, the
+	/// wait throws DeviceLost. 0 = no timeout. Absent = $GNOMON_DEVICE_TIMEOUT_S, else 60 s (600 s
+	/// on a CPU device).
 	std::optional<double> wait_limit_s;
-	bool needs_surface = false;					  // a window will be shown
-	std::vector<std::string> instance_extensions; // what the window system needs
+	bool needs_surface = false;					  // the device must be able to show a window
+	std::vector<std::string> instance_extensions; // Vulkan's, for the window
 	/// Features to treat as absent even if the device has them.
 	FeatureList denied_features;
 };
 
-/// One device as `gnomon info` lists it.
+/// A device, as `gnomon info` lists it.
 struct DeviceInfo {
 	uint32_t index = 0;
 	std::string name;
@@ -46,11 +48,12 @@ struct DeviceInfo {
 	std::string refusal; // why it is unusable: "Vulkan 1.1, 1.3 is needed"
 };
 
-/// What the device can do beyond the minimum that Gnomon requires: compute shaders, 128 bytes of
-/// push constants, and 32-bit depth that shaders read.
-/// Geometry shaders, aliased memory, conditional rendering, depth bounds, storage texel buffers and
-/// copies to textures
-/// make frames faster; without them the masks are the same.
+/// Optional features of a device. The minimum that Gnomon requires of every device is compute
+/// shaders, 128 bytes of push constants, and 32-bit depth that shaders can read. Without geometry
+/// shaders, aliased memory, conditional rendering, depth bounds, storage_and_texel_buffers or
+/// copies to textures, frames are slower, but the same surface normals give the same masks.
+/// Without geometry shaders, the geometric normals are derived from the depth, which can change
+/// pixels at edges.
 struct DeviceFeatures {
 	/// Geometry shaders, and gl_PrimitiveID in fragment shaders.
 	bool geometry_shader = false;
@@ -59,23 +62,29 @@ struct DeviceFeatures {
 	bool depth_bounds = false;
 	bool conditional_rendering = false;
 	bool fragment_stores = false;
-	bool storage_texel_buffers = false; // buffers that are STORAGE and TEXEL at once
-	bool copies_to_textures = false; // copy_buffer_to_texture from GPU memory; from UPLOAD always
+	/// Buffers that are BufferUsage::STORAGE and TEXEL at once. Not Vulkan's storage texel buffers,
+	/// which no shader may use.
+	bool storage_and_texel_buffers = false;
+	/// copy_buffer_to_texture from buffers in GPU memory; from UPLOAD buffers it always works.
+	bool copies_to_textures = false;
 	bool timestamps = false;
 	uint64_t max_storage_buffer_bytes = 0;
 	uint32_t max_texture_size_px = 0;
 	uint32_t subgroup_size = 0;
-	bool subgroup_operations = false; // vote, arithmetic, ballot and shuffle in compute shaders
+	/// Vote, arithmetic, ballot and shuffle in compute shaders, with subgroups of at least 4
+	/// invocations.
+	bool subgroup_operations = false;
 };
 
+/// Use of GPU memory.
 struct MemoryUse {
 	uint64_t used_bytes = 0;	  // by resources
-	uint64_t allocated_bytes = 0; // blocks taken from the driver
+	uint64_t allocated_bytes = 0; // from the driver, in blocks
 	uint64_t budget_bytes = 0;
-	uint64_t peak_bytes = 0; // highest used_bytes since the device began
+	uint64_t peak_bytes = 0; // highest used_bytes since the device was created
 };
 
-/// Commands recorded since the device was created; those under a condition count too.
+/// Commands recorded since the device was created, including conditional ones that the GPU skips.
 struct CommandCounts {
 	uint64_t draws = 0;
 	uint64_t dispatches = 0;
@@ -90,16 +99,16 @@ struct GpuSpan {
 	double gpu_ms = 0;
 };
 
-/// A device and everything that lives on it. The backend that the program is linked with implements
-/// it, and for tests what modules/rendering_device/tests/testing.h has. One thread uses it. Every
-/// failure is an Error that names the object, the value, the limit and the next step; after a lost
-/// device every call fails with the text of the first report, which names the last pass that had
-/// begun. Those are DeviceLost, and so is a device that makes no progress, see
-/// DeviceOptions::wait_limit_s.
+/// A GPU device and its resources. The backend that is linked into the program implements it, and
+/// also the functions of modules/rendering_device/tests/testing.h for the tests. Not thread-safe:
+/// use it on one thread. Every failure is an Error that names the object, the value, the limit and
+/// the next step. If the device is lost, or makes no progress (see DeviceOptions::wait_limit_s),
+/// that call and all later ones throw DeviceLost with the same text, which names the last pass that
+/// had begun.
 ///
 /// Resources are handles. free() may be called while the GPU still uses the resource: it is
-/// destroyed when the submission that was recorded last has finished. What is still alive when the
-/// device ends is reported by name, once each, as an error in the log.
+/// destroyed when the submission that was recorded last has finished. Resources that were not freed
+/// when the device is destroyed are each reported by name, as errors in the log.
 class RenderingDevice {
 public:
 	RenderingDevice() = default;
@@ -112,26 +121,28 @@ public:
 	virtual MemoryUse get_memory_use() const = 0;
 	virtual CommandCounts get_command_counts() const = 0;
 
-	// Creates resources. Beyond the budget or the device's limits: an Error naming resource, size
-	// and limit.
+	// Creation of resources. Exceeding the memory budget or a limit of the device is an Error that
+	// names the resource, its size and the limit.
 	virtual BufferRID create_buffer(const BufferDesc &p_desc) = 0;
-	/// Creates a device-local buffer, filled with the bytes before the next submission's commands.
+	/// Creates a buffer in GPU memory. The bytes are copied into it before the commands of the next
+	/// submission run.
 	virtual BufferRID create_buffer_with_data(
 			BufferDesc p_desc, std::span<const uint8_t> p_bytes) = 0;
 	virtual TextureRID create_texture(const TextureDesc &p_desc) = 0;
-	/// Creates a texture filled with tightly packed texels (layer 0), ready for SAMPLED use.
+	/// Creates a texture filled with tightly packed texels, with all mip levels. The number of
+	/// bytes decides whether all layers are filled, or layer 0 alone. It is ready for SAMPLED use.
 	virtual TextureRID create_texture_with_data(
 			TextureDesc p_desc, std::span<const uint8_t> p_bytes) = 0;
 	virtual SamplerRID create_sampler(const SamplerDesc &p_desc) = 0;
-	/// Creates the pipeline from the embedded SPIR-V, or returns a cached one with an equal
-	/// description. The device owns it.
+	/// Returns the pipeline of this description. It is created from the embedded SPIR-V at the
+	/// first call and owned by the device.
 	virtual PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) = 0;
 	virtual PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) = 0;
-	/// Replaces the SPIR-V of these entry points and recreates all pipelines that use one of them,
-	/// after the GPU is done. Handles stay valid. SPIR-V that the device refuses, or that has
-	/// bindings or push constants other than this build's, is an Error that leaves everything
-	/// unchanged. Not allowed while commands are being recorded; SPIR-V of another stage is a
-	/// programming error.
+	/// Replaces the SPIR-V of these shaders, named as in ComputePipelineDesc::shader, and recreates
+	/// all pipelines that use one of them, after the GPU is done. Handles stay valid. SPIR-V that
+	/// the device refuses, or that has bindings or push constants other than this build's, is an
+	/// Error that leaves everything unchanged. Not allowed while commands are being recorded;
+	/// SPIR-V of another stage is a programming error.
 	virtual void replace_shaders(
 			const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name) = 0;
 	virtual void free(BufferRID p_buffer) = 0;
@@ -146,55 +157,59 @@ public:
 
 	// Aliased memory, for the render graph: textures placed in one block of memory. Needs
 	// DeviceFeatures::aliased_memory.
-	struct PlacementNeeds {
+	struct PlacementRequirements {
 		uint64_t size_bytes = 0;
 		uint64_t alignment_bytes = 1;
 	};
-	virtual PlacementNeeds compute_placement_needs(const TextureDesc &p_desc) = 0;
-	/// Memory that any texture made with a GPU-only usage can be placed in.
+	virtual PlacementRequirements get_placement_requirements(const TextureDesc &p_desc) = 0;
+	/// Creates a block of GPU memory in which textures of any format and usage can be placed.
 	virtual MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) = 0;
 	virtual TextureRID create_placed_texture(
 			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes) = 0;
 
-	// Frames. begin -> record -> submit; at most two submissions are in flight.
-	/// Starts recording. Waits when two submissions are in flight; collects deferred frees.
+	// Submissions: begin_commands, record, submit_commands. At most two are in flight.
+	/// Starts recording. Waits while two submissions are in flight, and destroys freed resources
+	/// that the GPU no longer uses.
 	virtual CommandList &begin_commands() = 0;
-	/// Submits what was recorded. WAIT: also waits for the end, so that READBACK memory is valid. A
-	/// swapchain image that the recorded barriers brought to Access::PRESENT is presented.
+	/// Submits the recorded commands. WAIT: also waits until they have finished, so that READBACK
+	/// memory is valid. A swapchain image that a recorded barrier brought to Access::PRESENT is
+	/// presented.
 	enum class SubmitMode { QUEUE, WAIT };
 	virtual void submit_commands(SubmitMode p_mode) = 0;
 	/// Discards what was recorded since begin_commands, for when an Error ends a frame early. An
 	/// acquired swapchain image stays acquired. Does nothing if no commands are being recorded.
 	virtual void abandon_commands() = 0;
 	virtual void wait_idle() = 0;
-	/// Copies the buffer, as it is at this command (usage COPY_SOURCE, Access::COPY_READ), and
-	/// calls p_callback with its bytes once the submission that is being recorded has ended: in a
-	/// later begin_commands, submit_commands(WAIT) or wait_idle, in the order of the calls. Never
-	/// when the commands are abandoned, or the device is lost or ends. p_callback may not begin
+	/// Records a copy of the buffer (usage COPY_SOURCE, in Access::COPY_READ). After the submission
+	/// has finished, a later begin_commands, submit_commands(WAIT) or wait_idle calls p_callback
+	/// with the bytes, in the order of the read_back calls. p_callback is not called if the
+	/// commands are abandoned, or if the device is lost or destroyed before. It must not begin
 	/// commands.
 	using ReadBackCallback = std::function<void(std::span<const uint8_t>)>;
 	virtual void read_back(BufferRID p_buffer, ReadBackCallback p_callback) = 0;
-	/// Reads back a texture's layer in the same way: tightly packed rows; for depth textures the
-	/// depth.
+	/// Reads back a layer of a texture in the same way, in tightly packed rows; of a depth texture,
+	/// the depth.
 	virtual void read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) = 0;
-	/// Spans of the newest finished submission, in recording order.
+	/// Returns the spans of the newest finished submission, in recording order.
 	virtual const std::vector<GpuSpan> &get_gpu_spans() const = 0;
 };
 
 // The backend that is linked into the program defines these functions.
 
-/// Creates the device. No driver or no usable device is an Error that names the package to install
-/// and the reason for each device.
+/// Creates the device. If there is no driver or no usable device, an Error names the package to
+/// install and why each device is unusable.
 std::unique_ptr<RenderingDevice> create_rendering_device(const DeviceOptions &p_options);
-/// Never throws: without a driver the list is empty.
+/// Lists all devices, usable or not. Never throws: without a driver the list is empty.
 std::vector<DeviceInfo> find_rendering_devices();
-/// Validation messages (warnings and errors, synchronization included) since the program began.
+/// Returns the number of validation messages (warnings and errors, including synchronization) since
+/// the program started.
 unsigned get_validation_message_count();
-/// A device of this process hangs and could not be destroyed. Its resources are leaked, and the
-/// program must exit with std::_Exit, because the driver would wait for the device too.
+/// Returns whether a device of this process hangs and could not be destroyed. Its resources are
+/// then leaked, and the program must exit with std::_Exit: a normal exit runs the driver's own
+/// cleanup, which would wait for the device.
 bool has_device_hung();
 
-/// Frees the resource when it goes out of scope.
+/// Owns a handle: frees the resource when it goes out of scope.
 template <typename Handle> class Owned {
 public:
 	Owned() = default;

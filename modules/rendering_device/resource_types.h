@@ -11,8 +11,8 @@
 
 namespace gnomon {
 
-/// A handle that names a resource of the RenderingDevice; 0 names nothing. Handles of different
-/// kinds do not mix.
+/// Handle of a resource of the RenderingDevice; an id of 0 is null. Each kind of resource has its
+/// own handle type.
 template <typename Tag> struct RID {
 	uint64_t id = 0;
 	explicit operator bool() const { return id != 0; }
@@ -34,19 +34,19 @@ enum class Format {
 	RG32_SFLOAT,
 	RGBA8_UNORM,
 	RGBA8_SRGB,
-	BGRA8_UNORM, // of windows; only drawn into
+	BGRA8_UNORM, // for window images; only a render target
 	RGBA16_SFLOAT,
 	RGBA32_SFLOAT,
 	RGBA32_UINT,
 	D32_SFLOAT,
-	D32_SFLOAT_S8_UINT, // an attachment; shaders read its depth; not copied
+	D32_SFLOAT_S8_UINT, // attachment; shaders can read its depth; not copied
 };
 uint32_t get_texel_size_bytes(Format p_format);
 const char *get_format_name(Format p_format);
 bool is_depth_format(Format p_format);
 bool has_stencil(Format p_format);
-/// Whether it is one of the integer formats that can be render targets (not RGBA32_UINT); blending
-/// has no effect on them.
+/// Returns whether the format is one of the integer formats that can be render targets (not
+/// RGBA32_UINT). Blending has no effect on them.
 bool is_uint_format(Format p_format);
 
 /// How a resource may be used; bits are combined with |.
@@ -66,8 +66,8 @@ enum class BufferUsage : uint32_t {
 	INDIRECT = 16,
 	COPY_SOURCE = 32,
 	COPY_TARGET = 64,
-	/// Uniform texel buffer, of BufferDesc::texel_format. Combined with STORAGE only if the device
-	/// has DeviceFeatures::storage_texel_buffers.
+	/// Uniform texel buffer of the format BufferDesc::texel_format. May be combined with STORAGE
+	/// only if the device has DeviceFeatures::storage_and_texel_buffers.
 	TEXEL = 128,
 	CONDITIONAL = 256, // read by CommandList::begin_conditional
 };
@@ -80,10 +80,11 @@ template <UsageFlags T> constexpr bool has_usage(T p_flags, T p_flag) {
 	return (static_cast<uint32_t>(p_flags) & static_cast<uint32_t>(p_flag)) != 0;
 }
 
-/// "SAMPLED | STORAGE", for errors.
+/// Returns the names of the usage bits, "SAMPLED | STORAGE", for error messages.
 std::string describe_usage(TextureUsage p_usage);
 
-/// GPU: fastest for the device. UPLOAD: written by the CPU, mapped. READBACK: read by it, mapped.
+/// GPU: fastest for the GPU, not mapped. UPLOAD: mapped, written by the CPU. READBACK: mapped, read
+/// by the CPU.
 enum class MemoryKind { GPU, UPLOAD, READBACK };
 
 struct TextureDesc {
@@ -92,8 +93,8 @@ struct TextureDesc {
 	glm::uvec2 size_px = glm::uvec2(1);
 	uint32_t layer_count = 1; // above 1 only for arrays
 	TextureUsage usage = TextureUsage::SAMPLED;
-	/// Shaders declare it as a 2D array even if it has one layer; a Binding of one of its layers is
-	/// a plain 2D texture.
+	/// Shaders declare the texture as a 2D array, even if it has one layer. A Binding of a single
+	/// layer is a 2D texture.
 	bool is_array = false;
 	/// Mip levels, each half as large as the one before, at least one texel. Above 1 only for
 	/// single-layer textures that are created with data, which contains all levels in order.
@@ -115,26 +116,27 @@ struct BufferDesc {
 };
 
 enum class Filter { NEAREST, LINEAR };
-/// Texture addressing beyond the edge: edge texels, repetition, or mirrored repetition.
+/// Texture addressing outside 0..1: clamp to the edge texels, repeat, or repeat mirrored.
 enum class AddressMode { CLAMP, REPEAT, MIRROR };
 /// How mip levels are sampled: only the first, the nearest, or two of them blended.
 enum class MipMode { NONE, NEAREST, LINEAR };
 struct SamplerDesc {
 	std::string name;
-	Filter magnified = Filter::NEAREST;
-	Filter minified = Filter::NEAREST;
+	Filter mag_filter = Filter::NEAREST;
+	Filter min_filter = Filter::NEAREST;
 	MipMode mip_mode = MipMode::NONE;
 	AddressMode address_u = AddressMode::CLAMP;
 	AddressMode address_v = AddressMode::CLAMP;
 };
 
-/// One resource at a binding of set 0. The kind of descriptor follows from the SPIR-V.
+/// The resource for one binding of descriptor set 0. The descriptor type follows from the shader's
+/// SPIR-V.
 struct Binding {
 	uint32_t binding = 0;
 	BufferRID buffer;
 	TextureRID texture;
 	SamplerRID sampler;			 // with a texture: for a combined image sampler
-	uint32_t layer = ALL_LAYERS; // of the texture
+	uint32_t layer = ALL_LAYERS; // layer of the texture
 
 	static constexpr uint32_t ALL_LAYERS = ~0u;
 	Binding(uint32_t p_binding, BufferRID p_buffer) : binding(p_binding), buffer(p_buffer) {}
@@ -167,18 +169,18 @@ struct StencilFace {
 struct StencilTest {
 	StencilFace front;
 	StencilFace back;
-	uint32_t reference = 0; // what is compared with and what REPLACE writes, 0 to 255
+	uint32_t reference = 0; // for comparisons and StencilOp::REPLACE, 0..255
 	auto operator<=>(const StencilTest &) const = default;
 };
 /// In Vulkan's order.
 enum class CullMode { NONE, FRONT, BACK };
-/// NORMAL: front faces are counter-clockwise as seen in a y-up view. Mirrored transforms wind them
-/// the other way.
+/// NORMAL: the corners of front faces are counter-clockwise in the image that is drawn. MIRRORED:
+/// they are clockwise, for instances with a mirrored transform.
 enum class Winding { NORMAL, MIRRORED };
 enum class Topology { TRIANGLES, TRIANGLES_WITH_ADJACENCY };
 enum class BlendMode { OFF, ALPHA, ADD, MINIMUM, MAXIMUM };
 
-/// A specialization constant. Booleans are 0 and 1; floats by their bits.
+/// A specialization constant. Booleans are 0 or 1; floats are stored as their bits.
 struct SpecializationConstant {
 	uint32_t constant_id = 0;
 	uint32_t value = 0;
@@ -198,7 +200,7 @@ struct PipelineName : std::string {
 
 struct ComputePipelineDesc {
 	PipelineName name;
-	std::string shader; // "shadow_map/resolve.comp"
+	std::string shader; // path below shaders/, "shadow_map/resolve.comp"
 	std::vector<SpecializationConstant> constants;
 	auto operator<=>(const ComputePipelineDesc &) const = default;
 };
@@ -208,7 +210,7 @@ struct VertexAttribute {
 	uint32_t buffer_index =
 			0; // into RasterPipelineDesc::vertex_strides_bytes and bind_vertex_buffers
 	Format format = Format::R32_SFLOAT;
-	uint32_t component_count = 3; // floats: R32_SFLOAT with 1..4 components
+	uint32_t component_count = 3; // 1..4 components of `format`, R32_SFLOAT or R32_UINT
 	uint32_t offset_bytes = 0;
 	auto operator<=>(const VertexAttribute &) const = default;
 };
@@ -224,12 +226,12 @@ struct RasterPipelineDesc {
 	Topology topology = Topology::TRIANGLES;
 	CullMode cull_mode = CullMode::NONE;
 	Winding winding = Winding::NORMAL;
-	/// Empty, with has_depth false: for rendering without targets, where fragment shaders only
-	/// store.
+	/// Formats of the colour targets. Empty, with has_depth false, for
+	/// begin_rendering_without_targets.
 	std::vector<Format> color_formats;
 	BlendMode blend = BlendMode::OFF; // the same for all colour targets
 	bool has_depth = true;			  // a D32_SFLOAT attachment is bound
-	bool has_stencil = false;		  // with has_depth: it is a D32_SFLOAT_S8_UINT one
+	bool has_stencil = false;		  // with has_depth: a D32_SFLOAT_S8_UINT one
 	StencilTest stencil;
 	bool writes_depth = true;
 	CompareOp depth_compare = CompareOp::LESS;
@@ -241,7 +243,7 @@ struct RasterPipelineDesc {
 	auto operator<=>(const RasterPipelineDesc &) const = default;
 };
 
-/// The initial content of an attachment, in Vulkan's order.
+/// What happens to an attachment's earlier content when a rendering begins. In Vulkan's order.
 enum class LoadOp { KEEP, CLEAR, DISCARD };
 struct ColorTarget {
 	TextureRID texture;
@@ -277,6 +279,7 @@ enum class Access {
 	HOST_WRITE,
 	PRESENT,
 };
+/// Returns whether the access may write.
 bool is_write(Access p_access);
 
 /// One barrier on a whole resource, a buffer or a texture.
@@ -285,7 +288,8 @@ struct Barrier {
 	TextureRID texture;
 	Access before = Access::NONE; // NONE on a texture: its content is discarded
 	Access after = Access::NONE;
-	/// For a texture that aliases memory, with before == NONE: the accesses of the earlier users.
+	/// With before == NONE, for a texture in aliased memory: the last accesses to the textures that
+	/// used the memory before.
 	std::vector<Access> earlier_users;
 };
 

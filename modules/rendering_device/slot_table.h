@@ -11,9 +11,9 @@
 
 namespace gnomon {
 
-/// Resources behind handles. A handle holds the slot's index and its generation, so that a handle
-/// used after free() is noticed and named instead of reaching whoever took over the slot.
-/// Resource needs a member `desc.name`.
+/// Table of resources by handle. A handle contains the slot's index and generation, so that the use
+/// of a freed resource is detected and reported by name, even if the slot has a new resource. The
+/// type Resource needs a member `desc.name`.
 template <typename Handle, typename Resource> class SlotTable {
 public:
 	explicit SlotTable(const char *p_kind) : kind(p_kind) {}

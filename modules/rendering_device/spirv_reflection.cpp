@@ -12,11 +12,11 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t PUSH_CONSTANT_GRANULARITY = 16;
+constexpr uint32_t PUSH_CONSTANT_ALIGNMENT_BYTES = 16;
 constexpr size_t SPIRV_HEADER_WORDS = 5;
 constexpr uint32_t IMAGE_IS_STORAGE = 2; // operand "Sampled" of OpTypeImage
 
-using Instruction = std::span<const uint32_t>; // word 0 is op and length
+using Instruction = std::span<const uint32_t>; // word 0: opcode and length in words
 
 class Reflector {
 public:
@@ -98,7 +98,7 @@ private:
 			case spv::OpVariable:
 				variables[p_in[2]] = { p_in[1], p_in[3], false };
 				break;
-			default: // types, and constants, which have their type in front
+			default: // types by id, and constants, where the id follows their type
 				if (op >= spv::OpTypeVoid && op <= spv::OpTypePipe) {
 					definitions[p_in[1]] = p_in;
 				} else if (op >= spv::OpConstantTrue && op <= spv::OpSpecConstantOp) {
@@ -108,7 +108,8 @@ private:
 		}
 	}
 
-	/// Only instructions that take a pointer are looked at: a literal elsewhere could equal an id.
+	/// Marks the variables that an instruction accesses. Checks only operands that are pointers,
+	/// because a literal in another operand could equal an id.
 	void mark_used(Instruction p_in) {
 		switch (get_op(p_in)) {
 			case spv::OpLoad:
@@ -253,7 +254,7 @@ private:
 		}
 	}
 
-	/// p_matrix_stride_bytes: of the member that holds the type, for matrices.
+	/// p_matrix_stride_bytes: stride of the struct member of this type, if it is a matrix.
 	uint32_t compute_size_bytes(uint32_t p_type, uint32_t p_matrix_stride_bytes) const {
 		const Instruction type = get_definition(p_type);
 		switch (get_op(type)) {
@@ -288,8 +289,8 @@ private:
 		// A constant decorated WorkgroupSize has precedence over the execution modes.
 		for (const auto &[key, value] : decorations) {
 			if (key.second == spv::DecorationBuiltIn && value == spv::BuiltInWorkgroupSize) {
-				const Instruction parts = get_definition(key.first);
-				return { get_constant(parts[3]), get_constant(parts[4]), get_constant(parts[5]) };
+				const Instruction sizes = get_definition(key.first);
+				return { get_constant(sizes[3]), get_constant(sizes[4]), get_constant(sizes[5]) };
 			}
 		}
 		if (local_size_ids) {
@@ -308,7 +309,7 @@ private:
 	std::map<std::array<uint32_t, 3>, uint32_t> member_decorations; // type, member, decoration
 	std::map<uint32_t, Instruction> definitions;					// types and constants
 	std::map<uint32_t, Variable> variables;
-	std::vector<uint32_t> booleans; // specialization constants
+	std::vector<uint32_t> booleans; // result ids of boolean specialization constants
 };
 
 } // namespace
@@ -352,8 +353,8 @@ uint32_t compute_push_constant_bytes(std::span<const ReflectedShader> p_shaders)
 	for (const ReflectedShader &shader : p_shaders) {
 		bytes = std::max(bytes, shader.push_constant_bytes);
 	}
-	return (bytes + PUSH_CONSTANT_GRANULARITY - 1) / PUSH_CONSTANT_GRANULARITY *
-			PUSH_CONSTANT_GRANULARITY;
+	return (bytes + PUSH_CONSTANT_ALIGNMENT_BYTES - 1) / PUSH_CONSTANT_ALIGNMENT_BYTES *
+			PUSH_CONSTANT_ALIGNMENT_BYTES;
 }
 
 } // namespace gnomon

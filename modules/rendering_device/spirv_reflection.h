@@ -16,6 +16,7 @@ enum class ShaderStage : uint32_t {
 	FRAGMENT = 16,
 	COMPUTE = 32
 };
+/// Kinds of resources; the values are those of VkDescriptorType.
 enum class ResourceKind : uint32_t {
 	SAMPLER = 0,
 	TEXTURE_WITH_SAMPLER = 1,
@@ -26,36 +27,37 @@ enum class ResourceKind : uint32_t {
 	STORAGE_BUFFER = 7,
 };
 
-/// One resource of set 0.
+/// One binding of descriptor set 0.
 struct ReflectedBinding {
 	uint32_t binding = 0;
 	ResourceKind kind = ResourceKind::SAMPLER;
 	uint32_t stages = 0;	 // bits of ShaderStage
 	bool is_arrayed = false; // a texture that the shader declares as an array
-	/// Some function accesses it; a binding that is only declared needs no resource.
+	/// Whether a function accesses it. A binding that is only declared needs no resource.
 	bool is_used = false;
 };
 
-/// The interface of one entry point that a pipeline needs to know.
+/// The interface of one entry point, as far as a pipeline needs it.
 struct ReflectedShader {
 	ShaderStage stage = ShaderStage::NONE;
 	std::vector<ReflectedBinding> bindings;	 // ordered by binding
 	uint32_t push_constant_bytes = 0;		 // to the end of the last member; 0 = no block
 	glm::uvec3 local_size = glm::uvec3(1);	 // for compute, with specialization applied
-	std::vector<uint32_t> boolean_constants; // ids of specialization constants
+	std::vector<uint32_t> boolean_constants; // constant_ids
 };
 
-/// Reads a module with one entry point `main`. A construct that the device does not support (other
-/// sets, descriptor arrays, storage texel buffers) is an Error naming the shader.
+/// Reads the interface of a SPIR-V module with one entry point `main`. A construct that the device
+/// does not support (other sets, descriptor arrays, storage texel buffers) is an Error that names
+/// the shader.
 ReflectedShader reflect_spirv(std::string_view p_name, std::span<const uint32_t> p_words,
 		std::span<const SpecializationConstant> p_constants);
 
-/// Merges the bindings of a pipeline's entry points, ordered by binding. Two kinds at one binding
-/// are an Error naming the pipeline.
+/// Merges the bindings of a pipeline's entry points, ordered by binding. One binding with two kinds
+/// of resources is an Error that names the pipeline.
 std::vector<ReflectedBinding> merge_bindings(
 		const std::string &p_pipeline, std::span<const ReflectedShader> p_shaders);
-/// Largest push-constant size of the entry points, rounded up to 16 bytes, to which C++ blocks are
-/// padded.
+/// Returns the largest push-constant size of the entry points, rounded up to 16 bytes, as C++
+/// blocks are padded to 16 bytes.
 uint32_t compute_push_constant_bytes(std::span<const ReflectedShader> p_shaders);
 
 } // namespace gnomon

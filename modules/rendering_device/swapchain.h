@@ -6,8 +6,8 @@
 
 namespace gnomon {
 
-/// Images of a window. The window's owner makes it, for a device that was created with
-/// DeviceOptions::needs_surface; it ends before the device.
+/// The images of a window. The window's owner creates the swapchain, for a device that was created
+/// with DeviceOptions::needs_surface, and destroys it before the device.
 class Swapchain {
 public:
 	Swapchain() = default;
@@ -15,12 +15,12 @@ public:
 	Swapchain(const Swapchain &) = delete;
 	Swapchain &operator=(const Swapchain &) = delete;
 
-	/// The next image to draw, sRGB-encoded values as stored (write encoded values), or nothing
-	/// while the window has no area. Recreates itself after a resize. Before begin_commands or
-	/// after it. The image starts without content (Access::NONE) and must end with Access::PRESENT:
-	/// the submission that brings it there presents it. An image that no submission brought there
-	/// is handed out again. The handle is a COLOR_ATTACHMENT texture of RGBA8_UNORM or
-	/// BGRA8_UNORM, see RenderingDevice::get_desc.
+	/// Returns the next image to draw into, or nothing if there is none now: while the window has
+	/// no area or is being resized, and with some window systems while it is hidden. The image is a
+	/// COLOR_ATTACHMENT texture of RGBA8_UNORM or BGRA8_UNORM (see RenderingDevice::get_desc);
+	/// write sRGB-encoded values. May be called before or after begin_commands. Recreates the
+	/// images after a resize. The image starts without content (Access::NONE). The submission that
+	/// brings it to Access::PRESENT presents it. Until then, further calls return the same image.
 	virtual std::optional<TextureRID> acquire(glm::uvec2 p_window_size_px) = 0;
 	virtual glm::uvec2 get_size_px() const = 0;
 };

@@ -7,7 +7,7 @@ def get_layer():
 
 
 def get_description():
-    return "The device inside Godot: over its RenderingDevice"
+    return "The device inside Godot, implemented on Godot's RenderingDevice"
 
 
 def get_hosts():
@@ -15,6 +15,6 @@ def get_hosts():
 
 
 def get_include_folders(env):
-    import godot_builders  # of a build alone
+    import godot_builders  # only available during a build
 
     return [godot_builders.get_api_folder(env)]

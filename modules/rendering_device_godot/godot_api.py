@@ -1,8 +1,8 @@
-"""Writes C++ bindings for what is used of Godot, from the description that a Godot gives of itself.
+"""Generates C++ bindings for the part of Godot's API that the add-on uses, from Godot's description of its API.
 
 `godot --headless --dump-extension-api --dump-gdextension-interface` writes extension_api.json and
-gdextension_interface.h. USED names classes, their methods and enums; a name that this Godot does not have is an error
-that names it. Methods become members of a class of the same name in gnomon::godot, with Godot's names.
+gdextension_interface.h. USED lists classes with their methods and enums; a name that this Godot lacks is an error that
+names it. Methods become members of a class of the same name in gnomon::godot, with Godot's names.
 """
 
 import json
@@ -156,6 +156,7 @@ USED = {
         "enums": "Format",
     },
 }
+# Methods of built-in types, which godot_interface.cpp looks up by name and hash.
 BUILT_IN_METHODS = {
     "Array": ("append", "size"),
     "PackedByteArray": ("size", "resize"),
@@ -167,7 +168,7 @@ BUILT_IN_METHODS = {
     "PackedColorArray": ("size", "resize"),
     "PackedStringArray": ("append",),
 }
-# As values are passed; vectors and colours have the layout of glm's.
+# C++ types of the values that Godot passes; vectors and colours have the layout of glm types.
 VALUES = {
     "int": "int64_t",
     "float": "double",
@@ -181,6 +182,7 @@ VALUES = {
     "Transform3D": "Transform3D",
     "Projection": "glm::mat4",
 }
+# Built-in types whose contents Godot allocates. godot_values.h wraps them, and they are passed by reference.
 OPAQUE = (
     *("String", "StringName", "NodePath", "Variant", "Callable", "Array", "Dictionary"),
     *("PackedByteArray", "PackedInt64Array", "PackedFloat32Array", "PackedColorArray"),
@@ -196,6 +198,8 @@ namespace gnomon::godot {
 
 
 class Api:
+    """Godot's API. `used` maps the classes to bind to their methods and enums, as USED does."""
+
     def __init__(self, path, used):
         with open(path, encoding="utf-8") as file:
             description = json.load(file)
@@ -211,7 +215,7 @@ class Api:
         raise SystemExit("ERROR: %s has no %s.%s, which the add-on uses." % (self.version, owner, name))
 
     def get_type(self, name, is_argument):
-        """C++ type of a parameter or result."""
+        """Returns the C++ type of a parameter or result."""
         if name in VALUES:
             return VALUES[name]
         if name.startswith(("enum::", "bitfield::")):
@@ -229,6 +233,7 @@ class Api:
         raise SystemExit("ERROR: no binding for values of the type %s." % name)
 
     def is_counted(self, name):
+        """Returns whether the class derives from RefCounted."""
         while name:
             if name == "RefCounted":
                 return True
@@ -236,34 +241,34 @@ class Api:
         return False
 
     def find_base(self, name):
-        """Nearest class above that is bound too; ObjectHandle, which all of them are, where there is none."""
+        """Returns the nearest base class that is in `used`, or ObjectHandle, the base of all bound classes."""
         base = self.classes[name].get("inherits")
         while base and base not in self.used:
             base = self.classes[base].get("inherits")
         return base or "ObjectHandle"
 
     def sort_classes(self):
-        """The names of `used`, a class behind the one that it derives from."""
+        """Returns the names in `used`, with each class after its base class."""
         found = []
         while len(found) < len(self.used):
             found += [name for name in self.used if name not in found and self.find_base(name) in ["ObjectHandle"] + found]
         return found
 
-    def write_class(self, name):
-        """(lines of the class, lines of its methods)"""
-        used = self.used[name]
+    def build_class(self, name):
+        """Returns the lines of the class and the lines of its method definitions."""
+        members = self.used[name]
         definitions = []
         described = self.find(self.classes.values(), name, "classes")
         base = self.find_base(name)
         lines = ["/// %s; see Godot's documentation." % name, "class %s : public %s {" % (name, base), "public:"]
         lines.append("\tusing %s::%s;" % (base, base))
         lines.append('\tstatic constexpr const char *CLASS_NAME = "%s";' % name)
-        for enum in used.get("enums", "").split():
+        for enum in members.get("enums", "").split():
             values = self.find(described["enums"], enum, name)["values"]
             lines.append("\tenum %s : int64_t {" % enum)
             lines += ["\t\t%s = %d," % (value["name"], value["value"]) for value in values]
             lines.append("\t};")
-        for method_name in used["methods"].split():
+        for method_name in members["methods"].split():
             method = self.find(described.get("methods", []), method_name, name)
             arguments = [(self.get_type(a["type"], True), a["name"]) for a in method.get("arguments", [])]
             result = method.get("return_value")
@@ -276,11 +281,12 @@ class Api:
             form = "inline %s %s::%s(%s)" + ("" if is_static else " const") + " {"
             definitions.append(form % (result_type, name, method_name, parameters))
             definitions.append('\tstatic const MethodBind bind("%s", "%s", %d);' % (name, method_name, method["hash"]))
-            object_name = "nullptr" if is_static else "owner"
+            object_name = "nullptr" if is_static else "object"
             definitions += ["\treturn bind.call<%s>(%s%s);" % (result_type, object_name, values), "}"]
         return lines + ["};", ""], definitions + [""]
 
-    def write_built_in(self):
+    def build_hashes(self):
+        """Returns the lines of the constants with the hashes of BUILT_IN_METHODS."""
         lines = []
         for name, methods in BUILT_IN_METHODS.items():
             for method_name in methods:
@@ -292,12 +298,12 @@ class Api:
 
 
 def write_bindings(api_path, target, used):
-    """Writes the header `target` with the classes of `used`."""
+    """Writes the header `target` with the classes of `used`, a dictionary like USED."""
     api = Api(api_path, used)
     lines = ["class %s;" % name for name in used] + [""]
-    definitions = []  # behind all classes, some of which are their results
+    definitions = []  # written after all classes, because methods return some of them
     for name in api.sort_classes():
-        declared, defined = api.write_class(name)
+        declared, defined = api.build_class(name)
         lines += declared
         definitions += defined
     lines += definitions
@@ -308,6 +314,6 @@ def write_bindings(api_path, target, used):
 def write_hashes(api_path, target):
     """Writes the header `target` with the hashes of methods of built-in types."""
     lines = ["// Generated by modules/rendering_device_godot/godot_api.py.", "#pragma once", "", "#include <cstdint>", ""]
-    lines += ["namespace gnomon::godot {", ""] + Api(api_path, USED).write_built_in() + ["} // namespace gnomon::godot", ""]
+    lines += ["namespace gnomon::godot {", ""] + Api(api_path, USED).build_hashes() + ["} // namespace gnomon::godot", ""]
     with open(target, "w", encoding="utf-8") as file:
         file.write("\n".join(lines))

@@ -48,7 +48,7 @@ void GodotDevice::end_span() {
 }
 
 void GodotDevice::barriers(std::span<const Barrier>) {
-	end_compute_list(); // Godot waits between lists for what the next one needs
+	end_compute_list(); // Godot synchronises one list with the next
 }
 
 void GodotDevice::begin_compute_list() {
@@ -106,7 +106,6 @@ void GodotDevice::begin_rendering(
 	for (size_t index = 0; index < p_colors.size(); ++index) {
 		const ColorTarget &color = p_colors[index];
 		const TextureDesc &desc = textures.get(color.texture).desc;
-		target_size_px = desc.size_px;
 		clear_colors.push_back(to_godot_clear_value(desc.format, color.clear));
 		flags |= color.load == LoadOp::CLEAR	? RD::DRAW_CLEAR_COLOR_0 << index
 				: color.load == LoadOp::DISCARD ? RD::DRAW_IGNORE_COLOR_0 << index
@@ -114,7 +113,6 @@ void GodotDevice::begin_rendering(
 	}
 	if (p_depth) {
 		const TextureDesc &desc = textures.get(p_depth->texture).desc;
-		target_size_px = desc.size_px;
 		if (p_depth->load == LoadOp::CLEAR) {
 			flags |= RD::DRAW_CLEAR_DEPTH |
 					(has_stencil(desc.format) ? int64_t(RD::DRAW_CLEAR_STENCIL) : 0);
@@ -133,7 +131,6 @@ void GodotDevice::begin_rendering_without_targets(glm::uvec2 p_size_px) {
 		cached.rid = rd.framebuffer_create_empty(glm::ivec2(p_size_px), 0, -1);
 	}
 	cached.last_use = submission;
-	target_size_px = p_size_px;
 	begin_draw_list(cached.rid, 0, {}, 0.0f);
 }
 
@@ -226,7 +223,7 @@ godot::RID GodotDevice::get_uniform_set(
 			if (slot.resource) {
 				uniform.add_id(slot.resource);
 			}
-			uniforms.append(Variant::of_object(uniform.get_owner()));
+			uniforms.append(Variant::of_object(uniform.get_object()));
 		}
 		cached.rid = rd.uniform_set_create(uniforms, p_pipeline.shader, 0);
 		GNOMON_ASSERT(cached.rid, "pipeline '", p_pipeline.name, "': Godot refuses its resources");
@@ -248,7 +245,7 @@ void GodotDevice::bind_resources(std::span<const Binding> p_bindings) {
 }
 
 void GodotDevice::push_constants(std::span<const uint8_t> p_bytes) {
-	// Godot takes whole vectors; C++ and GLSL may end a block earlier.
+	// Godot expects a multiple of 16 bytes; a C++ block may end with its last member, as in GLSL.
 	const size_t padded_bytes = (p_bytes.size() + 15) / 16 * 16;
 	GNOMON_ASSERT(padded_bytes == bound->push_constant_bytes && p_bytes.size() % 4 == 0,
 			"pipeline '", bound->name, "': ", p_bytes.size(), " bytes of push constants, must be ",

@@ -19,8 +19,8 @@ using godot::Variant;
 
 namespace {
 
-constexpr uint64_t LARGEST_BUFFER_BYTES = 0xffffffffu; // sizes are 32 bits wide in Godot's calls
-constexpr size_t MOST_SPARE_UPLOADS = 64;			   // of one size and usage
+constexpr uint64_t MAX_BUFFER_BYTES = 0xffffffffu; // sizes are 32 bits wide in Godot's calls
+constexpr size_t MAX_SPARE_UPLOADS = 64;		   // per size and usage
 
 uint64_t compute_size_bytes(const TextureDesc &p_desc) {
 	return compute_layer_bytes(p_desc) * p_desc.layer_count;
@@ -39,7 +39,7 @@ GodotDevice::GodotDevice(
 	features.depth_clamp = true;
 	features.fragment_stores = true;
 	features.max_texture_size_px = uint32_t(rd.limit_get(RD::LIMIT_MAX_TEXTURE_SIZE_2D));
-	features.max_storage_buffer_bytes = LARGEST_BUFFER_BYTES;
+	features.max_storage_buffer_bytes = MAX_BUFFER_BYTES;
 	features.subgroup_size = measure_subgroup_size();
 	features.subgroup_operations = features.subgroup_size > 0;
 	for (const auto &feature : p_options.denied_features) {
@@ -66,7 +66,7 @@ uint32_t GodotDevice::measure_subgroup_size() {
 }
 
 GodotDevice::~GodotDevice() {
-	read_backs.clear(); // who waited for them may be gone
+	read_backs.clear(); // the owners of the callbacks may be gone
 	wait_idle();
 	*is_alive = false;
 	for (const std::string &name : list_live_resources()) {
@@ -87,7 +87,7 @@ GodotDevice::~GodotDevice() {
 		}
 	}
 	if (kind == Kind::LOCAL) {
-		godot::get_interface().object_destroy(rd.get_owner());
+		godot::get_interface().object_destroy(rd.get_object());
 	}
 }
 
@@ -130,7 +130,7 @@ godot::RID GodotDevice::create_godot_buffer(
 				RD::INDEX_BUFFER_FORMAT_UINT32, bytes, false, bits);
 	}
 	if (has_usage(p_desc.usage, BufferUsage::UNIFORM) &&
-			!has_usage(p_desc.usage, BufferUsage::STORAGE)) { // Godot's are one of the two
+			!has_usage(p_desc.usage, BufferUsage::STORAGE)) { // Godot's buffers cannot be both
 		return rd.uniform_buffer_create(size, bytes, 0);
 	}
 	return rd.storage_buffer_create(size, bytes,
@@ -150,9 +150,9 @@ BufferRID GodotDevice::create_buffer_with_data(
 	GodotBuffer buffer;
 	buffer.desc = std::move(p_desc);
 	const BufferDesc &desc = buffer.desc;
-	if (desc.size_bytes > LARGEST_BUFFER_BYTES) {
+	if (desc.size_bytes > MAX_BUFFER_BYTES) {
 		fail("Buffer '", desc.name, "' needs ", desc.size_bytes, " bytes, at most ",
-				LARGEST_BUFFER_BYTES, " are possible in Godot. Let fewer meshes cast shadows.");
+				MAX_BUFFER_BYTES, " are possible in Godot. Let fewer meshes cast shadows.");
 	}
 	if (desc.memory != MemoryKind::GPU) {
 		buffer.bytes.resize(size_t(desc.size_bytes));
@@ -252,9 +252,10 @@ SamplerRID GodotDevice::create_sampler(const SamplerDesc &p_desc) {
 				: p_mode == AddressMode::MIRROR ? RD::SAMPLER_REPEAT_MODE_MIRRORED_REPEAT
 												: RD::SAMPLER_REPEAT_MODE_CLAMP_TO_EDGE;
 	};
-	state.set_mag_filter(get_filter(p_desc.magnified == Filter::LINEAR));
-	state.set_min_filter(get_filter(p_desc.minified == Filter::LINEAR));
+	state.set_mag_filter(get_filter(p_desc.mag_filter == Filter::LINEAR));
+	state.set_min_filter(get_filter(p_desc.min_filter == Filter::LINEAR));
 	state.set_mip_filter(get_filter(p_desc.mip_mode == MipMode::LINEAR));
+	// With a maximum of 0.25 only the first level is read, with the minification filter.
 	state.set_max_lod(p_desc.mip_mode == MipMode::NONE ? 0.25 : 1e20);
 	state.set_repeat_u(get_repeat_mode(p_desc.address_u));
 	state.set_repeat_v(get_repeat_mode(p_desc.address_v));
@@ -268,13 +269,13 @@ void GodotDevice::free(BufferRID p_buffer) {
 	std::erase(stale_uploads, p_buffer);
 	if (buffer.desc.memory == MemoryKind::UPLOAD) {
 		auto &spares = spare_uploads[{ buffer.desc.size_bytes, buffer.desc.usage }];
-		if (spares.size() < MOST_SPARE_UPLOADS) {
+		if (spares.size() < MAX_SPARE_UPLOADS) {
 			spares.push_back({ buffer.rid, submission });
 			return;
 		}
 	}
 	if (buffer.rid) {
-		forget(buffer.rid);
+		remove_dependents(buffer.rid);
 		rd.free_rid(buffer.rid);
 	}
 }
@@ -290,11 +291,11 @@ void GodotDevice::free(TextureRID p_texture) {
 		return;
 	}
 	use.used_bytes -= compute_size_bytes(texture.desc);
-	forget(texture.rid);
+	remove_dependents(texture.rid);
 	for (const auto &[layer, view] : texture.layers) {
-		forget(view);
+		remove_dependents(view);
 	}
-	rd.free_rid(texture.rid); // its views with it
+	rd.free_rid(texture.rid); // also frees its views
 }
 
 void GodotDevice::free(SamplerRID p_sampler) {
@@ -342,13 +343,14 @@ godot::Callable GodotDevice::make_callable(ReadBackCallback p_callback) const {
 				}
 				try {
 					callback(PackedByteArray(p_arguments.front()).get_values());
-				} catch (const std::exception &failure) { // Godot knows no exceptions
+				} catch (const std::exception &failure) { // Godot cannot handle exceptions
 					log_error(describe_failure(failure));
 				}
 			});
 }
 
-RenderingDevice::PlacementNeeds GodotDevice::compute_placement_needs(const TextureDesc &) {
+RenderingDevice::PlacementRequirements GodotDevice::get_placement_requirements(
+		const TextureDesc &) {
 	GNOMON_ASSERT(false, "this device has no aliased memory");
 	return {};
 }
@@ -363,7 +365,7 @@ TextureRID GodotDevice::create_placed_texture(const TextureDesc &, MemoryRID, ui
 	return {};
 }
 
-void GodotDevice::forget(godot::RID p_resource) {
+void GodotDevice::remove_dependents(godot::RID p_resource) {
 	for (Cache *cache : { &uniform_sets, &framebuffers, &vertex_arrays, &index_arrays }) {
 		std::erase_if(*cache, [&](const auto &p_entry) {
 			return std::find(p_entry.first.begin(), p_entry.first.end(), p_resource.id) !=
@@ -388,7 +390,7 @@ void GodotDevice::prune_spare_uploads() {
 		std::erase_if(spares, [&](const Cached &p_spare) {
 			const bool is_old = submission - p_spare.last_use > MAX_UNUSED_FRAMES;
 			if (is_old) {
-				forget(p_spare.rid);
+				remove_dependents(p_spare.rid);
 				rd.free_rid(p_spare.rid);
 			}
 			return is_old;

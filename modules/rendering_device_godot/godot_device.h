@@ -42,16 +42,17 @@ struct GodotPipeline {
 	uint32_t push_constant_bytes = 0;
 	glm::uvec3 local_size = glm::uvec3(1);
 	int64_t vertex_format = -1; // -1: no vertex attributes
-	/// Compute pipelines have one entry, with key 0; others have one per framebuffer format.
+	/// Godot's pipelines. Compute pipelines have one entry, with key 0; raster pipelines have one
+	/// per framebuffer format.
 	std::map<int64_t, godot::RID> by_framebuffer_format;
 };
 
-/// A device on top of Godot's RenderingDevice: MAIN, the one that draws Godot's frames and takes
-/// our commands in between, or a LOCAL one. Godot inserts barriers and layout transitions and may
-/// reorder independent commands. Each call is recorded immediately, so that abandoned commands
-/// still run, but write to resources that are no longer read.
+/// A device on top of one of Godot's RenderingDevices: MAIN, the one that draws Godot's frames,
+/// with Gnomon's commands in between, or a separate LOCAL one. Godot inserts barriers and layout
+/// transitions and may reorder independent commands. Each call is passed to Godot immediately, so
+/// that abandoned commands still run, but they write to resources that are no longer read.
 ///
-/// get_features reports what Godot's device lacks. Use it only on the render thread.
+/// Features that Godot's device lacks are false in get_features. Use it only on the render thread.
 class GodotDevice final : public RenderingDevice, private CommandList {
 public:
 	enum class Kind { MAIN, LOCAL };
@@ -79,7 +80,7 @@ public:
 	SamplerRID create_sampler(const SamplerDesc &p_desc) override;
 	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) override;
 	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) override;
-	/// Not supported: shaders are edited in Gnomon's own editor.
+	/// Always an Error: shaders are edited in Gnomon's own editor.
 	void replace_shaders(const std::map<std::string, std::vector<uint32_t>> &) override;
 	void free(BufferRID p_buffer) override;
 	void free(TextureRID p_texture) override;
@@ -90,7 +91,7 @@ public:
 	const TextureDesc &get_desc(TextureRID p_texture) const override;
 	uint8_t *get_mapped(BufferRID p_buffer) override;
 
-	PlacementNeeds compute_placement_needs(const TextureDesc &p_desc) override;
+	PlacementRequirements get_placement_requirements(const TextureDesc &p_desc) override;
 	MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) override;
 	TextureRID create_placed_texture(
 			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes) override;
@@ -114,7 +115,7 @@ private:
 	void end_rendering() override;
 	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
 	void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
-	void set_depth_bounds(float p_least, float p_greatest) override;
+	void set_depth_bounds(float p_min, float p_max) override;
 	void bind_pipeline(PipelineRID p_pipeline) override;
 	void bind_resources(std::span<const Binding> p_bindings) override;
 	void push_constants(std::span<const uint8_t> p_bytes) override;
@@ -137,8 +138,8 @@ private:
 	void copy_texture(TextureRID p_source, TextureRID p_target) override;
 	void clear_color(TextureRID p_texture, glm::vec4 p_value) override;
 
-	/// Key of a Godot object that is made from several resources: their ids, and numbers that are
-	/// not ids (those are above 2^32).
+	/// Key of a Godot object that is made from several resources: their ids, and other numbers.
+	/// Ids are above 2^32, so that remove_dependents takes no other number for one.
 	using Key = std::vector<uint64_t>;
 	struct Cached {
 		godot::RID rid;
@@ -158,15 +159,16 @@ private:
 	godot::RID get_framebuffer(std::span<const ColorTarget> p_colors, const DepthTarget *p_depth);
 	void begin_draw_list(godot::RID p_framebuffer, int64_t p_flags,
 			std::span<const glm::vec4> p_clear_colors, float p_clear_depth);
-	/// Binds the vertex array of the bound pipeline and buffers; does nothing if it has no
-	/// attributes.
+	/// Binds the vertex array of the bound pipeline and buffers; does nothing if the pipeline has
+	/// no vertex attributes.
 	void bind_vertex_array(uint32_t p_vertex_count);
 	void begin_compute_list();
 	void end_compute_list();
 	void flush_uploads();
-	/// Forgets the objects that were made from the resource, which Godot frees with it.
-	void forget(godot::RID p_resource);
-	/// Frees entries that were not used for long.
+	/// Removes the cached objects that were made from the resource. Godot frees them with the
+	/// resource.
+	void remove_dependents(godot::RID p_resource);
+	/// Frees entries that were not used for more than MAX_UNUSED_FRAMES submissions.
 	void prune(Cache &r_cache, bool (*p_is_valid)(const godot::RenderingDevice &, godot::RID));
 	void prune_spare_uploads();
 	void call_read_backs();
@@ -193,8 +195,8 @@ private:
 	Cache vertex_arrays;
 	Cache index_arrays;
 	std::map<Key, int64_t> vertex_formats;
-	/// Unused UPLOAD buffers, for reuse, so that each frame's constants have the same ids as those
-	/// of the frame before.
+	/// Unused UPLOAD buffers by size and usage, for reuse: each frame's constants then have the
+	/// same ids as those of the frame before, so that cached uniform sets can be reused too.
 	std::map<std::pair<uint64_t, BufferUsage>, std::vector<Cached>> spare_uploads;
 	std::vector<BufferRID> stale_uploads;
 	/// For a local device: data that was read back, and the callbacks to call.
@@ -204,14 +206,13 @@ private:
 	std::shared_ptr<bool> is_submitted_or_recorded = std::make_shared<bool>(true);
 	std::shared_ptr<bool> is_alive = std::make_shared<bool>(true);
 
-	// Valid while commands are recorded.
+	// State of the recording and of the last submission.
 	uint64_t submission = 0;
 	bool is_recording = false;
 	bool is_submitted = false; // a local device's last submission has not been waited for
 	int64_t compute_list = -1;
 	int64_t draw_list = -1;
 	int64_t framebuffer_format = -1;
-	glm::uvec2 target_size_px = glm::uvec2(0);
 	const GodotPipeline *bound = nullptr;
 	std::vector<BufferRID> vertex_buffers;
 	BufferRID index_buffer;

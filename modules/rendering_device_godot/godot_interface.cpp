@@ -142,7 +142,7 @@ void destroy_built_in(BuiltInType p_type, void *r_value) {
 	}
 }
 
-String::String(std::string_view p_text) : BuiltIn(Empty::EMPTY) {
+String::String(std::string_view p_text) : BuiltIn(Uninitialized::UNINITIALIZED) {
 	interface.string_new_with_utf8_chars_and_len(
 			bytes, p_text.data(), static_cast<GDExtensionInt>(p_text.size()));
 }
@@ -154,7 +154,7 @@ std::string String::to_utf8() const {
 	return text;
 }
 
-StringName::StringName(const char *p_text) : BuiltIn(Empty::EMPTY) {
+StringName::StringName(const char *p_text) : BuiltIn(Uninitialized::UNINITIALIZED) {
 	interface.string_name_new_with_utf8_chars(bytes, p_text);
 }
 
@@ -162,7 +162,7 @@ std::string NodePath::to_utf8() const {
 	return Variant(BuiltInType::NODE_PATH, bytes).to_utf8();
 }
 
-Variant::Variant(BuiltInType p_type, const void *p_value) : BuiltIn(Empty::EMPTY) {
+Variant::Variant(BuiltInType p_type, const void *p_value) : BuiltIn(Uninitialized::UNINITIALIZED) {
 	interface.get_variant_from_type_constructor(to_godot(p_type))(
 			bytes, const_cast<void *>(p_value));
 }
@@ -173,7 +173,7 @@ Variant::Variant(int64_t p_value) : Variant(BuiltInType::INT, &p_value) {}
 
 Variant::Variant(double p_value) : Variant(BuiltInType::FLOAT, &p_value) {}
 
-Variant::Variant(bool p_value) : BuiltIn(Empty::EMPTY) {
+Variant::Variant(bool p_value) : BuiltIn(Uninitialized::UNINITIALIZED) {
 	const uint8_t value = p_value;
 	interface.get_variant_from_type_constructor(GDEXTENSION_VARIANT_TYPE_BOOL)(
 			bytes, const_cast<uint8_t *>(&value));
@@ -192,7 +192,7 @@ Variant::Variant(const PackedByteArray &p_value) :
 		Variant(BuiltInType::PACKED_BYTE_ARRAY, p_value.get()) {}
 
 Variant Variant::copy_of(const void *p_variant) {
-	Variant copy(Empty::EMPTY);
+	Variant copy(Uninitialized::UNINITIALIZED);
 	copy_built_in(BuiltInType::VARIANT, copy.bytes, p_variant);
 	return copy;
 }
@@ -258,7 +258,7 @@ void Variant::store(BuiltInType p_type, void *r_value) const {
 
 Variant Variant::get_keyed(const Variant &p_key) const {
 	Variant value;
-	Variant got(Empty::EMPTY);
+	Variant got(Uninitialized::UNINITIALIZED);
 	GDExtensionBool is_valid = 0;
 	interface.variant_get_keyed(bytes, p_key.bytes, got.bytes, &is_valid);
 	return is_valid ? got : value;
@@ -269,7 +269,7 @@ Variant Variant::call(const char *p_method, std::span<const Variant> p_arguments
 	for (const Variant &argument : p_arguments) {
 		arguments.push_back(argument.bytes);
 	}
-	Variant result(Empty::EMPTY);
+	Variant result(Uninitialized::UNINITIALIZED);
 	GDExtensionCallError error = {};
 	const StringName method(p_method);
 	interface.variant_call(bytes, method.get(), arguments.data(),
@@ -292,7 +292,7 @@ glm::dmat4 Transform3D::to_matrix() const {
 	return matrix;
 }
 
-Array::Array(const Variant &p_value) : BuiltIn(Empty::EMPTY) {
+Array::Array(const Variant &p_value) : BuiltIn(Uninitialized::UNINITIALIZED) {
 	if (p_value.get_type() == BuiltInType::ARRAY) {
 		interface.get_variant_to_type_constructor(GDEXTENSION_VARIANT_TYPE_ARRAY)(
 				bytes, p_value.get());
@@ -396,7 +396,7 @@ void convert_to_packed(BuiltInType p_type, void *r_array, const Variant &p_value
 	}
 }
 
-Callable::Callable(Function p_function) : BuiltIn(Empty::EMPTY) {
+Callable::Callable(Function p_function) : BuiltIn(Uninitialized::UNINITIALIZED) {
 	GDExtensionCallableCustomInfo2 info = {};
 	info.callable_userdata = new Function(std::move(p_function));
 	info.token = interface.extension;

@@ -52,7 +52,7 @@ struct Interface {
 	GDExtensionInterfaceCallableCustomCreate2 callable_custom_create2;
 	GDExtensionInterfaceRegisterMainLoopCallbacks register_main_loop_callbacks;
 
-	GDExtensionClassLibraryPtr extension; // our library handle
+	GDExtensionClassLibraryPtr extension; // handle of the add-on's library
 };
 
 /// Loads the functions with the address getter of the add-on's entry point; everything else here

@@ -12,15 +12,16 @@ namespace gnomon::godot {
 class ObjectHandle {
 public:
 	ObjectHandle() = default;
-	explicit ObjectHandle(void *p_owner) : owner(p_owner) {}
-	void *get_owner() const { return owner; }
-	explicit operator bool() const { return owner != nullptr; }
+	explicit ObjectHandle(void *p_object) : object(p_object) {}
+	void *get_object() const { return object; } // Godot's Object *
+	explicit operator bool() const { return object != nullptr; }
 
 protected:
-	void *owner = nullptr;
+	void *object = nullptr;
 };
 
-/// Creates an object of a Godot class; on failure an Error names the class.
+/// Creates an object of a Godot class that inherits RefCounted, with one reference. A class that
+/// Godot cannot create, or a singleton that it lacks, is an assertion.
 void *create_object(const char *p_class);
 void *find_singleton(const char *p_class);
 /// Returns the object with this id; null: it was freed. Call it on the thread that may free it.
@@ -32,41 +33,42 @@ void *cast_object(void *p_object, void *p_class_tag);
 /// Casts an object; the result is empty if it is null or of another class.
 template <typename T> T cast(const ObjectHandle &p_object) {
 	static void *const tag = find_class_tag(T::CLASS_NAME);
-	return T(cast_object(p_object.get_owner(), tag));
+	return T(cast_object(p_object.get_object(), tag));
 }
 /// Increments the reference count of a RefCounted object.
 void add_owner(void *p_object);
 void drop_owner(void *p_object); // decrements the reference count and frees the object at 0
 
-/// A reference-counted handle: the object is freed with its last owner.
+/// A reference-counted handle: the object is freed with its last reference.
 template <typename T> class Ref : public T {
 public:
 	Ref() = default;
-	/// Adopts one reference, as the results of methods carry one.
-	explicit Ref(void *p_owner) : T(p_owner) {}
-	Ref(const Ref &p_other) : T(p_other.owner) {
-		if (this->owner) {
-			add_owner(this->owner);
+	/// Adopts one reference. Objects that methods return come with one.
+	explicit Ref(void *p_object) : T(p_object) {}
+	Ref(const Ref &p_other) : T(p_other.object) {
+		if (this->object) {
+			add_owner(this->object);
 		}
 	}
-	Ref(Ref &&p_other) noexcept : T(std::exchange(p_other.owner, nullptr)) {}
+	Ref(Ref &&p_other) noexcept : T(std::exchange(p_other.object, nullptr)) {}
 	Ref &operator=(Ref p_other) noexcept {
-		std::swap(this->owner, p_other.owner);
+		std::swap(this->object, p_other.object);
 		return *this;
 	}
 	~Ref() {
-		if (this->owner) {
-			drop_owner(this->owner);
+		if (this->object) {
+			drop_owner(this->object);
 		}
 	}
 	static Ref create() { return Ref(create_object(T::CLASS_NAME)); }
-	/// Adds a reference to an object that has other owners too; may be empty.
+	/// Adds a reference to an object that others hold too. The result is empty if p_object is
+	/// empty or of another class.
 	static Ref share(const ObjectHandle &p_object) {
 		const T found = cast<T>(p_object);
 		if (found) {
-			add_owner(found.get_owner());
+			add_owner(found.get_object());
 		}
-		return Ref(found.get_owner());
+		return Ref(found.get_object());
 	}
 };
 
@@ -89,9 +91,9 @@ public:
 		if constexpr (std::is_void_v<Result>) {
 			call_raw(p_object, pointers, nullptr);
 		} else if constexpr (std::is_base_of_v<ObjectHandle, Result>) {
-			void *owner = nullptr;
-			call_raw(p_object, pointers, &owner);
-			return Result(owner);
+			void *object = nullptr;
+			call_raw(p_object, pointers, &object);
+			return Result(object);
 		} else if constexpr (std::is_same_v<Result, bool>) {
 			uint8_t result = 0;
 			call_raw(p_object, pointers, &result);
@@ -116,7 +118,7 @@ private:
 		if constexpr (std::is_same_v<T, bool>) {
 			return uint8_t(p_value);
 		} else if constexpr (std::is_base_of_v<ObjectHandle, T>) {
-			return p_value.get_owner();
+			return p_value.get_object();
 		} else if constexpr (IsBuiltIn<T>) {
 			return Pointer{ p_value.get() };
 		} else {

@@ -42,13 +42,13 @@ Array make_constants(
 		made.set_constant_id(constant.constant_id);
 		made.set_value(
 				is_boolean ? Variant(constant.value != 0) : Variant(int64_t(constant.value)));
-		constants.append(Variant::of_object(made.get_owner()));
+		constants.append(Variant::of_object(made.get_object()));
 	}
 	return constants;
 }
 
 void set_stencil(const StencilTest &p_test, const godot::RDPipelineDepthStencilState &r_state) {
-	// Both sides' enums have one order.
+	// Gnomon's and Godot's enums have the same order.
 	r_state.set_enable_stencil(true);
 	r_state.set_front_op_compare(int64_t(p_test.front.compare));
 	r_state.set_front_op_fail(int64_t(p_test.front.fail));
@@ -191,14 +191,14 @@ PipelineRID GodotDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
 			made.set_offset(attribute.offset_bytes);
 			made.set_format(to_godot_vertex_format(attribute.component_count));
 			made.set_stride(stride);
-			attributes.append(Variant::of_object(made.get_owner()));
+			attributes.append(Variant::of_object(made.get_object()));
 			key.insert(key.end(),
 					{ attribute.location, attribute.offset_bytes, attribute.component_count,
 							stride });
 		}
-		const auto known = vertex_formats.find(key);
-		pipeline.vertex_format = known != vertex_formats.end()
-				? known->second
+		const auto cached_format = vertex_formats.find(key);
+		pipeline.vertex_format = cached_format != vertex_formats.end()
+				? cached_format->second
 				: (vertex_formats[key] = rd.vertex_format_create(attributes));
 	}
 	std::vector<std::string> names = { p_desc.vertex_shader };
@@ -232,7 +232,7 @@ godot::RID GodotDevice::make_raster_pipeline(
 	Array attachments;
 	for (const Format format : desc.color_formats) {
 		const auto attachment = make_blend(is_uint_format(format) ? BlendMode::OFF : desc.blend);
-		attachments.append(Variant::of_object(attachment.get_owner()));
+		attachments.append(Variant::of_object(attachment.get_object()));
 	}
 	blend.set_attachments(attachments);
 	const godot::RID made = rd.render_pipeline_create(p_pipeline.shader, p_framebuffer_format,

@@ -84,9 +84,9 @@ public:
 	void *get() const { return bytes; }
 
 protected:
-	/// Leaves `bytes` for the constructor of the derived class to fill.
-	enum class Empty { EMPTY };
-	explicit BuiltIn(Empty) {}
+	/// Leaves `bytes` without a valid value, for the constructor of the derived class to fill.
+	enum class Uninitialized { UNINITIALIZED };
+	explicit BuiltIn(Uninitialized) {}
 
 	alignas(8) mutable uint8_t bytes[BYTES] = {};
 };
@@ -161,14 +161,14 @@ public:
 private:
 	friend class NodePath;
 	friend class Dictionary;
-	explicit Variant(Empty) : BuiltIn(Empty::EMPTY) {}
+	explicit Variant(Uninitialized) : BuiltIn(Uninitialized::UNINITIALIZED) {}
 	Variant(BuiltInType p_type, const void *p_value);
 };
 
 class Array : public BuiltIn<BuiltInType::ARRAY, 8> {
 public:
 	Array() = default;
-	/// Empty if the Variant stores another type.
+	/// The array is empty if the Variant stores another type.
 	explicit Array(const Variant &p_value);
 	void append(const Variant &p_value);
 	int64_t get_size() const;
@@ -183,8 +183,8 @@ public:
 };
 
 // Resize, read or assign the packed array of that type at r_array or p_array. resize_packed and
-// get_packed return its first element.
-void *resize_packed(BuiltInType p_type, void *r_array, size_t p_size); // its first element
+// get_packed return the address of its first element; get_packed returns null if it is empty.
+void *resize_packed(BuiltInType p_type, void *r_array, size_t p_size);
 const void *get_packed(BuiltInType p_type, const void *p_array, size_t &r_size);
 void convert_to_packed(BuiltInType p_type, void *r_array, const Variant &p_value);
 
@@ -198,9 +198,9 @@ public:
 					p_values.size_bytes());
 		}
 	}
-	/// Empty if the Variant stores another type.
+	/// The array is empty if the Variant stores another type.
 	explicit PackedArray(const Variant &p_value) :
-			BuiltIn<TYPE, 16>(BuiltIn<TYPE, 16>::Empty::EMPTY) {
+			BuiltIn<TYPE, 16>(BuiltIn<TYPE, 16>::Uninitialized::UNINITIALIZED) {
 		convert_to_packed(TYPE, this->bytes, p_value);
 	}
 	std::span<const T> get_values() const {

@@ -1,4 +1,4 @@
-// A local device: it shares nothing with the one that draws Godot's frames.
+// A local device, which shares no resources with the device that draws Godot's frames.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_device.h"
@@ -16,7 +16,7 @@ std::unique_ptr<RenderingDevice> create_rendering_device(const DeviceOptions &p_
 }
 
 std::vector<DeviceInfo> find_rendering_devices() {
-	return {}; // Godot chose one
+	return {}; // Godot chooses the device
 }
 
 unsigned get_validation_message_count() {

@@ -23,8 +23,9 @@ constexpr VkAccessFlags2 WRITES = VK_ACCESS_2_SHADER_WRITE_BIT |
 		VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
 		VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
 
-// In the order of Access. A texture that is read is in SHADER_READ_ONLY, depth and colour alike:
-// shaders read storage images as sampled ones, so that a second layout is not needed.
+// In the order of Access. Textures that shaders only read are in SHADER_READ_ONLY, both depth and
+// colour: a pass that only reads a storage texture binds it as a sampled one, so that reading needs
+// one layout.
 const AccessScope SCOPES[] = {
 	/* NONE */ { VK_PIPELINE_STAGE_2_NONE, 0, VK_IMAGE_LAYOUT_UNDEFINED },
 	/* VERTEX_READ */
@@ -93,7 +94,7 @@ VkAccessFlags2 get_write_access(Access p_access) {
 	return get_access_scope(p_access).access & WRITES;
 }
 
-VkImageLayout get_layout(VkImageLayout p_layout, Format p_format) {
+VkImageLayout get_layout_for_format(VkImageLayout p_layout, Format p_format) {
 	if (!has_stencil(p_format)) {
 		return p_layout;
 	}
@@ -114,8 +115,9 @@ Dependency compute_dependency(const Barrier &p_barrier) {
 		after.access, before.layout, after.layout, true };
 	const bool is_texture = bool(p_barrier.texture);
 	if (p_barrier.before == Access::NONE) {
-		// The list begins with a barrier on everything. Naming the stage of the use to come chains
-		// the layout change to it, and through it to what earlier submissions did to the texture.
+		// Each command list begins with a full barrier. With the stages of the next use as source
+		// stages, the layout transition waits for that barrier, and through it for all accesses of
+		// earlier submissions.
 		dependency.source_stages = after.stages;
 		for (Access user : p_barrier.earlier_users) {
 			dependency.source_stages |= get_access_scope(user).stages;

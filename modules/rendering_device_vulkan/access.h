@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// Returns the write accesses of an access: those that a barrier must make available.
+/// Returns the write flags of an access, which a barrier must make available.
 VkAccessFlags2 get_write_access(Access p_access);
 
 /// Execution and memory dependency of one Barrier; layouts only matter to textures.
@@ -20,6 +20,6 @@ struct Dependency {
 };
 Dependency compute_dependency(const Barrier &p_barrier);
 /// Returns the image layout for this format: a depth-stencil attachment has layouts of its own.
-VkImageLayout get_layout(VkImageLayout p_layout, Format p_format);
+VkImageLayout get_layout_for_format(VkImageLayout p_layout, Format p_format);
 
 } // namespace gnomon

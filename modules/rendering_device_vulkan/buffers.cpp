@@ -19,7 +19,7 @@ struct Limit {
 Allocation VulkanDevice::allocate(const std::string &p_resource, const MemoryRequest &p_request) {
 	Allocation allocation = allocator.allocate(p_request);
 	if (!allocation.block && !deferred_frees.empty()) {
-		// Freed memory may only be waiting for the GPU.
+		// The GPU may still use the memory of freed resources: wait for it and try again.
 		wait_for(submitted_number);
 		collect();
 		allocation = allocator.allocate(p_request);
@@ -32,11 +32,12 @@ Allocation VulkanDevice::allocate(const std::string &p_resource, const MemoryReq
 
 BufferResource VulkanDevice::make_buffer(const BufferDesc &p_desc) {
 	GNOMON_ASSERT(p_desc.size_bytes > 0, "buffer '", p_desc.name, "' has no bytes");
-	if (!features.storage_texel_buffers && has_usage(p_desc.usage, BufferUsage::STORAGE) &&
+	if (!features.storage_and_texel_buffers && has_usage(p_desc.usage, BufferUsage::STORAGE) &&
 			has_usage(p_desc.usage, BufferUsage::TEXEL)) {
 		fail("Buffer '", p_desc.name, "' is STORAGE and TEXEL at once, which device \"",
 				physical.info.name,
-				"\" lacks (DeviceFeatures::storage_texel_buffers). Use STORAGE alone, and a shader "
+				"\" lacks (DeviceFeatures::storage_and_texel_buffers). Use STORAGE alone, and a "
+				"shader "
 				"that reads it as a storage buffer.");
 	}
 	const uint64_t texel_bytes = get_texel_size_bytes(p_desc.texel_format);

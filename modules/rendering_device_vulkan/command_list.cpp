@@ -28,11 +28,11 @@ void VulkanCommandList::push_barrier(const Barrier &p_barrier,
 		GNOMON_ASSERT(dependency.new_layout != VK_IMAGE_LAYOUT_UNDEFINED, "texture '",
 				texture.desc.name, "' cannot have access ", static_cast<int>(p_barrier.after));
 		const Format format = texture.desc.format;
-		texture.recorded_layout = get_layout(dependency.new_layout, format);
+		texture.recorded_layout = get_layout_for_format(dependency.new_layout, format);
 		if (dependency.is_needed) {
 			r_images.push_back(
 					fill(VkImageMemoryBarrier2{ .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-							.oldLayout = get_layout(dependency.old_layout, format),
+							.oldLayout = get_layout_for_format(dependency.old_layout, format),
 							.newLayout = texture.recorded_layout,
 							.image = texture.image,
 							.subresourceRange = { .aspectMask = get_aspect(format),
@@ -85,7 +85,7 @@ void VulkanCommandList::push_constants(std::span<const uint8_t> p_bytes) {
 	check_recording("push_constants");
 	GNOMON_ASSERT(bound_pipeline, "push_constants before bind_pipeline");
 	const PipelineResource &pipeline = *bound_pipeline;
-	// C++ pads a block to 16 bytes, GLSL ends it with its last member.
+	// A C++ block may be padded to 16 bytes or, as in GLSL, end with its last member.
 	const size_t padded_bytes = (p_bytes.size() + 15) / 16 * 16;
 	GNOMON_ASSERT(padded_bytes == pipeline.push_constant_bytes && p_bytes.size() % 4 == 0,
 			"pipeline '", pipeline.name, "' has ", pipeline.push_constant_bytes,
@@ -104,7 +104,7 @@ void VulkanCommandList::check_bound(const char *p_call) const {
 			": pipeline '", bound_pipeline->name, "' has no push constants");
 }
 
-void VulkanCommandList::prepare_dispatch(const char *p_call) const {
+void VulkanCommandList::check_dispatch(const char *p_call) const {
 	check_bound(p_call);
 	GNOMON_ASSERT(!is_rendering, p_call, " inside begin_rendering .. end_rendering");
 	GNOMON_ASSERT(bound_pipeline->bind_point == VK_PIPELINE_BIND_POINT_COMPUTE, p_call,
@@ -112,7 +112,7 @@ void VulkanCommandList::prepare_dispatch(const char *p_call) const {
 }
 
 void VulkanCommandList::dispatch(glm::uvec3 p_group_count) {
-	prepare_dispatch("dispatch");
+	check_dispatch("dispatch");
 	const uint32_t *limits = device->limits.maxComputeWorkGroupCount;
 	GNOMON_ASSERT(p_group_count.x <= limits[0] && p_group_count.y <= limits[1] &&
 					p_group_count.z <= limits[2],
@@ -124,13 +124,13 @@ void VulkanCommandList::dispatch(glm::uvec3 p_group_count) {
 }
 
 void VulkanCommandList::dispatch_items(glm::uvec3 p_item_count) {
-	prepare_dispatch("dispatch_items");
+	check_dispatch("dispatch_items");
 	const glm::uvec3 local_size = bound_pipeline->local_size;
 	dispatch((p_item_count + local_size - 1u) / local_size);
 }
 
 void VulkanCommandList::dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
-	prepare_dispatch("dispatch_indirect");
+	check_dispatch("dispatch_indirect");
 	++device->command_counts.dispatches;
 	vkCmdDispatchIndirect(commands, device->buffers.get(p_arguments).buffer, p_offset_bytes);
 }

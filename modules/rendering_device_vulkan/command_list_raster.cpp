@@ -75,16 +75,17 @@ void VulkanCommandList::begin_rendering_of_size(
 		TextureResource &texture = get_target(p_depth->texture, TextureUsage::DEPTH_ATTACHMENT);
 		const Format format = texture.desc.format;
 		target_depth_format = format;
-		const VkImageLayout read_only = get_layout(VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, format);
+		const VkImageLayout read_only =
+				get_layout_for_format(VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, format);
 		is_target_depth_read_only = texture.recorded_layout == read_only;
 		GNOMON_ASSERT(!is_target_depth_read_only || p_depth->load == LoadOp::KEEP, "target '",
 				texture.desc.name, "' has Access::DEPTH_READ and must be LoadOp::KEEP");
 		depth.imageView = device->get_view(texture, ViewUse::ATTACHMENT, p_depth->layer, false);
 		depth.imageLayout = is_target_depth_read_only
 				? read_only
-				: get_layout(VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, format);
+				: get_layout_for_format(VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, format);
 		depth.loadOp = static_cast<VkAttachmentLoadOp>(p_depth->load);
-		// Storing counts as a write, also of what was only tested against.
+		// Storing counts as a write, even if the depth was only tested against.
 		depth.storeOp = is_target_depth_read_only ? VK_ATTACHMENT_STORE_OP_NONE
 												  : VK_ATTACHMENT_STORE_OP_STORE;
 		depth.clearValue.depthStencil.depth = p_depth->clear;
@@ -129,11 +130,11 @@ void VulkanCommandList::set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px
 	vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
-void VulkanCommandList::set_depth_bounds(float p_least, float p_greatest) {
+void VulkanCommandList::set_depth_bounds(float p_min, float p_max) {
 	check_recording("set_depth_bounds");
-	GNOMON_ASSERT(p_least >= 0.0f && p_least <= p_greatest && p_greatest <= 1.0f, "depth bounds ",
-			p_least, " to ", p_greatest);
-	vkCmdSetDepthBounds(commands, p_least, p_greatest);
+	GNOMON_ASSERT(p_min >= 0.0f && p_min <= p_max && p_max <= 1.0f, "depth bounds ", p_min, " to ",
+			p_max);
+	vkCmdSetDepthBounds(commands, p_min, p_max);
 }
 
 void VulkanCommandList::bind_vertex_buffers(std::span<const BufferRID> p_buffers) {
@@ -156,7 +157,7 @@ void VulkanCommandList::bind_index_buffer(BufferRID p_buffer) {
 	is_index_buffer_bound = true;
 }
 
-void VulkanCommandList::prepare_draw(const char *p_call) const {
+void VulkanCommandList::check_draw(const char *p_call) const {
 	check_bound(p_call);
 	GNOMON_ASSERT(is_rendering, p_call, " outside begin_rendering .. end_rendering");
 	GNOMON_ASSERT(bound_pipeline->bind_point == VK_PIPELINE_BIND_POINT_GRAPHICS, p_call,
@@ -174,13 +175,13 @@ void VulkanCommandList::prepare_draw(const char *p_call) const {
 }
 
 void VulkanCommandList::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
-	prepare_draw("draw");
+	check_draw("draw");
 	++device->command_counts.draws;
 	vkCmdDraw(commands, p_vertex_count, p_instance_count, 0, 0);
 }
 
 void VulkanCommandList::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
-	prepare_draw("draw_indexed");
+	check_draw("draw_indexed");
 	GNOMON_ASSERT(is_index_buffer_bound, "pipeline '", bound_pipeline->name,
 			"': draw_indexed before bind_index_buffer");
 	++device->command_counts.draws;
@@ -188,7 +189,7 @@ void VulkanCommandList::draw_indexed(uint32_t p_index_count, uint32_t p_first_in
 }
 
 void VulkanCommandList::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
-	prepare_draw("draw_indirect");
+	check_draw("draw_indirect");
 	++device->command_counts.draws;
 	vkCmdDrawIndirect(commands, device->buffers.get(p_arguments).buffer, p_offset_bytes, 1, 0);
 }

@@ -7,7 +7,7 @@ def get_layer():
 
 
 def get_description():
-    return "The device on Vulkan, the only code that includes it: memory, pipelines, timers, windows"
+    return "The device on Vulkan, the only module that includes Vulkan: memory, pipelines, timers, windows"
 
 
 def get_hosts():

@@ -25,7 +25,8 @@ static_assert(uint32_t(ResourceKind::TEXEL_BUFFER) == VK_DESCRIPTOR_TYPE_UNIFORM
 		uint32_t(ResourceKind::STORAGE_BUFFER) == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
 		uint32_t(ShaderStage::COMPUTE) == VK_SHADER_STAGE_COMPUTE_BIT);
 
-/// The writes of one set; deques, so that what they point to stays in place.
+/// Collects the writes of one descriptor set. The infos are in deques, so that pointers to them
+/// stay valid.
 struct SetWriter {
 	VulkanDevice &device;
 	const PipelineResource &pipeline;
@@ -34,13 +35,13 @@ struct SetWriter {
 	std::deque<VkDescriptorBufferInfo> buffer_infos;
 	std::deque<VkDescriptorImageInfo> image_infos;
 
-	void add(const ReflectedBinding &p_slot, const Binding &p_binding) {
+	void add(const ReflectedBinding &p_reflected, const Binding &p_binding) {
 		VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
 			.dstSet = set,
-			.dstBinding = p_slot.binding,
+			.dstBinding = p_reflected.binding,
 			.descriptorCount = 1,
-			.descriptorType = static_cast<VkDescriptorType>(p_slot.kind) };
-		switch (p_slot.kind) {
+			.descriptorType = static_cast<VkDescriptorType>(p_reflected.kind) };
+		switch (p_reflected.kind) {
 			case ResourceKind::UNIFORM_BUFFER:
 				write.pBufferInfo = add_buffer(p_binding, BufferUsage::UNIFORM, "UNIFORM");
 				break;
@@ -52,11 +53,11 @@ struct SetWriter {
 						&get_buffer(p_binding, BufferUsage::TEXEL, "TEXEL").texel_view;
 				break;
 			case ResourceKind::STORAGE_TEXTURE:
-				write.pImageInfo = add_image(p_slot, p_binding, VK_IMAGE_LAYOUT_GENERAL);
+				write.pImageInfo = add_image(p_reflected, p_binding, VK_IMAGE_LAYOUT_GENERAL);
 				break;
 			default:
 				write.pImageInfo =
-						add_image(p_slot, p_binding, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+						add_image(p_reflected, p_binding, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 				break;
 		}
 		writes.push_back(write);
@@ -82,30 +83,30 @@ private:
 	}
 
 	const VkDescriptorImageInfo *add_image(
-			const ReflectedBinding &p_slot, const Binding &p_binding, VkImageLayout p_layout) {
+			const ReflectedBinding &p_reflected, const Binding &p_binding, VkImageLayout p_layout) {
 		VkDescriptorImageInfo info = {};
-		const bool needs_sampler = p_slot.kind == ResourceKind::SAMPLER ||
-				p_slot.kind == ResourceKind::TEXTURE_WITH_SAMPLER;
+		const bool needs_sampler = p_reflected.kind == ResourceKind::SAMPLER ||
+				p_reflected.kind == ResourceKind::TEXTURE_WITH_SAMPLER;
 		if (needs_sampler) {
 			GNOMON_ASSERT(p_binding.sampler, "pipeline '", pipeline.name, "': binding ",
 					p_binding.binding, " needs a sampler");
 			info.sampler = device.samplers.get(p_binding.sampler).sampler;
 		}
-		if (p_slot.kind != ResourceKind::SAMPLER) {
+		if (p_reflected.kind != ResourceKind::SAMPLER) {
 			GNOMON_ASSERT(p_binding.texture, "pipeline '", pipeline.name, "': binding ",
 					p_binding.binding, " needs a texture");
 			TextureResource &texture = device.textures.get(p_binding.texture);
-			const bool is_storage = p_slot.kind == ResourceKind::STORAGE_TEXTURE;
+			const bool is_storage = p_reflected.kind == ResourceKind::STORAGE_TEXTURE;
 			GNOMON_ASSERT(has_usage(texture.desc.usage,
 								  is_storage ? TextureUsage::STORAGE : TextureUsage::SAMPLED),
 					"pipeline '", pipeline.name, "': texture '", texture.desc.name, "' at binding ",
 					p_binding.binding, " lacks the usage ", is_storage ? "STORAGE" : "SAMPLED");
 			const bool is_array = texture.desc.is_array && p_binding.layer == Binding::ALL_LAYERS;
-			GNOMON_ASSERT(is_array == p_slot.is_arrayed, "pipeline '", pipeline.name,
+			GNOMON_ASSERT(is_array == p_reflected.is_arrayed, "pipeline '", pipeline.name,
 					"': texture '", texture.desc.name, "' at binding ", p_binding.binding,
 					is_array ? " is an array" : " is no array", ", the shader declares another");
-			info.imageView =
-					device.get_view(texture, ViewUse::SHADER, p_binding.layer, p_slot.is_arrayed);
+			info.imageView = device.get_view(
+					texture, ViewUse::SHADER, p_binding.layer, p_reflected.is_arrayed);
 			info.imageLayout = p_layout;
 		}
 		return &image_infos.emplace_back(info);

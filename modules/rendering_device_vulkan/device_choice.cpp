@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t NEEDED_PUSH_CONSTANT_BYTES = 128;
 
-// The best ones first.
+// Best type first.
 const std::pair<VkPhysicalDeviceType, const char *> TYPES[] = {
 	{ VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, "discrete GPU" },
 	{ VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU, "integrated GPU" },
@@ -46,7 +46,7 @@ uint64_t find_device_memory_bytes(VkPhysicalDevice p_device) {
 	return largest;
 }
 
-/// The first family with graphics and compute, or nothing.
+/// Returns the first queue family with graphics and compute, or nothing.
 std::optional<uint32_t> find_queue_family(VkPhysicalDevice p_device) {
 	const auto families =
 			list_all<VkQueueFamilyProperties>(vkGetPhysicalDeviceQueueFamilyProperties, p_device);
@@ -59,7 +59,7 @@ std::optional<uint32_t> find_queue_family(VkPhysicalDevice p_device) {
 	return std::nullopt;
 }
 
-/// Why a device of Vulkan 1.3 or later cannot be used; empty when it can.
+/// Returns why a device with Vulkan 1.3 or later cannot be used; empty if it can.
 std::string find_missing_feature(VkPhysicalDevice p_device, bool p_needs_surface) {
 	VkPhysicalDeviceVulkan13Features features13 = {
 		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES
@@ -106,7 +106,7 @@ std::string to_lower(std::string p_text) {
 	return p_text;
 }
 
-std::string list_devices_in_words(const std::vector<PhysicalDevice> &p_devices) {
+std::string describe_devices(const std::vector<PhysicalDevice> &p_devices) {
 	std::string list;
 	for (const PhysicalDevice &device : p_devices) {
 		list += text(list.empty() ? "" : ", ", device.info.index, " \"", device.info.name, "\"");
@@ -186,12 +186,12 @@ const PhysicalDevice &choose_device(
 		const PhysicalDevice *device = find_named_device(p_devices, p_requested);
 		if (!device) {
 			fail("Vulkan device \"", p_requested,
-					"\" does not exist. There are: ", list_devices_in_words(p_devices),
+					"\" does not exist. There are: ", describe_devices(p_devices),
 					". Give an index or a part of a name to ", "--device.");
 		}
 		if (!device->info.is_usable) {
 			fail("Vulkan device \"", device->info.name, "\" cannot be used: it ",
-					device->info.refusal, ". There are: ", list_devices_in_words(p_devices),
+					device->info.refusal, ". There are: ", describe_devices(p_devices),
 					". Choose another with --device, or update the driver.");
 		}
 		return *device;
@@ -204,7 +204,7 @@ const PhysicalDevice &choose_device(
 		}
 	}
 	if (!best) {
-		fail("No Vulkan device can be used. There are: ", list_devices_in_words(p_devices),
+		fail("No Vulkan device can be used. There are: ", describe_devices(p_devices),
 				". Update the driver, or install one, e.g. `apt install mesa-vulkan-drivers`.");
 	}
 	return *best;

@@ -8,6 +8,9 @@ namespace gnomon {
 
 namespace {
 
+// Below this, shaders that use subgroups would need more shared memory than they declare.
+const uint32_t MIN_SUBGROUP_SIZE = 4;
+
 /// The feature structures that Gnomon enables, chained.
 struct FeatureChain {
 	VkPhysicalDeviceConditionalRenderingFeaturesEXT conditional = {
@@ -30,8 +33,9 @@ struct FeatureChain {
 	FeatureChain &operator=(const FeatureChain &) = delete;
 };
 
-/// Chooses the features that Gnomon uses and the device has; no others are enabled, so that the
-/// validation layers notice if a shader relies on more. p_features: what the device reports.
+/// Enables the features of a fixed list that the device has. All others stay disabled, so that the
+/// validation layers notice if a shader relies on one. p_features: the device's features without
+/// the denied ones.
 void choose_features(
 		const FeatureChain &p_present, const DeviceFeatures &p_features, FeatureChain &r_enabled) {
 	const VkPhysicalDeviceFeatures &present = p_present.v10.features;
@@ -117,7 +121,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	features.depth_bounds = present_v10.depthBounds;
 	features.conditional_rendering = present.conditional.conditionalRendering;
 	features.fragment_stores = present_v10.fragmentStoresAndAtomics;
-	features.storage_texel_buffers = true;
+	features.storage_and_texel_buffers = true;
 	features.copies_to_textures = true;
 	features.timestamps = timestamp_mask != 0;
 	features.max_storage_buffer_bytes = limits.maxStorageBufferRange;
@@ -126,7 +130,8 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	const VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT |
 			VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
 			VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-	features.subgroup_operations = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+	features.subgroup_operations = subgroup.subgroupSize >= MIN_SUBGROUP_SIZE &&
+			(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
 			(subgroup.supportedOperations & operations) == operations;
 	for (bool DeviceFeatures::*const denied : options.denied_features) {
 		features.*denied = false;
@@ -176,8 +181,8 @@ VulkanDevice::~VulkanDevice() {
 		return; // creation failed before there was one
 	}
 	GNOMON_ASSERT(!swapchain, "The swapchain must end before its device.");
-	if (!has_ended()) {
-		log_error("The device is left as it is, since it does not answer.");
+	if (!try_wait_idle()) {
+		log_error("The device does not respond; it is not destroyed.");
 		instance->abandon();
 		return;
 	}

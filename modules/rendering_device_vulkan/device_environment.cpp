@@ -12,13 +12,15 @@ namespace gnomon {
 namespace {
 
 constexpr double MAX_WAIT_S = 86400;
-constexpr double GPU_WAIT_S = 60;  // drivers reset a device that hangs after 2 to 10 s
-constexpr double CPU_WAIT_S = 600; // software draws the same pass a hundred times slower
+constexpr double GPU_WAIT_S = 60; // drivers reset a device that hangs after 2 to 10 s
+// Software is a hundred times slower than a GPU, on which a pass takes far less than GPU_WAIT_S.
+constexpr double CPU_WAIT_S = 600;
 constexpr double MAX_BUDGET_MIB = 1 << 24;
 
-/// Returns nothing if the variable is absent or empty.
+/// Reads a number in 0..p_max from an environment variable. Returns nothing if the variable is
+/// absent or empty; any other value is an Error, in which p_zero states the meaning of 0.
 std::optional<double> read_number(
-		const char *p_name, double p_greatest, const char *p_unit, const char *p_zero) {
+		const char *p_name, double p_max, const char *p_unit, const char *p_zero) {
 	const char *value = std::getenv(p_name);
 	if (value == nullptr || *value == 0) {
 		return std::nullopt;
@@ -27,9 +29,9 @@ std::optional<double> read_number(
 	double number = 0;
 	const auto result = std::from_chars(written.begin(), written.end(), number);
 	if (result.ec != std::errc() || result.ptr != written.end() || !(number >= 0) ||
-			number > p_greatest) {
-		fail(p_name, " is \"", written, "\", must be 0..", p_greatest, " ", p_unit,
-				" (0 = ", p_zero, "). Change it, or unset it.");
+			number > p_max) {
+		fail(p_name, " is \"", written, "\", must be 0..", p_max, " ", p_unit, " (0 = ", p_zero,
+				"). Change it, or unset it.");
 	}
 	return number;
 }

@@ -1,4 +1,5 @@
-// Waits for the device with a timeout, and keeps what a device that does not respond still uses.
+// Waits for the device with a timeout. If the device does not respond, the resources that it may be
+// using are not destroyed.
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
@@ -14,8 +15,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double LOOK_S = 1.0;		  // how often progress is looked for
-constexpr double LAST_CHANCE_S = 2.0; // of a device that hangs, before the program goes without it
+constexpr double PROGRESS_CHECK_INTERVAL_S = 1.0; // interval between checks for progress
+constexpr double FINAL_WAIT_S = 2.0; // last wait for a hung device, before it is leaked
 
 std::atomic<bool> has_hung_device = false;
 
@@ -44,7 +45,7 @@ VkResult VulkanDevice::wait_at_most(uint64_t p_submission_number, double p_secon
 }
 
 void VulkanDevice::wait_for(uint64_t p_submission_number) {
-	// Passes that begin are progress too: a frame of many slow ones may take as long as it likes.
+	// A pass that begins is progress too, so that a frame of many slow passes does not time out.
 	const auto get_progress = [&] {
 		size_t begun_count = 0;
 		for (const SubmissionSlot &slot : slots) {
@@ -52,22 +53,24 @@ void VulkanDevice::wait_for(uint64_t p_submission_number) {
 		}
 		return std::pair(get_finished_number(), begun_count);
 	};
-	const double look_s = wait_limit_s > 0 ? std::min(LOOK_S, wait_limit_s / 4) : LOOK_S;
-	std::optional<std::pair<uint64_t, size_t>> seen;
-	Clock::time_point seen_at = Clock::now();
+	const double check_interval_s = wait_limit_s > 0
+			? std::min(PROGRESS_CHECK_INTERVAL_S, wait_limit_s / 4)
+			: PROGRESS_CHECK_INTERVAL_S;
+	std::optional<std::pair<uint64_t, size_t>> last_progress;
+	Clock::time_point last_progress_time = Clock::now();
 	while (true) {
-		const VkResult result = wait_at_most(p_submission_number, look_s);
+		const VkResult result = wait_at_most(p_submission_number, check_interval_s);
 		if (result != VK_TIMEOUT) {
 			check(result, "vkWaitSemaphores");
 			return;
 		}
 		const auto progress = get_progress();
-		if (progress != seen) {
-			seen = progress;
-			seen_at = Clock::now();
+		if (progress != last_progress) {
+			last_progress = progress;
+			last_progress_time = Clock::now();
 		}
-		const std::chrono::duration<double> still = Clock::now() - seen_at;
-		if (wait_limit_s > 0 && still.count() >= wait_limit_s) {
+		const std::chrono::duration<double> stalled = Clock::now() - last_progress_time;
+		if (wait_limit_s > 0 && stalled.count() >= wait_limit_s) {
 			fail_as_hung(progress.first);
 		}
 	}
@@ -95,7 +98,7 @@ void VulkanDevice::fail_as_hung(uint64_t p_finished_number) {
 	throw DeviceLost(lost_text);
 }
 
-bool VulkanDevice::has_ended() {
+bool VulkanDevice::try_wait_idle() {
 	if (timeline && !is_hung && lost_text.empty()) {
 		try {
 			wait_for(submitted_number);
@@ -103,7 +106,7 @@ bool VulkanDevice::has_ended() {
 			log_error(error.what());
 		}
 	}
-	if (is_hung && wait_at_most(submitted_number, LAST_CHANCE_S) != VK_SUCCESS) {
+	if (is_hung && wait_at_most(submitted_number, FINAL_WAIT_S) != VK_SUCCESS) {
 		has_hung_device = true;
 		return false;
 	}

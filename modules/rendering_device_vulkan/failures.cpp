@@ -7,7 +7,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr size_t LARGEST_RESOURCE_COUNT = 3;
+constexpr size_t NAMED_RESOURCE_COUNT = 3; // named when memory is exhausted
 
 std::string describe_bytes(uint64_t p_bytes) {
 	constexpr uint64_t KIB = 1024;
@@ -59,6 +59,7 @@ std::string VulkanDevice::find_last_span_begun() const {
 			return slot->span_names[begun_count - 1];
 		}
 	}
+	// No breadcrumb was written. Name the last recorded pass, although it may not have begun.
 	for (const SubmissionSlot *slot : ordered) {
 		if (!slot->span_names.empty()) {
 			return slot->span_names.back();
@@ -96,7 +97,7 @@ void VulkanDevice::fail_out_of_memory(
 	std::erase_if(consumers, [](const LiveResource &p_live) { return p_live.size_bytes == 0; });
 	std::ranges::stable_sort(consumers, std::greater(), &LiveResource::size_bytes);
 	std::string largest;
-	for (size_t index = 0; index < std::min(consumers.size(), LARGEST_RESOURCE_COUNT); ++index) {
+	for (size_t index = 0; index < std::min(consumers.size(), NAMED_RESOURCE_COUNT); ++index) {
 		largest += text(largest.empty() ? "; the largest are " : ", ", consumers[index].name, " ",
 				describe_bytes(consumers[index].size_bytes));
 	}

@@ -45,8 +45,8 @@ void VulkanCommandList::begin_span(const std::string &p_name) {
 	if (in_pool == 0) {
 		vkCmdResetQueryPool(commands, pool, 0, 2 * SPANS_PER_QUERY_POOL);
 	}
-	// "All commands" at both ends: a span begins when what was recorded before it is done, so that
-	// the spans of a frame do not overlap and add up.
+	// "All commands" at both ends: a span begins when all commands before it are done, so that the
+	// spans of a frame do not overlap and their times can be added.
 	vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * in_pool);
 }
 
@@ -78,7 +78,7 @@ void VulkanDevice::read_spans(SubmissionSlot &r_slot) {
 						  2 * (index % SPANS_PER_QUERY_POOL), 2, sizeof(times), times,
 						  sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
 					"vkGetQueryPoolResults");
-			// The difference wraps correctly where fewer than 64 bits count.
+			// The mask keeps the difference correct if timestamps of less than 64 bits overflow.
 			const uint64_t ticks = (times[1] - times[0]) & timestamp_mask;
 			span.gpu_ms = static_cast<double>(ticks) * limits.timestampPeriod * 1e-6;
 		}

@@ -17,10 +17,10 @@ InjectedFault parse_injected_fault(const std::string &p_written) {
 		{ "out_of_memory", Fault::OUT_OF_MEMORY },
 		{ "hang", Fault::HANG },
 	};
-	static const std::regex FORM("([a-z_]+)(?:@pass:(.+)|@file:(.+))?");
-	std::smatch parts;
-	if (std::regex_match(p_written, parts, FORM) && KINDS.contains(parts[1])) {
-		return { KINDS.at(parts[1]), parts[2], parts[3].str() };
+	static const std::regex PATTERN("([a-z_]+)(?:@pass:(.+)|@file:(.+))?");
+	std::smatch matches;
+	if (std::regex_match(p_written, matches, PATTERN) && KINDS.contains(matches[1])) {
+		return { KINDS.at(matches[1]), matches[2], matches[3].str() };
 	}
 	fail("GNOMON_INJECT_FAULT is \"", p_written, "\", must be device_lost, out_of_memory or hang, ",
 			"alone (the first submission) or with @pass:NAME (the first one with a pass whose "
@@ -30,7 +30,7 @@ InjectedFault parse_injected_fault(const std::string &p_written) {
 
 std::optional<std::string> InjectedFault::find_pass(
 		const std::vector<std::string> &p_pass_names) const {
-	std::error_code ignored; // a file that cannot be looked at is none
+	std::error_code ignored; // a file that cannot be accessed counts as absent
 	if (fault == Fault::NONE || (!file.empty() && !std::filesystem::exists(file, ignored))) {
 		return std::nullopt;
 	}

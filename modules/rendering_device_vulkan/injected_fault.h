@@ -9,15 +9,15 @@ namespace gnomon {
 
 enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
 
-/// A fault for tests, injected once: into the first submission that meets all conditions that are
-/// set.
+/// A fault for tests. It is injected once, into the first submission that meets all conditions that
+/// are set.
 struct InjectedFault {
 	Fault fault = Fault::NONE;
 	std::string pass;			// substring of the name of one of its passes
 	std::filesystem::path file; // file that must exist at submission
 
-	/// Returns the pass that meets the condition, or the last pass if `pass` is empty; nothing if
-	/// the fault does not apply.
+	/// Returns the first pass that meets the condition. If `pass` is empty, returns the last pass,
+	/// or an empty name if there are no passes. Returns nothing if the fault does not apply.
 	std::optional<std::string> find_pass(const std::vector<std::string> &p_pass_names) const;
 };
 /// Parses $GNOMON_INJECT_FAULT; empty: no fault. An unknown value is an Error that lists the known

@@ -10,9 +10,11 @@ namespace {
 
 // A heap's last tenth is left to the driver and to other programs.
 constexpr uint64_t HEAP_PERCENT = 90;
-// Small heaps (256 MiB windows into a large device) must not be spent on a few spare blocks.
+// A block takes at most 1/16 of its heap, so that a few spare blocks do not fill a small heap, such
+// as a 256 MiB window into the memory of a large device.
 constexpr uint64_t BLOCKS_PER_HEAP = 16;
 
+/// Returns how well a memory type suits the kind: higher is better, -1 is unusable.
 int rate_memory_type(VkMemoryPropertyFlags p_flags, MemoryKind p_kind) {
 	const auto has = [&](VkMemoryPropertyFlags p_flag) { return (p_flags & p_flag) == p_flag; };
 	const bool is_mappable =
@@ -103,7 +105,8 @@ uint64_t MemoryAllocator::compute_budget_bytes(uint32_t p_memory_type) {
 								   : heap_budgets[properties.memoryTypes[p_memory_type].heapIndex];
 }
 
-Allocation MemoryAllocator::take(MemoryBlock &r_block, const MemoryRequest &p_request) {
+Allocation MemoryAllocator::allocate_in_block(
+		MemoryBlock &r_block, const MemoryRequest &p_request) {
 	const auto offset = r_block.ranges.allocate(p_request.needs.size, p_request.needs.alignment);
 	if (!offset) {
 		return {};
@@ -129,22 +132,24 @@ Allocation MemoryAllocator::allocate(const MemoryRequest &p_request) {
 		for (const auto &block : blocks) {
 			if (!block->is_dedicated && block->memory_type == type &&
 					block->tiling == p_request.tiling) {
-				if (Allocation allocation = take(*block, p_request); allocation.block) {
+				if (Allocation allocation = allocate_in_block(*block, p_request);
+						allocation.block) {
 					return allocation;
 				}
 			}
 		}
 		if (MemoryBlock *block = create_block(p_request, type, block_bytes)) {
-			return take(*block, p_request);
+			return allocate_in_block(*block, p_request);
 		}
 	}
-	// Large, or the driver has no room for a whole block: exactly what is requested.
+	// A large request, or the driver has no room for a whole block: allocate exactly the requested
+	// size.
 	MemoryBlock *block = create_block(p_request, type, size_bytes);
 	if (!block) {
 		return {};
 	}
 	block->is_dedicated = true;
-	return take(*block, p_request);
+	return allocate_in_block(*block, p_request);
 }
 
 void MemoryAllocator::free(Allocation &r_allocation) {
@@ -160,7 +165,8 @@ void MemoryAllocator::free(Allocation &r_allocation) {
 	if (!block->ranges.is_empty()) {
 		return;
 	}
-	// One spare per sort, so that a resource that comes and goes does not allocate each time.
+	// Keep one empty block per memory type and tiling, so that a resource that is freed and created
+	// again does not allocate memory each time.
 	const bool has_spare = std::any_of(blocks.begin(), blocks.end(), [&](const auto &p_other) {
 		return p_other.get() != block && !p_other->is_dedicated && p_other->ranges.is_empty() &&
 				p_other->memory_type == block->memory_type && p_other->tiling == block->tiling;

@@ -13,14 +13,14 @@ namespace gnomon {
 /// matters.
 enum class Tiling { LINEAR, OPTIMAL };
 
-/// One vkAllocateMemory.
+/// The memory of one vkAllocateMemory call.
 struct MemoryBlock {
 	VkDeviceMemory memory = VK_NULL_HANDLE;
 	uint64_t size_bytes = 0;
 	uint32_t memory_type = 0;
 	Tiling tiling = Tiling::LINEAR;
 	bool is_dedicated = false; // holds one resource
-	uint8_t *mapped = nullptr; // when the type is visible to the host
+	uint8_t *mapped = nullptr; // of LINEAR blocks in host-visible memory
 	RangeAllocator ranges;
 
 	explicit MemoryBlock(uint64_t p_size_bytes) : size_bytes(p_size_bytes), ranges(p_size_bytes) {}
@@ -39,8 +39,9 @@ struct MemoryRequest {
 	Tiling tiling = Tiling::LINEAR;
 };
 
-/// Sub-allocates device memory from blocks of 64 MiB per memory type and tiling; larger requests
-/// get their own block. Empty blocks are freed, except one spare of each kind.
+/// Sub-allocates device memory from blocks of at most 64 MiB, which each have one memory type and
+/// tiling. Requests for more than half a block get their own block. Empty blocks are freed, except
+/// one per memory type and tiling.
 class MemoryAllocator {
 public:
 	static constexpr uint64_t BLOCK_BYTES = uint64_t(64) << 20;
@@ -66,7 +67,7 @@ private:
 			const MemoryRequest &p_request, uint32_t p_type, uint64_t p_size_bytes);
 	void destroy_block(MemoryBlock *p_block);
 	void refresh_heap_budgets();
-	Allocation take(MemoryBlock &r_block, const MemoryRequest &p_request);
+	Allocation allocate_in_block(MemoryBlock &r_block, const MemoryRequest &p_request);
 
 	VkPhysicalDevice physical_device = VK_NULL_HANDLE;
 	VkDevice device = VK_NULL_HANDLE;

@@ -26,8 +26,9 @@ void VulkanDevice::load_pipeline_cache() {
 	vkGetPhysicalDeviceProperties(physical.handle, &properties);
 	std::vector<uint8_t> bytes = load_cache_entry(get_cache_name());
 	if (!bytes.empty() && !is_pipeline_cache_of(bytes, properties)) {
-		log_info(
-				"Pipeline cache ", get_cache_name(), " was made by another driver; it is ignored.");
+		// The file's name identifies the driver, so the file was damaged or copied.
+		log_info("Pipeline cache ", get_cache_name(),
+				" was not written by this driver; it is ignored.");
 		bytes.clear();
 	}
 	saved_cache_hash = bytes.empty() ? 0 : compute_hash(bytes);
@@ -45,7 +46,7 @@ void VulkanDevice::load_pipeline_cache() {
 
 void VulkanDevice::save_pipeline_cache() {
 	if (!pipeline_cache || !lost_text.empty()) {
-		return; // what a lost device returns is not to be trusted
+		return; // the data of a lost device cannot be trusted
 	}
 	size_t size = 0;
 	if (vkGetPipelineCacheData(device, pipeline_cache, &size, nullptr) != VK_SUCCESS) {

@@ -15,7 +15,7 @@ bool is_pipeline_cache_of(
 		return false;
 	}
 	std::ranges::copy(p_device.pipelineCacheUUID, expected.pipelineCacheUUID);
-	// A later driver may lengthen its header, but never beyond the bytes there are.
+	// A later driver may write a longer header, but it must fit into the data.
 	std::memcpy(&expected.headerSize, p_bytes.data(), sizeof(expected.headerSize));
 	return expected.headerSize >= sizeof(expected) && expected.headerSize <= p_bytes.size() &&
 			std::memcmp(p_bytes.data(), &expected, sizeof(expected)) == 0;

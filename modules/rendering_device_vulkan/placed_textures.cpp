@@ -6,22 +6,23 @@ namespace gnomon {
 
 namespace {
 
-VkMemoryRequirements compute_image_needs(VkDevice p_device, const VkImageCreateInfo &p_info) {
-	const VkDeviceImageMemoryRequirements question = {
+VkMemoryRequirements get_image_requirements(VkDevice p_device, const VkImageCreateInfo &p_info) {
+	const VkDeviceImageMemoryRequirements requirements_info = {
 		.sType = VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS, .pCreateInfo = &p_info
 	};
-	VkMemoryRequirements2 answer = { .sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2 };
-	vkGetDeviceImageMemoryRequirements(p_device, &question, &answer);
-	return answer.memoryRequirements;
+	VkMemoryRequirements2 requirements = { .sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2 };
+	vkGetDeviceImageMemoryRequirements(p_device, &requirements_info, &requirements);
+	return requirements.memoryRequirements;
 }
 
 } // namespace
 
-RenderingDevice::PlacementNeeds VulkanDevice::compute_placement_needs(const TextureDesc &p_desc) {
+RenderingDevice::PlacementRequirements VulkanDevice::get_placement_requirements(
+		const TextureDesc &p_desc) {
 	fail_if_lost();
 	GNOMON_ASSERT(features.aliased_memory, "texture '", p_desc.name, "' cannot be placed");
 	check_texture_limits(p_desc);
-	const VkMemoryRequirements needs = compute_image_needs(device, make_image_info(p_desc));
+	const VkMemoryRequirements needs = get_image_requirements(device, make_image_info(p_desc));
 	return { needs.size, needs.alignment };
 }
 
@@ -29,7 +30,7 @@ MemoryRID VulkanDevice::create_texture_memory(const std::string &p_name, uint64_
 	fail_if_lost();
 	GNOMON_ASSERT(features.aliased_memory, "memory '", p_name, "' cannot be shared");
 	GNOMON_ASSERT(p_size_bytes > 0, "memory '", p_name, "' has no bytes");
-	// The types that colour, storage and depth images agree on.
+	// Allow only the memory types that colour, storage and depth images have in common.
 	const TextureDesc samples[] = {
 		{ "", Format::RGBA16_SFLOAT, glm::uvec2(256), 1,
 				TextureUsage::SAMPLED | TextureUsage::COLOR_ATTACHMENT },
@@ -44,7 +45,7 @@ MemoryRID VulkanDevice::create_texture_memory(const std::string &p_name, uint64_
 		.tiling = Tiling::OPTIMAL
 	};
 	for (const TextureDesc &sample : samples) {
-		const VkMemoryRequirements needs = compute_image_needs(device, make_image_info(sample));
+		const VkMemoryRequirements needs = get_image_requirements(device, make_image_info(sample));
 		request.needs.memoryTypeBits &= needs.memoryTypeBits;
 		request.needs.alignment = std::max(request.needs.alignment, needs.alignment);
 	}

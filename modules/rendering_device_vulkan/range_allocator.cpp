@@ -31,7 +31,7 @@ std::optional<uint64_t> RangeAllocator::allocate(
 		if (padding > size || size - padding < p_size_bytes) {
 			continue;
 		}
-		// What alignment skips stays a gap of its own, for smaller requests.
+		// The bytes that alignment skips stay a gap, for smaller requests.
 		const uint64_t rest = size - padding - p_size_bytes;
 		remove_gap(gaps.find(begin));
 		if (padding > 0) {

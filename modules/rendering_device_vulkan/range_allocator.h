@@ -10,7 +10,7 @@ namespace gnomon {
 
 /// Best-fit allocator for ranges of one block of bytes; among equally small gaps it takes the
 /// lowest. Freed neighbours are merged. It never accesses the bytes. Time is logarithmic in the
-/// number of gaps.
+/// number of gaps, unless alignment makes gaps of sufficient size too small.
 class RangeAllocator {
 public:
 	explicit RangeAllocator(uint64_t p_size_bytes);
@@ -18,7 +18,7 @@ public:
 	/// Returns the offset of p_size_bytes (above 0) at a multiple of p_alignment_bytes (a power of
 	/// two), or nothing if no gap is large enough.
 	std::optional<uint64_t> allocate(uint64_t p_size_bytes, uint64_t p_alignment_bytes);
-	/// Frees exactly a range that allocate() returned; anything else is an assertion.
+	/// Frees exactly a range that allocate() returned. Freeing bytes twice is an assertion.
 	void free(uint64_t p_offset_bytes, uint64_t p_size_bytes);
 
 	bool is_empty() const { return free_bytes == size_bytes; }

@@ -30,7 +30,8 @@ VkPipelineColorBlendAttachmentState make_blend_state(BlendMode p_mode, Format p_
 }
 
 VkStencilOpState make_stencil_state(const StencilFace &p_face, uint32_t p_reference) {
-	const uint32_t all = 0xff; // CompareOp and StencilOp have Vulkan's order
+	const uint32_t all = 0xff; // compare and write masks
+	// CompareOp and StencilOp have Vulkan's order.
 	return { static_cast<VkStencilOp>(p_face.fail), static_cast<VkStencilOp>(p_face.pass),
 		static_cast<VkStencilOp>(p_face.depth_fail), static_cast<VkCompareOp>(p_face.compare), all,
 		all, p_reference };

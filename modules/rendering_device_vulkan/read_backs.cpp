@@ -1,4 +1,4 @@
-// Copies to the CPU that no call waits for.
+// Asynchronous copies to the CPU.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_vulkan/vulkan_device.h"
@@ -36,7 +36,7 @@ void VulkanDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCal
 void VulkanDevice::call_read_backs() {
 	const uint64_t finished = get_finished_number();
 	while (!read_backs.empty() && read_backs.front().submission_number <= finished) {
-		// Taken out first: the callback may throw, or use the device.
+		// Removed from the queue first, because the callback may throw or use the device.
 		PendingReadBack read_back = std::move(read_backs.front());
 		read_backs.pop_front();
 		const Allocation &memory = read_back.staging.memory;

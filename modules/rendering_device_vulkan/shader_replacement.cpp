@@ -30,11 +30,11 @@ const ReflectedBinding *find_binding(const ReflectedShader &p_shader, uint32_t p
 	return nullptr;
 }
 
-/// The program provides what the shader declared when the program was built. A new version must
-/// declare all of those bindings and as many bytes of push constants; it may use fewer of the
-/// bindings, and no others.
+/// The program binds what the shader declared when the program was built. A new version must
+/// declare all of those bindings and as many bytes of push constants. It may use fewer of the
+/// bindings, but no others.
 void check_interface(const std::string &p_name, std::span<const uint32_t> p_words) {
-	const ReflectedShader built = reflect_spirv(p_name, find_built_shader(p_name), {});
+	const ReflectedShader built = reflect_spirv(p_name, find_original_shader(p_name), {});
 	const ReflectedShader now = reflect_spirv(p_name, p_words, {});
 	const auto refuse = [&](const std::string &p_what) {
 		fail("Shader \"", p_name, "\" ", p_what,
@@ -42,12 +42,12 @@ void check_interface(const std::string &p_name, std::span<const uint32_t> p_word
 				"again.");
 	};
 	for (const ReflectedBinding &binding : now.bindings) {
-		const ReflectedBinding *known = find_binding(built, binding.binding);
+		const ReflectedBinding *built_binding = find_binding(built, binding.binding);
 		if (!is_same_kind(*find_binding(now, binding.binding), binding)) {
 			refuse(text("declares binding ", binding.binding, " as two kinds of resource"));
 		}
-		if ((known != nullptr && !is_same_kind(*known, binding)) ||
-				(binding.is_used && (known == nullptr || !known->is_used))) {
+		if ((built_binding != nullptr && !is_same_kind(*built_binding, binding)) ||
+				(binding.is_used && (built_binding == nullptr || !built_binding->is_used))) {
 			refuse(text("uses binding ", binding.binding, " in another way than before"));
 		}
 	}

@@ -34,8 +34,9 @@ void VulkanDevice::create_slots() {
 		.pNext = &timeline_info };
 	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &timeline), "vkCreateSemaphore");
 	set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline, "finished submissions");
-	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &never), "vkCreateSemaphore");
-	set_name(VK_OBJECT_TYPE_SEMAPHORE, never, "injected hang");
+	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &hang_semaphore),
+			"vkCreateSemaphore");
+	set_name(VK_OBJECT_TYPE_SEMAPHORE, hang_semaphore, "injected hang");
 	for (uint32_t index = 0; index < SLOT_COUNT; ++index) {
 		SubmissionSlot &slot = slots[index];
 		const VkCommandPoolCreateInfo pool_info = {
@@ -76,7 +77,7 @@ void VulkanDevice::destroy_slots() {
 		destroy(slot.breadcrumbs);
 	}
 	vkDestroySemaphore(device, timeline, nullptr);
-	vkDestroySemaphore(device, never, nullptr);
+	vkDestroySemaphore(device, hang_semaphore, nullptr);
 }
 
 uint64_t VulkanDevice::get_finished_number() {
@@ -111,7 +112,8 @@ void VulkanDevice::collect() {
 template <typename Resource> void VulkanDevice::defer_free(Resource &&p_resource) {
 	const uint64_t number = submitted_number + (recording.is_recording ? 1 : 0);
 	deferred_frees.push_back({ number, std::move(p_resource) });
-	// Never throws, since destructors call it: a lost device keeps everything until it ends.
+	// Must not throw, because destructors call it. A lost device keeps all resources until it is
+	// destroyed.
 	uint64_t finished = 0;
 	if (lost_text.empty() &&
 			vkGetSemaphoreCounterValue(device, timeline, &finished) == VK_SUCCESS) {
@@ -128,7 +130,7 @@ CommandList &VulkanDevice::begin_commands() {
 	GNOMON_ASSERT(!recording.is_recording,
 			"begin_commands was called twice without submit_commands or abandon_commands.");
 	SubmissionSlot &slot = get_recording_slot();
-	// An abandoned or refused recording leaves a number that was never submitted.
+	// An abandoned or refused recording leaves a number that was not submitted.
 	wait_for(std::min(slot.number, submitted_number));
 	collect();
 	drop_read_backs(submitted_number);
@@ -142,7 +144,8 @@ CommandList &VulkanDevice::begin_commands() {
 	slot.has_unread_spans = false;
 	slot.number = submitted_number + 1;
 	check(vkBeginCommandBuffer(slot.commands, &BEGIN_INFO), "vkBeginCommandBuffer");
-	// Frames follow one another; inside a frame the render graph is more exact.
+	// A full barrier orders the submissions. Inside a frame, the render graph records exact
+	// barriers.
 	record_full_barrier(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
 			VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
 	recording = VulkanCommandList();
@@ -167,7 +170,7 @@ void VulkanDevice::submit_commands(SubmitMode p_mode) {
 	}
 }
 
-bool VulkanDevice::meet_fault(const SubmissionSlot &p_slot) {
+bool VulkanDevice::apply_injected_fault(const SubmissionSlot &p_slot) {
 	const std::optional<std::string> pass = injected_fault.find_pass(p_slot.span_names);
 	if (!pass) {
 		return false;
@@ -187,7 +190,7 @@ void VulkanDevice::submit() {
 	record_full_barrier(slot.commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 	recording.is_recording = false;
 	check(vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer");
-	const bool is_to_hang = meet_fault(slot);
+	const bool must_hang = apply_injected_fault(slot);
 	std::vector<VkCommandBufferSubmitInfo> commands;
 	if (!pending_uploads.empty()) {
 		commands.push_back(record_uploads(slot));
@@ -205,14 +208,14 @@ void VulkanDevice::submit() {
 	};
 	std::vector<VkSemaphoreSubmitInfo> waits;
 	if (is_waiting) {
-		waits.push_back(make_semaphore_info(swapchain->get_acquisition(), 0));
+		waits.push_back(make_semaphore_info(swapchain->get_acquire_semaphore(), 0));
 	}
-	if (is_to_hang) {
-		waits.push_back(make_semaphore_info(never, 1));
+	if (must_hang) {
+		waits.push_back(make_semaphore_info(hang_semaphore, 1));
 	}
 	std::vector<VkSemaphoreSubmitInfo> signals = { make_semaphore_info(timeline, slot.number) };
 	if (is_presenting) {
-		signals.push_back(make_semaphore_info(swapchain->get_rendered(), 0));
+		signals.push_back(make_semaphore_info(swapchain->get_rendered_semaphore(), 0));
 	}
 	const VkSubmitInfo2 info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
 		.waitSemaphoreInfoCount = static_cast<uint32_t>(waits.size()),

@@ -167,14 +167,15 @@ SamplerRID VulkanDevice::create_sampler(const SamplerDesc &p_desc) {
 												: VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
 	};
 	const VkSamplerCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-		.magFilter = get_filter(p_desc.magnified),
-		.minFilter = get_filter(p_desc.minified),
+		.magFilter = get_filter(p_desc.mag_filter),
+		.minFilter = get_filter(p_desc.min_filter),
 		.mipmapMode = p_desc.mip_mode == MipMode::LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
 														 : VK_SAMPLER_MIPMAP_MODE_NEAREST,
 		.addressModeU = get_address_mode(p_desc.address_u),
 		.addressModeV = get_address_mode(p_desc.address_v),
 		.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-		// Up to a quarter of a level nothing but the first is read; 0 would magnify alone.
+		// With a maximum of 0.25 only the first level is read. A maximum of 0 would disable the
+		// minification filter.
 		.maxLod = p_desc.mip_mode == MipMode::NONE ? 0.25f : VK_LOD_CLAMP_NONE };
 	SamplerResource sampler{ p_desc, VK_NULL_HANDLE };
 	check(vkCreateSampler(device, &info, nullptr, &sampler.sampler), "vkCreateSampler");

@@ -9,7 +9,7 @@ namespace gnomon {
 
 namespace {
 
-// Bounds the staging memory while a scene loads: more than this is sent at once.
+// Limits the staging memory while a scene loads: once this much is pending, it is submitted.
 constexpr uint64_t MAX_PENDING_BYTES = uint64_t(64) << 20;
 
 VkImageMemoryBarrier2 make_upload_barrier(const TextureResource &p_texture) {
@@ -140,9 +140,10 @@ void VulkanDevice::flush_uploads_when_many() {
 	if (pending_upload_bytes < MAX_PENDING_BYTES) {
 		return;
 	}
-	// A submission of its own, waited for: nothing recorded so far can depend on new resources.
+	// A separate submission that is waited for. It runs before the commands recorded so far, as the
+	// uploads at submission would.
 	SubmissionSlot &slot = get_recording_slot();
-	wait_for(std::min(slot.number, submitted_number)); // until its commands may be used again
+	wait_for(std::min(slot.number, submitted_number)); // until its command buffers can be reused
 	const VkCommandBufferSubmitInfo commands_info = record_uploads(slot);
 	const VkSubmitInfo2 submit_info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
 		.commandBufferInfoCount = 1,

@@ -39,7 +39,7 @@ public:
 	void end_rendering() override;
 	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
 	void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
-	void set_depth_bounds(float p_least, float p_greatest) override;
+	void set_depth_bounds(float p_min, float p_max) override;
 	void bind_vertex_buffers(std::span<const BufferRID> p_buffers) override;
 	void bind_index_buffer(BufferRID p_buffer) override;
 	void draw(uint32_t p_vertex_count, uint32_t p_instance_count) override;
@@ -75,8 +75,8 @@ private:
 	void begin_rendering_of_size(glm::uvec2 p_size_px, std::span<const ColorTarget> p_colors,
 			const DepthTarget *p_depth);
 	void check_recording(const char *p_call) const;
-	void prepare_draw(const char *p_call) const;
-	void prepare_dispatch(const char *p_call) const;
+	void check_draw(const char *p_call) const;
+	void check_dispatch(const char *p_call) const;
 	void check_bound(const char *p_call) const;
 	void check_copy(const char *p_call) const;
 	void push_barrier(const Barrier &p_barrier, std::vector<VkBufferMemoryBarrier2> &r_buffers,

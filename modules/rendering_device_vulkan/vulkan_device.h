@@ -40,8 +40,8 @@ struct TextureResource {
 	Allocation memory; // empty for placed textures and those of a swapchain
 	MemoryRID placed_in;
 	bool is_swapchain = false;
-	/// Layout after the commands recorded so far. An attachment can thereby be read-only without
-	/// being declared twice.
+	/// Layout after the commands recorded so far. begin_rendering finds from it whether a depth
+	/// attachment is read-only.
 	VkImageLayout recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
 	std::vector<TextureView> views; // made when first needed
 };
@@ -96,7 +96,7 @@ struct PendingUpload {
 	uint32_t layer_count = 1;
 };
 
-/// Used in reports of leaks and of exhausted memory.
+/// A live resource, for reports of leaks and of exhausted memory.
 struct LiveResource {
 	std::string name; // "texture 'albedo'"
 	uint64_t size_bytes = 0;
@@ -120,7 +120,9 @@ struct SubmissionSlot {
 	std::vector<VkQueryPool> query_pools;
 	std::vector<std::string> span_names;
 	bool has_unread_spans = false;
-	BufferResource breadcrumbs; // word i: the last submission that began span i
+	/// The GPU sets word i to the submission's number when it begins span i, so that after a loss
+	/// of the device the last span that began can be found.
+	BufferResource breadcrumbs;
 };
 
 /// The Vulkan device. Its source files share this class; it is hidden outside this module.
@@ -154,7 +156,7 @@ public:
 		return textures.get(p_texture).desc;
 	}
 	uint8_t *get_mapped(BufferRID p_buffer) override;
-	PlacementNeeds compute_placement_needs(const TextureDesc &p_desc) override;
+	PlacementRequirements get_placement_requirements(const TextureDesc &p_desc) override;
 	MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) override;
 	TextureRID create_placed_texture(
 			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes) override;
@@ -218,8 +220,8 @@ public:
 	VulkanSwapchain *swapchain = nullptr;
 
 	InjectedFault injected_fault;
-	VkSemaphore never = VK_NULL_HANDLE; // never signalled; an injected hang waits for it
-	double wait_limit_s = 0;			// 0: none
+	VkSemaphore hang_semaphore = VK_NULL_HANDLE; // not signalled; an injected hang waits for it
+	double wait_limit_s = 0;					 // 0: none
 	bool is_hung = false;  // lost because of a timeout; the GPU may still use everything
 	std::string lost_text; // empty while the device works
 
@@ -227,14 +229,15 @@ public:
 	PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
 	PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 	PFN_vkCmdBeginConditionalRenderingEXT begin_conditional_rendering =
-			nullptr; // or the device lacks it
+			nullptr; // null if the device lacks it
 	PFN_vkCmdEndConditionalRenderingEXT end_conditional_rendering = nullptr;
 
 	// device_environment.cpp
 	void read_environment();
 
 	// failures.cpp
-	/// Throws unless the call succeeded; a lost device is reported with the pass it happened in.
+	/// Throws an Error unless the call succeeded. For a lost device, DeviceLost names the last pass
+	/// that began.
 	void check(VkResult p_result, const char *p_call);
 	void fail_if_lost() const;
 	[[noreturn]] void fail_as_lost(const std::string &p_span_name);
@@ -275,7 +278,7 @@ public:
 	template <typename Handle> void drop_uploads(Handle p_target);
 
 	// read_backs.cpp
-	/// The buffer to copy into.
+	/// Adds a read-back to the submission that is being recorded. Returns the buffer to copy into.
 	BufferResource &add_read_back(
 			const std::string &p_resource, uint64_t p_size_bytes, ReadBackCallback &&p_callback);
 	/// Calls the callbacks of finished submissions. Must not be called while commands are being
@@ -290,21 +293,21 @@ public:
 	void destroy_slots();
 	uint64_t get_finished_number();
 	void destroy_freed(uint64_t p_finished_number);
-	/// Destroys what finished submissions no longer use and reads their timestamps.
+	/// Destroys what finished submissions no longer use, and reads the timestamps of the newest.
 	void collect();
 	template <typename Resource> void defer_free(Resource &&p_resource);
 	void submit();
 	/// Throws the failure that a test injects into this submission; returns true if it should hang.
-	bool meet_fault(const SubmissionSlot &p_slot);
+	bool apply_injected_fault(const SubmissionSlot &p_slot);
 
 	// device_waits.cpp
-	/// Without progress for wait_limit_s: DeviceLost.
+	/// Waits for a submission. Throws DeviceLost if there is no progress for wait_limit_s.
 	void wait_for(uint64_t p_submission_number);
 	VkResult wait_at_most(uint64_t p_submission_number, double p_seconds);
 	size_t count_begun_spans(const SubmissionSlot &p_slot) const;
 	[[noreturn]] void fail_as_hung(uint64_t p_finished_number);
 	/// Waits until the device is idle. Returns false if it hangs; then nothing may be destroyed.
-	bool has_ended();
+	bool try_wait_idle();
 
 	// gpu_spans.cpp
 	void read_spans(SubmissionSlot &r_slot);

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// "VK_ERROR_DEVICE_LOST", or the number of a result that has no name here.
+/// Returns "VK_ERROR_DEVICE_LOST", or the number of a result that has no name here.
 std::string get_result_name(VkResult p_result);
 
 /// Lists everything that a Vulkan enumeration function returns, given its arguments before count
@@ -28,13 +28,14 @@ bool has_extension(
 /// Makes the info of a messenger that counts validation warnings and errors, but neither
 /// performance advice nor what the loader reports about the drivers it finds.
 VkDebugUtilsMessengerCreateInfoEXT make_messenger_info();
-/// Redirects messages to r_messages, or to nothing (null): for tests. Returns the previous target.
+/// For tests: collects messages in r_messages instead of counting and logging them. Null: counts
+/// and logs them again. Returns the previous target.
 std::vector<std::string> *collect_validation_messages(std::vector<std::string> *r_messages);
 
 /// The VkInstance with its validation messenger; destroyed with this object.
 class VulkanInstance {
 public:
-	/// A missing loader, driver, layer or extension is an Error that names what to install.
+	/// A missing driver, layer or extension is an Error that names what to install.
 	explicit VulkanInstance(const DeviceOptions &p_options);
 	~VulkanInstance();
 	VulkanInstance(const VulkanInstance &) = delete;

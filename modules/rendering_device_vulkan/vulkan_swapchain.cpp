@@ -11,7 +11,7 @@ namespace {
 
 constexpr VkImageUsageFlags IMAGE_USAGE = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
 
-constexpr uint64_t ACQUIRE_NS = 2'000'000'000;
+constexpr uint64_t ACQUIRE_TIMEOUT_NS = 2'000'000'000;
 
 } // namespace
 
@@ -28,7 +28,7 @@ VulkanSwapchain::VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_
 	GNOMON_ASSERT(!device.swapchain, "a device has one swapchain");
 	surface = p_create_surface(device.instance->get());
 	if (!surface) {
-		fail("The window gave no Vulkan surface. Check that a display is there, or run with ",
+		fail("The window gave no Vulkan surface. Check that there is a display, or run with ",
 				"--headless.");
 	}
 	VkBool32 is_supported = VK_FALSE;
@@ -43,11 +43,11 @@ VulkanSwapchain::VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_
 	}
 	try {
 		choose_format();
-		for (VkSemaphore &semaphore : acquisitions) {
+		for (VkSemaphore &semaphore : acquire_semaphores) {
 			create_semaphore(semaphore, "window image acquired");
 		}
 	} catch (...) {
-		for (VkSemaphore semaphore : acquisitions) {
+		for (VkSemaphore semaphore : acquire_semaphores) {
 			vkDestroySemaphore(device.device, semaphore, nullptr);
 		}
 		vkDestroySurfaceKHR(device.instance->get(), surface, nullptr);
@@ -58,12 +58,12 @@ VulkanSwapchain::VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_
 
 VulkanSwapchain::~VulkanSwapchain() {
 	device.swapchain = nullptr;
-	if (!device.has_ended()) {
+	if (!device.try_wait_idle()) {
 		return; // all of it may still be in use
 	}
 	destroy_images();
 	vkDestroySwapchainKHR(device.device, swapchain, nullptr);
-	for (VkSemaphore semaphore : acquisitions) {
+	for (VkSemaphore semaphore : acquire_semaphores) {
 		vkDestroySemaphore(device.device, semaphore, nullptr);
 	}
 	vkDestroySurfaceKHR(device.instance->get(), surface, nullptr);
@@ -104,7 +104,7 @@ void VulkanSwapchain::destroy_images() {
 
 bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 	device.wait_for(device.submitted_number);
-	device.check(vkDeviceWaitIdle(device.device), "vkDeviceWaitIdle"); // for what is presented
+	device.check(vkDeviceWaitIdle(device.device), "vkDeviceWaitIdle"); // for presentation
 	VkSurfaceCapabilitiesKHR capabilities = {};
 	device.check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(
 						 device.physical.handle, surface, &capabilities),
@@ -169,7 +169,7 @@ bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 std::optional<TextureRID> VulkanSwapchain::acquire(glm::uvec2 p_window_size_px) {
 	device.fail_if_lost();
 	if (acquired_index) {
-		// The frame before was abandoned, or did not show it.
+		// The previous frame was abandoned, or did not present the image.
 		const TextureRID texture = images[*acquired_index].texture;
 		if (!is_acquisition_awaited) {
 			device.textures.get(texture).recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -182,17 +182,17 @@ std::optional<TextureRID> VulkanSwapchain::acquire(glm::uvec2 p_window_size_px) 
 	if (requested_size_px != p_window_size_px) {
 		is_out_of_date = true;
 	}
-	// A window that is being resized may outrun us; the next frame tries again then.
+	// A window that is being resized may make both attempts fail. Then the next frame tries again.
 	for (int attempt = 0; attempt < 2; ++attempt) {
 		if ((is_out_of_date || !swapchain) && !recreate(p_window_size_px)) {
 			return std::nullopt;
 		}
 		const size_t next = (acquisition_index + 1) % ACQUISITION_COUNT;
 		uint32_t index = 0;
-		const VkResult result = vkAcquireNextImageKHR(
-				device.device, swapchain, ACQUIRE_NS, acquisitions[next], VK_NULL_HANDLE, &index);
+		const VkResult result = vkAcquireNextImageKHR(device.device, swapchain, ACQUIRE_TIMEOUT_NS,
+				acquire_semaphores[next], VK_NULL_HANDLE, &index);
 		if (result == VK_TIMEOUT || result == VK_NOT_READY) {
-			return std::nullopt; // some window systems take no frames of a hidden window
+			return std::nullopt; // some window systems give no images for a hidden window
 		}
 		if (result == VK_ERROR_OUT_OF_DATE_KHR) {
 			is_out_of_date = true;
@@ -233,7 +233,8 @@ void VulkanSwapchain::present() {
 		.pSwapchains = &swapchain,
 		.pImageIndices = &index };
 	if (device.physical.info.type == "CPU") {
-		// Presenting waits for the frame there, and without a limit.
+		// On CPU devices, presenting waits for the frame without a timeout. Wait for it with one
+		// here.
 		device.wait_for(device.submitted_number);
 	}
 	const VkResult result = vkQueuePresentKHR(device.queue, &info);

@@ -30,7 +30,7 @@ public:
 	// One more than submissions in flight: an image may be acquired before begin_commands has
 	// waited for the older one.
 	static constexpr size_t ACQUISITION_COUNT = VulkanDevice::SLOT_COUNT + 1;
-	VkSemaphore acquisitions[ACQUISITION_COUNT] = {};
+	VkSemaphore acquire_semaphores[ACQUISITION_COUNT] = {};
 	size_t acquisition_index = 0; // of the last acquired image
 
 	void create_semaphore(VkSemaphore &r_semaphore, const std::string &p_name);
@@ -47,8 +47,8 @@ public:
 	/// it if it is used for the first time; signal and present if it has Access::PRESENT.
 	bool must_wait() const;
 	bool must_present() const;
-	VkSemaphore get_acquisition() const { return acquisitions[acquisition_index]; }
-	VkSemaphore get_rendered() const { return images[*acquired_index].rendered; }
+	VkSemaphore get_acquire_semaphore() const { return acquire_semaphores[acquisition_index]; }
+	VkSemaphore get_rendered_semaphore() const { return images[*acquired_index].rendered; }
 	void present();
 };
 

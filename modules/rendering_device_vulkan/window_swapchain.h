@@ -16,7 +16,8 @@ namespace gnomon {
 using CreateSurface = std::function<VkSurfaceKHR(VkInstance)>;
 
 /// Creates the swapchain for a device that was created with needs_surface and the window's instance
-/// extensions, one at a time. A window that the device cannot present to is an Error.
+/// extensions. A device has at most one at a time. A window that the device cannot present to is an
+/// Error.
 std::unique_ptr<Swapchain> create_window_swapchain(
 		RenderingDevice &r_device, const CreateSurface &p_create_surface);
 

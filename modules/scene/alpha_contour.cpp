@@ -10,23 +10,23 @@ namespace gnomon {
 namespace {
 
 const int32_t UNITS = CONTOUR_UNITS_PER_TEXEL;
-const double ALPHA_SUM_OF_ONE = 4 * 255.0;
+const double FULL_ALPHA_SUM = 4 * 255.0; // sum over four texels whose alpha is 1
 
-/// The positions along one axis where alpha is sampled: the tile's border and the texel centres,
-/// and one empty node beyond either end, which closes contours that reach the border.
+/// The grid nodes along one axis, where alpha is sampled: the tile's two borders, the texel centres
+/// between them, and one empty node outside each border, which closes contours that reach it.
 class NodeAxis {
 public:
 	NodeAxis(uint32_t p_texel_count, TextureWrap p_wrap) :
 			texel_count(p_texel_count), wrap(p_wrap) {}
 
 	int64_t get_count() const { return int64_t(texel_count) + 4; }
-	bool is_beyond(int64_t p_node) const { return p_node == 0 || p_node == get_count() - 1; }
+	bool is_outside(int64_t p_node) const { return p_node == 0 || p_node == get_count() - 1; }
 	bool is_border(int64_t p_node) const { return p_node == 1 || p_node == get_count() - 2; }
 	int32_t get_position(int64_t p_node) const {
 		const int64_t end = int64_t(texel_count) * UNITS;
 		return static_cast<int32_t>(std::clamp<int64_t>((p_node - 2) * UNITS + UNITS / 2, 0, end));
 	}
-	/// Alpha at a node is the mean of these two texels.
+	/// Returns one of the two texels whose mean is the alpha at a node. p_side: 0 or 1.
 	uint32_t get_texel(int64_t p_node, int p_side) const {
 		const int64_t first = p_node == 1 ? -1 : p_node - 2;
 		return wrap_texel(first + (is_border(p_node) ? p_side - (p_node == 1 ? 0 : 1) : 0),
@@ -42,25 +42,26 @@ private:
 class ContourFinder {
 public:
 	explicit ContourFinder(const AlphaTest &p_test) :
-			image(*p_test.image), threshold(p_test.cutoff * ALPHA_SUM_OF_ONE),
+			image(*p_test.image), threshold(p_test.cutoff * FULL_ALPHA_SUM),
 			columns(image.size_px.x, p_test.wrap_u), rows(image.size_px.y, p_test.wrap_v) {}
 
-	/// Returns nothing if there are more segments than allowed.
-	std::optional<std::vector<PolygonLoop>> find(size_t p_most_segments);
+	/// Returns nullopt if there are more segments than allowed.
+	std::optional<std::vector<PolygonLoop>> find(size_t p_max_segments);
 
 private:
 	struct Link {
-		uint64_t to = 0;
+		uint64_t to = 0;				  // edge of the grid where it ends
 		glm::ivec2 point = glm::ivec2(0); // where it begins
 	};
 
-	/// Returns a value below 0 beyond the border.
+	/// Returns four times the alpha at a node, the sum over the texels around it: 0..1020; below 0
+	/// outside the border.
 	int get_alpha(int64_t p_x, int64_t p_y) const;
 	bool is_inside(int p_alpha) const { return p_alpha >= 0 && p_alpha >= threshold; }
 	void read_row(int64_t p_y, std::vector<int> &r_row) const;
 	void add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]);
 	uint64_t get_edge(int64_t p_x, int64_t p_y, int p_side) const;
-	glm::ivec2 get_crossing(int64_t p_x, int64_t p_y, int p_side, const int p_alphas[4]) const;
+	glm::ivec2 compute_crossing(int64_t p_x, int64_t p_y, int p_side, const int p_alphas[4]) const;
 	std::vector<PolygonLoop> link_loops();
 
 	const Image &image;
@@ -75,7 +76,7 @@ const int CORNER_X[] = { 0, 1, 1, 0 };
 const int CORNER_Y[] = { 0, 0, 1, 1 };
 
 int ContourFinder::get_alpha(int64_t p_x, int64_t p_y) const {
-	if (columns.is_beyond(p_x) || rows.is_beyond(p_y)) {
+	if (columns.is_outside(p_x) || rows.is_outside(p_y)) {
 		return -1;
 	}
 	if (!columns.is_border(p_x) && !rows.is_border(p_y)) { // at a texel's centre
@@ -103,9 +104,9 @@ uint64_t ContourFinder::get_edge(int64_t p_x, int64_t p_y, int p_side) const {
 	return (uint64_t(y) * uint64_t(columns.get_count()) + uint64_t(x)) * 2 + (p_side % 2);
 }
 
-glm::ivec2 ContourFinder::get_crossing(
+glm::ivec2 ContourFinder::compute_crossing(
 		int64_t p_x, int64_t p_y, int p_side, const int p_alphas[4]) const {
-	// From the lower node to the upper one, so that both cells at an edge find the same.
+	// Goes from the lower node to the upper one, so that both cells at an edge compute the same.
 	int from = p_side;
 	int to = (p_side + 1) % 4;
 	if (CORNER_X[from] + CORNER_Y[from] > CORNER_X[to] + CORNER_Y[to]) {
@@ -119,10 +120,10 @@ glm::ivec2 ContourFinder::get_crossing(
 	if (length == 0 || p_alphas[from] < 0 || p_alphas[to] < 0) {
 		return p_alphas[from] < 0 ? b : a;
 	}
-	const double share =
+	const double fraction =
 			(threshold - p_alphas[from]) / (double(p_alphas[to]) - double(p_alphas[from]));
 	// Never at a node, where lines could touch.
-	const int offset = std::clamp(static_cast<int>(std::lround(share * length)), 1, length - 1);
+	const int offset = std::clamp(static_cast<int>(std::lround(fraction * length)), 1, length - 1);
 	return b.x > a.x ? glm::ivec2(a.x + offset, a.y) : glm::ivec2(a.x, a.y + offset);
 }
 
@@ -140,18 +141,18 @@ void ContourFinder::add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]) {
 		if (!inside[side] || inside[(side + 1) % 4]) {
 			continue;
 		}
-		// From where the inside is left to where it began, or, across a saddle, to where it begins
-		// again.
+		// The segment begins where a run of inside corners ends. It ends where that run began or,
+		// in a joined saddle, where the next run begins.
 		int end = side;
 		do {
 			end = (end + (is_joined ? 1 : 3)) % 4;
 		} while (inside[end] || !inside[(end + 1) % 4]);
 		links[get_edge(p_x, p_y, side)] = { get_edge(p_x, p_y, end),
-			get_crossing(p_x, p_y, side, p_alphas) };
+			compute_crossing(p_x, p_y, side, p_alphas) };
 	}
 }
 
-std::optional<std::vector<PolygonLoop>> ContourFinder::find(size_t p_most_segments) {
+std::optional<std::vector<PolygonLoop>> ContourFinder::find(size_t p_max_segments) {
 	std::vector<int> lower(columns.get_count());
 	std::vector<int> upper(columns.get_count());
 	read_row(0, lower);
@@ -165,7 +166,7 @@ std::optional<std::vector<PolygonLoop>> ContourFinder::find(size_t p_most_segmen
 				add_cell(x, y, alphas);
 			}
 		}
-		if (links.size() > p_most_segments) {
+		if (links.size() > p_max_segments) {
 			return std::nullopt;
 		}
 		lower.swap(upper);
@@ -178,7 +179,7 @@ std::vector<PolygonLoop> ContourFinder::link_loops() {
 	for (const auto &[begin, link] : links) {
 		begins.push_back(begin);
 	}
-	std::sort(begins.begin(), begins.end()); // the map's order is not the same everywhere
+	std::sort(begins.begin(), begins.end()); // the order of the map is not deterministic
 	std::vector<PolygonLoop> loops;
 	for (const uint64_t begin : begins) {
 		PolygonLoop loop;
@@ -200,13 +201,13 @@ std::vector<PolygonLoop> ContourFinder::link_loops() {
 	return loops;
 }
 
-/// The borders of a nearest sampler's region: along texels' sides.
-class SquareFinder {
+/// Traces the borders of a nearest sampler's region, along the sides of texels.
+class TexelBorderFinder {
 public:
-	explicit SquareFinder(const AlphaTest &p_test) :
+	explicit TexelBorderFinder(const AlphaTest &p_test) :
 			image(*p_test.image), threshold(p_test.cutoff * 255.0) {}
 
-	std::optional<std::vector<PolygonLoop>> find(size_t p_most_segments);
+	std::optional<std::vector<PolygonLoop>> find(size_t p_max_segments);
 
 private:
 	bool is_inside(int64_t p_x, int64_t p_y) const {
@@ -214,9 +215,10 @@ private:
 				image.get_texel(static_cast<uint32_t>(p_x), static_cast<uint32_t>(p_y))[3] >=
 				threshold;
 	}
-	/// Whether the region's border goes from a texel's corner in a direction: it is to the left.
+	/// Whether the region's border runs from a texel's corner in a direction, with the region to
+	/// its left.
 	bool is_border(const glm::ivec2 &p_corner, int p_direction) const;
-	PolygonLoop walk(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_walked) const;
+	PolygonLoop trace_loop(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_visited) const;
 	size_t get_index(const glm::ivec2 &p_corner) const {
 		return size_t(p_corner.y) * (image.size_px.x + 1) + p_corner.x;
 	}
@@ -227,25 +229,26 @@ private:
 
 const glm::ivec2 DIRECTIONS[] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
 
-bool SquareFinder::is_border(const glm::ivec2 &p_corner, int p_direction) const {
-	// The texels to the left and right of the way.
+bool TexelBorderFinder::is_border(const glm::ivec2 &p_corner, int p_direction) const {
+	// Offset from the corner to the texel on the left, by direction.
 	const glm::ivec2 LEFT[] = { { 0, 0 }, { -1, 0 }, { -1, -1 }, { 0, -1 } };
 	const glm::ivec2 left = p_corner + LEFT[p_direction];
 	const glm::ivec2 right = p_corner + LEFT[(p_direction + 3) % 4];
 	return is_inside(left.x, left.y) && !is_inside(right.x, right.y);
 }
 
-PolygonLoop SquareFinder::walk(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_walked) const {
+PolygonLoop TexelBorderFinder::trace_loop(
+		glm::ivec2 p_corner, std::vector<uint8_t> &r_is_visited) const {
 	PolygonLoop loop;
 	int direction = 0; // every loop has a side in that direction, or it would not close
-	while (!(r_is_walked[get_index(p_corner)] & (1 << direction))) {
-		r_is_walked[get_index(p_corner)] |= static_cast<uint8_t>(1 << direction);
+	while (!(r_is_visited[get_index(p_corner)] & (1 << direction))) {
+		r_is_visited[get_index(p_corner)] |= static_cast<uint8_t>(1 << direction);
 		p_corner += DIRECTIONS[direction];
 		const int left = (direction + 1) % 4;
 		const int right = (direction + 3) % 4;
 		const glm::ivec2 position = p_corner * UNITS;
 		if (is_border(p_corner, left)) {
-			if (is_border(p_corner, right)) { // two texels meet in a point: they are parted there
+			if (is_border(p_corner, right)) { // two texels touch at a corner: separate them
 				loop.push_back(position - DIRECTIONS[direction]);
 				loop.push_back(position + DIRECTIONS[left]);
 			} else {
@@ -260,20 +263,20 @@ PolygonLoop SquareFinder::walk(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_w
 	return loop;
 }
 
-std::optional<std::vector<PolygonLoop>> SquareFinder::find(size_t p_most_segments) {
+std::optional<std::vector<PolygonLoop>> TexelBorderFinder::find(size_t p_max_segments) {
 	const glm::ivec2 size(image.size_px);
-	std::vector<uint8_t> is_walked(size_t(size.x + 1) * size_t(size.y + 1));
+	std::vector<uint8_t> is_visited(size_t(size.x + 1) * size_t(size.y + 1));
 	std::vector<PolygonLoop> loops;
 	size_t segment_count = 0;
 	for (int y = 0; y < size.y; ++y) {
 		for (int x = 0; x < size.x; ++x) {
 			const glm::ivec2 corner(x, y);
-			if (!is_border(corner, 0) || is_walked[get_index(corner)] & 1) {
+			if (!is_border(corner, 0) || is_visited[get_index(corner)] & 1) {
 				continue;
 			}
-			loops.push_back(walk(corner, is_walked));
+			loops.push_back(trace_loop(corner, is_visited));
 			segment_count += loops.back().size();
-			if (segment_count > p_most_segments) {
+			if (segment_count > p_max_segments) {
 				return std::nullopt;
 			}
 		}
@@ -284,13 +287,13 @@ std::optional<std::vector<PolygonLoop>> SquareFinder::find(size_t p_most_segment
 } // namespace
 
 std::optional<std::vector<PolygonLoop>> find_alpha_contour(
-		const AlphaTest &p_test, size_t p_most_segments) {
-	return ContourFinder(p_test).find(p_most_segments);
+		const AlphaTest &p_test, size_t p_max_segments) {
+	return ContourFinder(p_test).find(p_max_segments);
 }
 
 std::optional<std::vector<PolygonLoop>> find_alpha_squares(
-		const AlphaTest &p_test, size_t p_most_segments) {
-	return SquareFinder(p_test).find(p_most_segments);
+		const AlphaTest &p_test, size_t p_max_segments) {
+	return TexelBorderFinder(p_test).find(p_max_segments);
 }
 
 } // namespace gnomon

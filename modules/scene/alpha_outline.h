@@ -16,12 +16,13 @@ struct AlphaOutline {
 
 	glm::ivec2 size = glm::ivec2(0); // of the tile in units
 	std::vector<glm::ivec2> points;	 // in units, from the image's upper left corner
-	/// Three points each, all with the same winding; empty: alpha is below the cutoff everywhere.
+	/// Three indices of points each, all with the same winding; empty: alpha is below the cutoff
+	/// everywhere.
 	std::vector<uint32_t> triangles;
-	bool is_whole = false;	 // the region is the whole tile
-	uint32_t edge_count = 0; // edges of the region's border
-	/// 0: the outline is the contour itself. Above 0: squares stand for blocks of this many texels
-	/// a side.
+	bool covers_tile = false; // the region is the whole tile
+	uint32_t edge_count = 0;  // edges of the region's border
+	/// 0: the outline is the simplified contour. Above 0: it is a half-tone of squares, one for
+	/// each block of this many texels a side.
 	uint32_t block_size_px = 0;
 
 	bool is_empty() const { return triangles.empty(); }
@@ -29,14 +30,15 @@ struct AlphaOutline {
 
 /// Finds the contour by marching squares through the texel centres: crossings are interpolated, a
 /// saddle is resolved by the mean of its four texels. The contour is simplified without
-/// self-intersection to within p_tolerance_px texels. At the tile's border it is closed, at the
-/// same points on opposite sides if the texture repeats. For a nearest sampler the contour follows
-/// the texels' squares, simplified only if the tolerance is at least half a texel.
+/// self-intersection with a tolerance of p_tolerance_px texels (simplify_loops). At the tile's
+/// border it is closed, at the same points on opposite sides if the texture repeats. For a nearest
+/// sampler the contour follows the texels' squares, simplified only if the tolerance is at least
+/// half a texel.
 ///
-/// A mask with more edges than p_edge_budget is simplified further, to at most a texel. If it still
-/// has more edges, as noise has, it becomes a half-tone: each block of texels gets a square, or a
-/// square hole, of the same area as the mask has there. The blocks are as small as the budget
-/// (at least 4 edges) allows; a tile that is one hole has 8 edges.
+/// A mask with more edges than p_edge_budget is simplified further, with a tolerance of up to one
+/// texel. If it still has more edges, as noise has, it becomes a half-tone: each block of texels
+/// gets a square, or a square hole, of the same area as the mask has there. The blocks are as small
+/// as the budget (at least 4 edges) allows; a tile that is one block with a hole has 8 edges.
 AlphaOutline make_alpha_outline(
 		const AlphaTest &p_test, uint32_t p_edge_budget, double p_tolerance_px = 0.125);
 

@@ -9,8 +9,9 @@ namespace gnomon {
 
 namespace {
 
-const float BLEND_CUTOFF = 0.5f;
+const float BLEND_CUTOFF = 0.5f; // of surfaces that are blended
 
+/// Maps a texture coordinate into 0..1.
 double wrap(double p_coordinate, TextureWrap p_wrap) {
 	switch (p_wrap) {
 		case TextureWrap::CLAMP:
@@ -54,14 +55,14 @@ float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv) {
 				255.0f;
 	}
 	const glm::dvec2 first = glm::floor(position - 0.5);
-	const glm::dvec2 share = position - 0.5 - first;
+	const glm::dvec2 weight = position - 0.5 - first;
 	double alpha = 0;
 	for (const int y : { 0, 1 }) {
 		for (const int x : { 0, 1 }) {
 			const uint8_t *texel = image.get_texel(
 					wrap_texel(static_cast<int64_t>(first.x) + x, image.size_px.x, p_test.wrap_u),
 					wrap_texel(static_cast<int64_t>(first.y) + y, image.size_px.y, p_test.wrap_v));
-			alpha += (x ? share.x : 1 - share.x) * (y ? share.y : 1 - share.y) * texel[3];
+			alpha += (x ? weight.x : 1 - weight.x) * (y ? weight.y : 1 - weight.y) * texel[3];
 		}
 	}
 	return static_cast<float>(alpha / 255.0);

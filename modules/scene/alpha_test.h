@@ -8,19 +8,21 @@
 
 namespace gnomon {
 
-/// An alpha test of a texture: which points of a surface are there. Tests with equal members keep
-/// the same region.
+/// An alpha test of a texture, which decides at which points a surface exists. Tests with equal
+/// members pass in the same region.
 struct AlphaTest {
 	const Image *image = nullptr;
-	/// Alpha threshold, 0..1: the surface is there where the texel's alpha is at least this.
+	/// Alpha threshold, 0..1: the test passes where the texture's alpha is at least this.
 	float cutoff = 0.5f;
 	TextureWrap wrap_u = TextureWrap::REPEAT;
 	TextureWrap wrap_v = TextureWrap::REPEAT;
 	bool is_nearest = false; // false: the four nearest texels are interpolated
 };
 
-/// Makes the test for the material's base colour texture. The cutoff applies to the product of the
-/// texture's alpha and the material's own. The image is null if there is no texture.
+/// Makes the test for the material's base colour texture. Its cutoff is the material's, which
+/// applies to the product of the texture's alpha, the material's and that of vertex colours: divide
+/// it by the latter two for a threshold of the texture's alpha. The image is null if there is no
+/// texture.
 AlphaTest make_alpha_test(const Material &p_material);
 /// Hashes everything that affects the test, texels included; without an image, the other fields.
 uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);

@@ -37,11 +37,11 @@ glm::dvec3 to_vector(const std::vector<double> &p_values) {
 }
 
 /// Returns the file's translation, rotation and scale if the node's matrix still equals them;
-/// otherwise it decomposes the matrix that the user has set. The file's parts are preferred because
-/// a matrix does not store which axis is mirrored; decomposition assumes x.
-NodeTransform choose_parts(const NodeTransform &p_of_file, const Node3D &p_node) {
-	return p_of_file.compose() == p_node.parent_from_node
-			? p_of_file
+/// otherwise it decomposes the matrix that the user has set. The file's components are preferred
+/// because a matrix does not store which axis is mirrored; decomposition assumes x.
+NodeTransform choose_components(const NodeTransform &p_file_transform, const Node3D &p_node) {
+	return p_file_transform.compose() == p_node.parent_from_node
+			? p_file_transform
 			: decompose_transform(p_node.parent_from_node);
 }
 
@@ -79,11 +79,11 @@ std::map<int, NodePose> sample_channels(const Animation &p_animation, double p_t
 
 void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_time_s) {
 	std::map<int, NodePose> poses;
-	std::map<int, NodeTransform> parts;
+	std::map<int, NodeTransform> file_transforms;
 	if (p_animation) {
 		poses = sample_channels(*p_animation, p_time_s);
 		for (const AnimatedNode &node : p_animation->nodes) {
-			parts[node.node] = node.transform;
+			file_transforms[node.node] = node.transform;
 		}
 	}
 	for (Node3D *node : p_scene.find_nodes<Node3D>()) {
@@ -104,7 +104,7 @@ void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_tim
 			instance->posed_morph_weights = channels.weights;
 		}
 		if (channels.translation || channels.rotation || channels.scale) {
-			NodeTransform moved = choose_parts(parts.at(node->file_index), *node);
+			NodeTransform moved = choose_components(file_transforms.at(node->file_index), *node);
 			moved.translation = channels.translation.value_or(moved.translation);
 			moved.rotation = channels.rotation.value_or(moved.rotation);
 			moved.scale = channels.scale.value_or(moved.scale);
@@ -118,9 +118,9 @@ void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_tim
 std::vector<double> AnimationSampler::sample(double p_time_s, bool p_is_rotation) const {
 	const size_t count = component_count;
 	const bool is_cubic = interpolation == Interpolation::CUBIC_SPLINE;
-	// p_part selects an element of a cubic-spline key: 0 in-tangent, 1 value, 2 out-tangent.
-	const auto get = [&](size_t p_key, size_t p_part) {
-		const size_t first = is_cubic ? (3 * p_key + p_part) * count : p_key * count;
+	// p_element selects an element of a cubic-spline key: 0 in-tangent, 1 value, 2 out-tangent.
+	const auto get = [&](size_t p_key, size_t p_element) {
+		const size_t first = is_cubic ? (3 * p_key + p_element) * count : p_key * count;
 		return std::vector<double>(
 				values.begin() + ptrdiff_t(first), values.begin() + ptrdiff_t(first + count));
 	};
@@ -141,14 +141,14 @@ std::vector<double> AnimationSampler::sample(double p_time_s, bool p_is_rotation
 				glm::slerp(to_quaternion(normalize(from)), to_quaternion(normalize(to)), t)));
 	}
 	std::vector<double> result(count);
-	const std::vector<double> leave = is_cubic ? get(key, 2) : from;
-	const std::vector<double> arrive = is_cubic ? get(next, 0) : to;
+	const std::vector<double> out_tangent = is_cubic ? get(key, 2) : from;
+	const std::vector<double> in_tangent = is_cubic ? get(next, 0) : to;
 	for (size_t i = 0; i < count; ++i) {
 		const double square = t * t;
 		const double cube = square * t;
 		result[i] = is_cubic ? (2 * cube - 3 * square + 1) * from[i] +
-						length_s * (cube - 2 * square + t) * leave[i] +
-						(3 * square - 2 * cube) * to[i] + length_s * (cube - square) * arrive[i]
+						length_s * (cube - 2 * square + t) * out_tangent[i] +
+						(3 * square - 2 * cube) * to[i] + length_s * (cube - square) * in_tangent[i]
 							 : from[i] + t * (to[i] - from[i]);
 	}
 	return p_is_rotation ? normalize(std::move(result)) : result;
@@ -161,8 +161,8 @@ double Animation::wrap_time(double p_time_s) const {
 	if (p_time_s >= 0 && p_time_s <= duration_s) {
 		return p_time_s;
 	}
-	const double rest_s = std::fmod(p_time_s, duration_s);
-	return rest_s < 0 ? rest_s + duration_s : rest_s;
+	const double wrapped_s = std::fmod(p_time_s, duration_s);
+	return wrapped_s < 0 ? wrapped_s + duration_s : wrapped_s;
 }
 
 void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s) {

@@ -57,7 +57,7 @@ struct Animation {
 };
 
 /// Sets the posed transforms and weights of the scene's nodes to those of the animation at a time,
-/// clamped to its first and last key; resets all other nodes to their own. Null resets all nodes.
+/// clamped to its first and last key; all other nodes return to rest. Null resets all nodes.
 /// The nodes' own transforms and weights do not change: see Node3D::posed_parent_from_node.
 void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s);
 

@@ -11,19 +11,21 @@ namespace gnomon {
 namespace {
 
 // Measured on trees, fences and single leaves: the error that an outline adds to a penumbra stays
-// below 0.002 if the penumbra's radius is this many times the tolerance. The radius is the largest
-// in a scene; most receivers see a smaller one. Above a quarter of a texel, receivers that touch
-// their caster dominate, because no light gives them a wide penumbra.
-const double RADII_PER_TOLERANCE = 80;
-const double RADII_PER_COARSE_TOLERANCE = 350;
+// below 0.002 if the penumbra's half width is at least this many times the tolerance. The half
+// width is the largest in a scene; most receivers see a smaller one. For tolerances above a quarter
+// of a texel, receivers that touch their caster dominate the error, because no light gives them a
+// wide penumbra.
+const double MIN_HALF_WIDTH_PER_TOLERANCE = 80;
+const double MIN_HALF_WIDTH_PER_COARSE_TOLERANCE = 350;
 const double COARSE_TOLERANCE_PX = 0.25;
 // Where the texture repeats within a triangle, the outline's error repeats too and does not average
 // out.
-const double REPEATED_TEXELS = 2;
+const double REPEATED_TEXTURE_FACTOR = 2;
 
 /// Returns the largest extent of a texel on a triangle: the largest singular value of the
-/// derivative of the position by the texel; times REPEATED_TEXELS if the triangle covers more
-/// texels than the texture has. 0 if the whole triangle shows one line of texels.
+/// derivative of the position with respect to the texel coordinates, times REPEATED_TEXTURE_FACTOR
+/// if the triangle covers more texels than the texture has. 0 if the whole triangle shows one line
+/// of texels.
 double compute_texel_size(const Mesh &p_mesh, const Texture &p_texture, uint32_t p_triangle) {
 	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[p_texture.uv_set];
 	const glm::dmat3x2 transform(p_texture.transform);
@@ -50,7 +52,7 @@ double compute_texel_size(const Mesh &p_mesh, const Texture &p_texture, uint32_t
 	const double xx = glm::dot(along_x, along_x);
 	const double yy = glm::dot(along_y, along_y);
 	const double xy = glm::dot(along_x, along_y);
-	return (is_repeated ? REPEATED_TEXELS : 1.0) *
+	return (is_repeated ? REPEATED_TEXTURE_FACTOR : 1.0) *
 			std::sqrt((xx + yy + std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy)) / 2);
 }
 
@@ -66,29 +68,30 @@ CutLevels::CutLevels(const std::shared_ptr<const Mesh> &p_mesh, const Material &
 	}
 }
 
-uint32_t CutLevels::choose_level(double p_radius) const {
-	if (p_radius <= 0) {
-		return BASE;
+uint32_t CutLevels::choose_level(double p_half_width) const {
+	if (p_half_width <= 0) {
+		return BASE_LEVEL;
 	}
-	const auto suits = [&](double p_tolerance_px) {
-		const double radii = p_tolerance_px > COARSE_TOLERANCE_PX ? RADII_PER_COARSE_TOLERANCE
-																  : RADII_PER_TOLERANCE;
-		return p_tolerance_px * texel_size * radii <= p_radius;
+	const auto is_negligible = [&](double p_tolerance_px) {
+		const double min_ratio = p_tolerance_px > COARSE_TOLERANCE_PX
+				? MIN_HALF_WIDTH_PER_COARSE_TOLERANCE
+				: MIN_HALF_WIDTH_PER_TOLERANCE;
+		return p_tolerance_px * texel_size * min_ratio <= p_half_width;
 	};
 	uint32_t level = static_cast<uint32_t>(TOLERANCES_PX.size()) - 1;
-	while (level > 0 && !suits(TOLERANCES_PX[level])) {
+	while (level > 0 && !is_negligible(TOLERANCES_PX[level])) {
 		--level;
 	}
 	return level;
 }
 
 std::shared_ptr<const Mesh> CutLevels::get_mesh(uint32_t p_level) const {
-	if (p_level == BASE) {
+	if (p_level == BASE_LEVEL) {
 		return base.lock();
 	}
 	const std::lock_guard<std::mutex> lock(mutex);
 	Level &level = levels.at(p_level);
-	if (!level.is_made) {
+	if (!level.is_built) {
 		const std::shared_ptr<const Mesh> mesh = source.lock();
 		const double tolerance_px = TOLERANCES_PX.at(p_level);
 		level = { mesh ? cut_mesh(mesh, material, {}, tolerance_px).mesh : nullptr, true };

@@ -11,23 +11,24 @@
 namespace gnomon {
 
 /// Levels of detail of a cut mesh: outlines simplified with several tolerances. Under a wide
-/// penumbra a coarser outline with fewer edges casts the same shadow. All levels keep the area of
-/// each hole.
+/// penumbra a coarser outline with fewer edges casts the same shadow. All levels preserve the area
+/// of each hole as far as their tolerance allows.
 class CutLevels {
 public:
-	/// Largest distance of the outline from the exact contour, in texels, from finest to coarsest.
+	/// Tolerance of the outline's simplification (simplify_loops), in texels, from finest to
+	/// coarsest.
 	static constexpr std::array<double, 6> TOLERANCES_PX = { 0.03125, 0.0625, 0.125, 0.25, 0.5,
 		1.0 };
-	static constexpr uint32_t BASE = 2; // the level of CutMesh::mesh
+	static constexpr uint32_t BASE_LEVEL = 2; // the level of CutMesh::mesh
 
-	/// p_cut: what cut_mesh made of the mesh.
+	/// p_cut: what cut_mesh makes of the mesh with the default tolerance.
 	CutLevels(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
 			const std::shared_ptr<const Mesh> &p_cut);
 
-	/// Returns the coarsest level whose outline error is negligible under penumbrae whose half
-	/// width is up to p_radius, in metres of the node's space, measured at the caster. Returns the
-	/// finest level if none qualifies, and BASE for a hard shadow (p_radius 0 or less).
-	uint32_t choose_level(double p_radius) const;
+	/// Returns the coarsest level whose outline error is negligible. p_half_width: half the width
+	/// of the widest penumbra, measured at the caster, in metres of the node's space. Returns the
+	/// finest level if none qualifies, and BASE_LEVEL for a hard shadow (p_half_width <= 0).
+	uint32_t choose_level(double p_half_width) const;
 	/// Returns a level's mesh, built on first use, from any thread. Null if nothing of the mesh is
 	/// left, or if the source mesh was freed.
 	std::shared_ptr<const Mesh> get_mesh(uint32_t p_level) const;
@@ -42,7 +43,7 @@ private:
 	double texel_size = 0;
 	struct Level {
 		std::shared_ptr<const Mesh> mesh;
-		bool is_made = false;
+		bool is_built = false;
 	};
 	mutable std::mutex mutex;
 	mutable std::array<Level, TOLERANCES_PX.size()> levels;

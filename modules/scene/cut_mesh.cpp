@@ -16,39 +16,39 @@ namespace gnomon {
 
 namespace {
 
-const double CUTOFF_OF_NOTHING = 2; // no texel has so much alpha
-const double CUTOFF_STEPS = 32;		// an outline of 2048 x 2048 texels takes a tenth of a second
+const double CUTOFF_NEVER_PASSES = 2; // above every alpha
+const double CUTOFF_STEPS = 32;		  // each needs an outline: 0.1 s for 2048 x 2048 texels
 
-/// Barycentric coordinates of a point on a triangle; for a triangle without area, along its longest
-/// side.
-glm::vec3 compute_shares(const glm::dvec3 &p_point, const glm::dvec3 &p_a, const glm::dvec3 &p_b,
-		const glm::dvec3 &p_c) {
+/// Returns the barycentric coordinates of a point on a triangle; for a triangle without area, along
+/// the longer side at p_a.
+glm::vec3 compute_barycentrics(const glm::dvec3 &p_point, const glm::dvec3 &p_a,
+		const glm::dvec3 &p_b, const glm::dvec3 &p_c) {
 	const glm::dvec3 ab = p_b - p_a;
 	const glm::dvec3 ac = p_c - p_a;
 	const glm::dvec3 normal = glm::cross(ab, ac);
 	const double square = glm::dot(normal, normal);
-	const glm::dvec3 way = p_point - p_a;
+	const glm::dvec3 offset = p_point - p_a;
 	if (square > 0) {
-		const double b = glm::dot(glm::cross(way, ac), normal) / square;
-		const double c = glm::dot(glm::cross(ab, way), normal) / square;
+		const double b = glm::dot(glm::cross(offset, ac), normal) / square;
+		const double c = glm::dot(glm::cross(ab, offset), normal) / square;
 		return glm::vec3(1.0 - b - c, b, c);
 	}
 	const bool is_ab = glm::dot(ab, ab) >= glm::dot(ac, ac);
 	const glm::dvec3 side = is_ab ? ab : ac;
 	const double length = glm::dot(side, side);
-	const double share = length > 0 ? glm::dot(way, side) / length : 0.0;
-	return is_ab ? glm::vec3(1.0 - share, share, 0) : glm::vec3(1.0 - share, 0, share);
+	const double fraction = length > 0 ? glm::dot(offset, side) / length : 0.0;
+	return is_ab ? glm::vec3(1.0 - fraction, fraction, 0) : glm::vec3(1.0 - fraction, 0, fraction);
 }
 
-/// Cuts the triangles one after another. Those that are whole wait until it is known where their
-/// neighbours' cuts meet their sides.
+/// Cuts the triangles of a mesh one after another. Triangles that stay whole are added last,
+/// because the cuts of their neighbours add points on their sides.
 class MeshCutter {
 public:
 	MeshCutter(const Mesh &p_mesh, const Material &p_material, const OutlineBudget &p_budget,
 			double p_tolerance_px);
 	/// Returns null if nothing is left. The triangles' source is the mesh.
 	std::shared_ptr<const Mesh> cut(const std::shared_ptr<const Mesh> &p_mesh);
-	bool is_whole() const { return whole.size() * 3 == mesh.indices.size(); }
+	bool is_uncut() const { return uncut.size() * 3 == mesh.indices.size(); }
 	uint32_t get_block_size_px() const { return block_size_px; }
 
 private:
@@ -59,7 +59,7 @@ private:
 	void add_pieces(const std::vector<ClippedPiece> &p_pieces, const MeshTriangle &p_cut,
 			uint32_t p_triangle);
 	void sort_side_points();
-	void add_whole(uint32_t p_triangle);
+	void add_uncut(uint32_t p_triangle);
 	uint32_t add_point(const glm::vec3 &p_position);
 	void add_triangle(uint32_t p_a, uint32_t p_b, uint32_t p_c, uint32_t p_source);
 	std::vector<TrianglePoint> find_points() const;
@@ -69,10 +69,10 @@ private:
 	const Texture &texture;
 	OutlineBudget budget;
 	double tolerance_px;
-	TileCover cover;
+	TileCoverage coverage;
 	uint32_t block_size_px = 0;
 	std::map<double, OutlinedTexture> textures; // by cutoff
-	std::vector<uint32_t> whole;				// triangles
+	std::vector<uint32_t> uncut;				// triangles that no cut changes
 	/// Points of cut triangles on the mesh's edges, with their positions along them, 0..1:
 	/// unsorted, and from both triangles at an edge.
 	using SidePoints = std::vector<std::pair<double, glm::vec3>>;
@@ -93,7 +93,7 @@ MeshCutter::MeshCutter(const Mesh &p_mesh, const Material &p_material,
 		for (uint32_t triangle = 0; triangle < mesh.get_triangle_count(); ++triangle) {
 			const MeshTriangle read = read_triangle(triangle);
 			if (read.has_area()) {
-				cover.add(read);
+				coverage.add(read);
 			}
 		}
 	}
@@ -116,11 +116,11 @@ double MeshCutter::compute_cutoff(const uint32_t *p_corners) const {
 		return 0;
 	}
 	if (!(alpha >= cutoff)) {
-		return CUTOFF_OF_NOTHING;
+		return CUTOFF_NEVER_PASSES;
 	}
-	const double share = cutoff / alpha;
-	return vertex_alpha == 1 ? share
-							 : std::max(std::round(share * CUTOFF_STEPS), 1.0) / CUTOFF_STEPS;
+	const double fraction = cutoff / alpha;
+	return vertex_alpha == 1 ? fraction
+							 : std::max(std::round(fraction * CUTOFF_STEPS), 1.0) / CUTOFF_STEPS;
 }
 
 MeshTriangle MeshCutter::read_triangle(uint32_t p_triangle) const {
@@ -144,7 +144,7 @@ OutlinedTexture &MeshCutter::get_texture(double p_cutoff) {
 	}
 	AlphaTest test = make_alpha_test(material);
 	test.cutoff = static_cast<float>(p_cutoff);
-	return textures.try_emplace(p_cutoff, test, cover, budget, tolerance_px).first->second;
+	return textures.try_emplace(p_cutoff, test, coverage, budget, tolerance_px).first->second;
 }
 
 void MeshCutter::cut_triangle(uint32_t p_triangle) {
@@ -153,7 +153,7 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 		return;
 	}
 	if (!texture.image) {
-		whole.push_back(p_triangle);
+		uncut.push_back(p_triangle);
 		return;
 	}
 	const MeshTriangle triangle = read_triangle(p_triangle);
@@ -161,7 +161,7 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 		const glm::dvec2 middle = (triangle.uv[0] + triangle.uv[1] + triangle.uv[2]) / 3.0;
 		if (std::isfinite(middle.x + middle.y) &&
 				sample_alpha(make_alpha_test(material), middle) >= cutoff) {
-			whole.push_back(p_triangle);
+			uncut.push_back(p_triangle);
 		}
 		return;
 	}
@@ -176,7 +176,7 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 	}
 	const double ROUNDING = 1e-12;
 	if (area >= (1 - ROUNDING) * std::abs(triangle.area)) {
-		whole.push_back(p_triangle);
+		uncut.push_back(p_triangle);
 	} else {
 		add_pieces(pieces, triangle, p_triangle);
 	}
@@ -195,13 +195,13 @@ void MeshCutter::add_pieces(
 			const glm::vec3 position = piece.get_position(point);
 			corners.push_back(add_point(position));
 			if (point.side >= 0 && point.corner < 0) {
-				sides[point.side]->emplace_back(point.share, position);
+				sides[point.side]->emplace_back(point.fraction, position);
 			}
 		}
-		const bool is_turned = (piece.compute_area() < 0) != (p_cut.area < 0);
+		const bool is_reversed = (piece.compute_area() < 0) != (p_cut.area < 0);
 		for (size_t i = 1; i + 1 < corners.size(); ++i) {
-			add_triangle(corners[0], corners[is_turned ? i + 1 : i], corners[is_turned ? i : i + 1],
-					p_triangle);
+			add_triangle(corners[0], corners[is_reversed ? i + 1 : i],
+					corners[is_reversed ? i : i + 1], p_triangle);
 		}
 	}
 }
@@ -220,7 +220,7 @@ void MeshCutter::sort_side_points() {
 	}
 }
 
-void MeshCutter::add_whole(uint32_t p_triangle) {
+void MeshCutter::add_uncut(uint32_t p_triangle) {
 	const MeshTriangle triangle = read_triangle(p_triangle);
 	std::vector<uint32_t> ring;
 	for (int corner = 0; corner < 3; ++corner) {
@@ -231,10 +231,10 @@ void MeshCutter::add_whole(uint32_t p_triangle) {
 			continue;
 		}
 		std::vector<uint32_t> points;
-		for (const auto &[share, position] : found->second) {
+		for (const auto &[fraction, position] : found->second) {
 			points.push_back(add_point(position));
 		}
-		if (side.is_turned) {
+		if (side.is_reversed) {
 			std::reverse(points.begin(), points.end());
 		}
 		ring.insert(ring.end(), points.begin(), points.end());
@@ -261,7 +261,7 @@ uint32_t MeshCutter::add_point(const glm::vec3 &p_position) {
 }
 
 void MeshCutter::add_triangle(uint32_t p_a, uint32_t p_b, uint32_t p_c, uint32_t p_source) {
-	if (p_a != p_b && p_b != p_c && p_c != p_a) { // else rounding took its area
+	if (p_a != p_b && p_b != p_c && p_c != p_a) { // otherwise rounding made it degenerate
 		indices.insert(indices.end(), { p_a, p_b, p_c });
 		sources.push_back(p_source);
 	}
@@ -274,14 +274,14 @@ std::shared_ptr<const Mesh> MeshCutter::cut(const std::shared_ptr<const Mesh> &p
 	for (const auto &[cutoff, outlined] : textures) {
 		block_size_px = std::max(block_size_px, outlined.get_block_size_px());
 	}
-	if (is_whole()) {
+	if (is_uncut()) {
 		return p_mesh;
 	}
-	if (!whole.empty()) {
+	if (!uncut.empty()) {
 		sort_side_points();
 	}
-	for (const uint32_t triangle : whole) {
-		add_whole(triangle);
+	for (const uint32_t triangle : uncut) {
+		add_uncut(triangle);
 	}
 	if (indices.empty()) {
 		return nullptr;
@@ -300,13 +300,14 @@ std::vector<TrianglePoint> MeshCutter::find_points() const {
 		const uint32_t *source = &mesh.indices[3 * size_t(sources[corner / 3])];
 		TrianglePoint &point = points[indices[corner]];
 		point.corners = { source[0], source[1], source[2] };
-		point.shares = compute_shares(positions[indices[corner]], mesh.positions_node[source[0]],
-				mesh.positions_node[source[1]], mesh.positions_node[source[2]]);
+		point.weights =
+				compute_barycentrics(positions[indices[corner]], mesh.positions_node[source[0]],
+						mesh.positions_node[source[1]], mesh.positions_node[source[2]]);
 	}
 	return points;
 }
 
-/// Everything about a material that decides how a mesh is cut.
+/// Returns everything about a mesh and a material that determines the cut, as a key of the cache.
 auto make_key(const Mesh &p_mesh, const Material &p_material) {
 	const Texture &texture = p_material.base_color_texture;
 	std::array<float, 6> transform;
@@ -318,7 +319,7 @@ auto make_key(const Mesh &p_mesh, const Material &p_material) {
 			texture.is_magnified_nearest, texture.uv_set, transform);
 }
 
-/// Hashes what decides which parts of a mesh remain.
+/// Hashes everything that determines which parts of a mesh remain, apart from Mesh::content_hash.
 uint64_t compute_content_hash(const Mesh &p_mesh, const Material &p_material) {
 	const Texture &texture = p_material.base_color_texture;
 	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[texture.uv_set];
@@ -331,11 +332,11 @@ uint64_t compute_content_hash(const Mesh &p_mesh, const Material &p_material) {
 
 struct CacheEntry {
 	std::weak_ptr<const Mesh> source;
-	std::weak_ptr<const Material> material; // of the one that requested it first
+	std::weak_ptr<const Material> material; // the first that requested the cut
 	CutMesh cut;
 
 	/// Whether a later snapshot can request it again.
-	bool is_used() const {
+	bool is_reachable() const {
 		return !source.expired() && (!material.expired() || cut.mesh.use_count() > 1);
 	}
 };
@@ -361,7 +362,7 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 	if (!p_material || !p_material->is_cut_out()) {
 		return { p_mesh };
 	}
-	// Held while a mesh is cut, because two threads would otherwise do the same work.
+	// Locked while a mesh is cut, because two threads could otherwise do the same work.
 	const std::lock_guard<std::mutex> lock(cache_mutex);
 	CacheEntry &entry = cache[make_key(*p_mesh, *p_material)];
 	if (entry.source.expired()) {
@@ -377,7 +378,7 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 
 void drop_unused_cut_meshes() {
 	const std::lock_guard<std::mutex> lock(cache_mutex);
-	std::erase_if(cache, [](const auto &p_item) { return !p_item.second.is_used(); });
+	std::erase_if(cache, [](const auto &p_item) { return !p_item.second.is_reachable(); });
 }
 
 size_t get_cut_mesh_count() {

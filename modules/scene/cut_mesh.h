@@ -11,31 +11,32 @@ namespace gnomon {
 
 class CutLevels;
 
-/// The part of a mesh that casts a shadow: what the alpha test leaves of it.
+/// The part of a mesh that casts a shadow: where the alpha test passes.
 struct CutMesh {
 	/// The source mesh itself if nothing was cut away; null if nothing is left. Otherwise an open
 	/// mesh whose triangles are cut along the alpha contour, so that everything that reads
 	/// triangles and edges sees the holes. It has no texture coordinates and no colours.
 	std::shared_ptr<const Mesh> mesh;
-	/// Above 0: the mask has more edges than the budget, and squares stand for blocks of this many
+	/// Above 0: the mask has more edges than the budget, and squares replace blocks of this many
 	/// texels a side, see AlphaOutline.
 	uint32_t block_size_px = 0;
-	/// Hash of the alpha that cut the mesh, since the mesh follows it only as closely as its
-	/// outline does; 0 if it is not cut.
+	/// Hash of the exact alpha test, which the mesh only approximates; 0 if the material is not cut
+	/// out.
 	uint64_t content_hash = 0;
-	/// Levels of detail of a mesh that get_cut_mesh cut along its contour; otherwise null.
+	/// Levels of detail. Set by get_cut_mesh if it cut the mesh along a contour; otherwise null.
 	std::shared_ptr<const CutLevels> levels;
 };
 
 /// Cuts away the parts of a mesh whose alpha is below the cutoff. Alpha is the product of the
-/// material's alpha, the first mip level of the base colour texture, and the mean of the triangle's
-/// vertex colours. Where the contour crosses a mesh edge, both triangles compute the same point,
-/// bit for bit, if their coordinates agree. Computed in double, rounded to float once.
-/// p_tolerance_px: largest distance of the outline from the contour, in texels.
+/// material's alpha, the alpha of the base colour texture's first mip level, and the mean alpha of
+/// the triangle's vertex colours. If that mean is not 1, the threshold for the texture is rounded
+/// to a multiple of 1/32. Where the contour crosses a mesh edge, both triangles compute the same
+/// point, bit for bit, if their texture coordinates agree there. Computed in double, rounded to
+/// float once. p_tolerance_px: see make_alpha_outline.
 CutMesh cut_mesh(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
 		const OutlineBudget &p_budget = {}, double p_tolerance_px = 0.125);
 
-/// Cuts like cut_mesh, but cached: materials with the same alpha test share the result. If the
+/// Cuts like cut_mesh, but cached: materials with the same alpha test get one result. If the
 /// material is not cut out, it returns the mesh itself. Callable from any thread.
 CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 		const std::shared_ptr<const Material> &p_material);

@@ -1,4 +1,4 @@
-// The members of lights that are properties, and what a viewport draws for them.
+// Declares the members of lights that are properties, and the gizmos of lights.
 
 #include "modules/scene/node_members.h"
 
@@ -9,7 +9,7 @@ namespace gnomon {
 
 namespace {
 
-const double NARROWEST_EDGE = 1e-3; // of the outer cone: the inner one stays that much below it
+const double MIN_CONE_GAP = 1e-3; // inner cone at most (1 - this) times the outer cone
 
 PropertyValue read_light_type(const Node3D &p_node) {
 	return std::string(get_light_type_name(to<Light3D>(p_node).type));
@@ -39,19 +39,20 @@ bool has_position(const Node3D &p_node) {
 	return to<Light3D>(p_node).type != LightType::DIRECTIONAL;
 }
 
-/// Keeps the inner cone within the outer one by widening the outer one.
+/// Keeps the inner cone within the outer one by widening the outer one, which must be above 0 even
+/// if the inner one is 0.
 void write_inner_cone(Node3D &r_node, const PropertyValue &p_value) {
 	write_degrees<Light3D, &Light3D::inner_cone_rad>(r_node, p_value);
 	Light3D &light = to<Light3D>(r_node);
 	light.outer_cone_rad = std::max(
-			light.outer_cone_rad, light.inner_cone_rad * float(1.0 + NARROWEST_EDGE) + 1e-6f);
+			light.outer_cone_rad, light.inner_cone_rad * float(1.0 + MIN_CONE_GAP) + 1e-6f);
 }
 
 void write_outer_cone(Node3D &r_node, const PropertyValue &p_value) {
 	write_degrees<Light3D, &Light3D::outer_cone_rad>(r_node, p_value);
 	Light3D &light = to<Light3D>(r_node);
 	light.inner_cone_rad =
-			std::min(light.inner_cone_rad, light.outer_cone_rad * float(1.0 - NARROWEST_EDGE));
+			std::min(light.inner_cone_rad, light.outer_cone_rad * float(1.0 - MIN_CONE_GAP));
 }
 
 std::vector<NodeField> make_light_fields() {

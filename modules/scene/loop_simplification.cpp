@@ -8,31 +8,32 @@ namespace gnomon {
 
 namespace {
 
-/// Lines of more points grow by doubling: each trial checks all points of the line, and a straight
-/// border of a large image has thousands.
-const uint32_t MOST_SINGLE_STEPS = 64;
+/// Lines grow point by point up to this many points, then in steps that double: each trial checks
+/// all points of the line, and a straight border of a large image has thousands.
+const uint32_t MAX_SINGLE_STEPS = 64;
 
 double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
 	const glm::dvec2 along(p_b - p_a);
 	const glm::dvec2 offset(p_point - p_a);
 	const double length = glm::dot(along, along);
-	const double share = length > 0 ? std::clamp(glm::dot(offset, along) / length, 0.0, 1.0) : 0.0;
-	return glm::length(offset - along * share);
+	const double fraction =
+			length > 0 ? std::clamp(glm::dot(offset, along) / length, 0.0, 1.0) : 0.0;
+	return glm::length(offset - along * fraction);
 }
 
 /// One loop, and which of its points are retained.
 struct Chain {
 	const PolygonLoop *loop;
-	std::vector<uint8_t> is_left; // per point
+	std::vector<uint8_t> is_kept; // per point
 
 	const glm::ivec2 &get(uint32_t p_point) const { return (*loop)[p_point % loop->size()]; }
-	/// Returns the point between two others that is farthest from the line through them; p_end is
-	/// above p_begin and may be beyond the loop's end.
+	/// Returns the point between two others that is farthest from the line between them; p_end is
+	/// above p_begin and may be beyond the loop's end (it wraps around).
 	uint32_t find_farthest(uint32_t p_begin, uint32_t p_end, double &r_distance) const;
 	/// Returns the end of the longest line from a point that has all points between within the
 	/// tolerance.
 	uint32_t find_line_end(uint32_t p_begin, uint32_t p_end, double p_tolerance) const;
-	void keep(uint32_t p_point) { is_left[p_point % loop->size()] = 1; }
+	void keep(uint32_t p_point) { is_kept[p_point % loop->size()] = 1; }
 	void simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance);
 };
 
@@ -61,7 +62,7 @@ uint32_t Chain::find_line_end(uint32_t p_begin, uint32_t p_end, double p_toleran
 		is_growing = is_growing && fits;
 		if (!is_growing) {
 			step /= 2;
-		} else if (end - p_begin >= MOST_SINGLE_STEPS) {
+		} else if (end - p_begin >= MAX_SINGLE_STEPS) {
 			step *= 2;
 		}
 	}
@@ -115,7 +116,7 @@ Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::iv
 		chain.simplify(
 				fixed[i], i + 1 < fixed.size() ? fixed[i + 1] : fixed[0] + count, p_tolerance);
 	}
-	if (std::count(chain.is_left.begin(), chain.is_left.end(), 1) < 3) { // thinner than that
+	if (std::count(chain.is_kept.begin(), chain.is_kept.end(), 1) < 3) { // too thin
 		double distances[2];
 		const uint32_t points[] = {
 			chain.find_farthest(fixed[0], fixed[1], distances[0]),
@@ -131,8 +132,8 @@ struct Segment {
 	uint32_t begin, end; // points; see Chain::find_farthest
 	glm::ivec2 a, b;
 
-	int32_t get_least_x() const { return std::min(a.x, b.x); }
-	int32_t get_greatest_x() const { return std::max(a.x, b.x); }
+	int32_t get_min_x() const { return std::min(a.x, b.x); }
+	int32_t get_max_x() const { return std::max(a.x, b.x); }
 };
 
 std::vector<Segment> list_segments(const std::vector<Chain> &p_chains) {
@@ -141,19 +142,19 @@ std::vector<Segment> list_segments(const std::vector<Chain> &p_chains) {
 		const Chain &chain = p_chains[index];
 		const uint32_t count = static_cast<uint32_t>(chain.loop->size());
 		uint32_t first = 0;
-		while (!chain.is_left[first]) {
+		while (!chain.is_kept[first]) {
 			++first;
 		}
 		uint32_t begin = first;
 		for (uint32_t point = first + 1; point <= first + count; ++point) {
-			if (chain.is_left[point % count]) {
+			if (chain.is_kept[point % count]) {
 				segments.push_back({ index, begin, point, chain.get(begin), chain.get(point) });
 				begin = point;
 			}
 		}
 	}
 	std::sort(segments.begin(), segments.end(), [](const Segment &p_one, const Segment &p_other) {
-		return p_one.get_least_x() < p_other.get_least_x();
+		return p_one.get_min_x() < p_other.get_min_x();
 	});
 	return segments;
 }
@@ -167,8 +168,8 @@ bool is_between(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ive
 			glm::min(p_a.y, p_b.y) <= p_point.y && p_point.y <= glm::max(p_a.y, p_b.y);
 }
 
-/// Consecutive segments may share an endpoint, and nothing else.
-bool do_meet(const Segment &p_one, const Segment &p_other) {
+/// Whether two segments cross or touch, other than at the common endpoint of consecutive ones.
+bool do_intersect(const Segment &p_one, const Segment &p_other) {
 	if (glm::max(p_one.a.y, p_one.b.y) < glm::min(p_other.a.y, p_other.b.y) ||
 			glm::max(p_other.a.y, p_other.b.y) < glm::min(p_one.a.y, p_one.b.y)) {
 		return false;
@@ -179,12 +180,13 @@ bool do_meet(const Segment &p_one, const Segment &p_other) {
 		const glm::ivec2 &other = p_one.b == p_other.a ? p_other.b : p_other.a;
 		const glm::dvec2 along_one(one - common);
 		const glm::dvec2 along_other(other - common);
-		return compute_turn(common, one, other) == 0 && glm::dot(along_one, along_other) > 0;
+		return compute_twice_signed_area(common, one, other) == 0 &&
+				glm::dot(along_one, along_other) > 0;
 	}
-	const int a = get_sign(compute_turn(p_one.a, p_one.b, p_other.a));
-	const int b = get_sign(compute_turn(p_one.a, p_one.b, p_other.b));
-	const int c = get_sign(compute_turn(p_other.a, p_other.b, p_one.a));
-	const int d = get_sign(compute_turn(p_other.a, p_other.b, p_one.b));
+	const int a = get_sign(compute_twice_signed_area(p_one.a, p_one.b, p_other.a));
+	const int b = get_sign(compute_twice_signed_area(p_one.a, p_one.b, p_other.b));
+	const int c = get_sign(compute_twice_signed_area(p_other.a, p_other.b, p_one.a));
+	const int d = get_sign(compute_twice_signed_area(p_other.a, p_other.b, p_one.b));
 	if (a * b < 0 && c * d < 0) {
 		return true;
 	}
@@ -196,47 +198,48 @@ bool do_meet(const Segment &p_one, const Segment &p_other) {
 
 /// Calls the visitor for each pair of segments that meet, until it returns false.
 template <typename Visitor>
-void visit_meetings(const std::vector<Segment> &p_segments, const Visitor &p_visit) {
+void visit_intersections(const std::vector<Segment> &p_segments, const Visitor &p_visit) {
 	for (size_t i = 0; i < p_segments.size(); ++i) {
-		const int32_t end = p_segments[i].get_greatest_x();
-		for (size_t k = i + 1; k < p_segments.size() && p_segments[k].get_least_x() <= end; ++k) {
-			if (do_meet(p_segments[i], p_segments[k]) && !p_visit(p_segments[i], p_segments[k])) {
+		const int32_t end = p_segments[i].get_max_x();
+		for (size_t k = i + 1; k < p_segments.size() && p_segments[k].get_min_x() <= end; ++k) {
+			if (do_intersect(p_segments[i], p_segments[k]) &&
+					!p_visit(p_segments[i], p_segments[k])) {
 				return;
 			}
 		}
 	}
 }
 
-/// Restores points where segments meet. Returns false if none do.
-bool part(std::vector<Chain> &r_chains) {
-	bool has_parted = false;
-	const auto take_back = [&](const Segment &p_segment) {
+/// Restores a point of each segment that meets another. Returns false if none was restored.
+bool restore_intersecting(std::vector<Chain> &r_chains) {
+	bool has_restored = false;
+	const auto restore_point = [&](const Segment &p_segment) {
 		double distance = 0;
 		const uint32_t point =
 				r_chains[p_segment.chain].find_farthest(p_segment.begin, p_segment.end, distance);
 		if (point != p_segment.begin) {
 			r_chains[p_segment.chain].keep(point);
-			has_parted = true;
+			has_restored = true;
 		}
 	};
-	visit_meetings(list_segments(r_chains), [&](const Segment &p_one, const Segment &p_other) {
-		take_back(p_one);
-		take_back(p_other);
+	visit_intersections(list_segments(r_chains), [&](const Segment &p_one, const Segment &p_other) {
+		restore_point(p_one);
+		restore_point(p_other);
 		return true;
 	});
-	return has_parted;
+	return has_restored;
 }
 
 bool is_on_border(const glm::ivec2 &p_point, const glm::ivec2 &p_size) {
 	return p_point.x == 0 || p_point.y == 0 || p_point.x == p_size.x || p_point.y == p_size.y;
 }
 
-/// Moves a point by at most p_most, unless it is on the rectangle's border, where it must match the
-/// next tile.
-glm::ivec2 move_point(const glm::ivec2 &p_point, const glm::dvec2 &p_shift, double p_most,
+/// Moves a point by at most p_max_distance, unless it is on the rectangle's border, where it must
+/// match the next tile.
+glm::ivec2 move_point(const glm::ivec2 &p_point, const glm::dvec2 &p_shift, double p_max_distance,
 		const glm::ivec2 &p_size) {
 	const double length = glm::length(p_shift);
-	const glm::dvec2 shift = p_shift * (length > p_most ? p_most / length : 1.0);
+	const glm::dvec2 shift = p_shift * (length > p_max_distance ? p_max_distance / length : 1.0);
 	return is_on_border(p_point, p_size)
 			? p_point
 			: glm::clamp(p_point + glm::ivec2(glm::round(shift)), glm::ivec2(1), p_size - 1);
@@ -251,58 +254,60 @@ glm::dvec2 find_normal(const glm::ivec2 &p_from, const glm::ivec2 &p_to) {
 int64_t compute_twice_area(const PolygonLoop &p_loop) {
 	int64_t area = 0;
 	for (size_t i = 0; i < p_loop.size(); ++i) {
-		area += compute_turn(glm::ivec2(0), p_loop[i], p_loop[(i + 1) % p_loop.size()]);
+		area += compute_twice_signed_area(
+				glm::ivec2(0), p_loop[i], p_loop[(i + 1) % p_loop.size()]);
 	}
 	return area;
 }
 
-/// Moves all points by one distance, at most p_most, so that the loop has an area.
-void restore_area(
-		int64_t p_twice_area, double p_most, const glm::ivec2 &p_size, PolygonLoop &r_loop) {
+/// Moves all edges by one distance, at most p_max_distance, so that the loop has the given area.
+void restore_area(int64_t p_twice_area, double p_max_distance, const glm::ivec2 &p_size,
+		PolygonLoop &r_loop) {
 	const size_t count = r_loop.size();
-	std::vector<glm::dvec2> ways(count); // outwards; along both lines' normals by 1
-	double change = 0;					 // of the area, for a distance of 1
+	std::vector<glm::dvec2> directions(count); // moves both lines at a point outwards by 1
+	double change = 0;						   // of the area, for a distance of 1
 	for (size_t i = 0; i < count; ++i) {
 		const glm::ivec2 &before = r_loop[(i + count - 1) % count];
 		const glm::ivec2 &after = r_loop[(i + 1) % count];
 		const glm::dvec2 sum = find_normal(before, r_loop[i]) + find_normal(r_loop[i], after);
-		if (is_on_border(r_loop[i], p_size) || glm::dot(sum, sum) < 0.5) { // or a spike
+		if (is_on_border(r_loop[i], p_size) || glm::dot(sum, sum) < 0.5) { // or a sharp spike
 			continue;
 		}
-		ways[i] = sum * 2.0 / glm::dot(sum, sum);
-		change += 0.5 * glm::dot(ways[i], glm::dvec2(after.y - before.y, before.x - after.x));
+		directions[i] = sum * 2.0 / glm::dot(sum, sum);
+		change += 0.5 * glm::dot(directions[i], glm::dvec2(after.y - before.y, before.x - after.x));
 	}
 	const double missing = 0.5 * double(p_twice_area - compute_twice_area(r_loop));
-	const double distance = change > 0 ? std::clamp(missing / change, -p_most, p_most) : 0.0;
+	const double distance =
+			change > 0 ? std::clamp(missing / change, -p_max_distance, p_max_distance) : 0.0;
 	for (size_t i = 0; i < count; ++i) {
-		r_loop[i] = move_point(r_loop[i], ways[i] * distance, p_most, p_size);
+		r_loop[i] = move_point(r_loop[i], directions[i] * distance, p_max_distance, p_size);
 	}
 }
 
-/// Returns the points left in a chain, moved by at most twice p_tolerance so that each line has as
-/// much of the loop on one side as on the other, because replacing a curve by chords alone would
-/// shrink round shapes. The other lines make up for those that end on the rectangle's border.
-PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
+/// Returns the retained points of a chain, moved by at most twice p_tolerance so that each line has
+/// as much area of the original loop on one side as on the other: chords alone would shrink round
+/// shapes. Points on the rectangle's border stay; restore_area lets the other lines compensate.
+PolygonLoop balance_areas(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
 	struct Line {
 		glm::dvec2 normal;
 		double offset; // along it
 	};
-	std::vector<uint32_t> left;
+	std::vector<uint32_t> kept_points;
 	for (uint32_t point = 0; point < p_chain.loop->size(); ++point) {
-		if (p_chain.is_left[point]) {
-			left.push_back(point);
+		if (p_chain.is_kept[point]) {
+			kept_points.push_back(point);
 		}
 	}
-	const size_t count = left.size();
+	const size_t count = kept_points.size();
 	std::vector<Line> lines;
 	for (size_t i = 0; i < count; ++i) {
-		const uint32_t begin = left[i];
-		const uint32_t end = left[(i + 1) % count] +
+		const uint32_t begin = kept_points[i];
+		const uint32_t end = kept_points[(i + 1) % count] +
 				(i + 1 < count ? 0 : static_cast<uint32_t>(p_chain.loop->size()));
 		int64_t twice_area = 0;
 		for (uint32_t point = begin; point < end; ++point) {
-			twice_area +=
-					compute_turn(p_chain.get(begin), p_chain.get(point), p_chain.get(point + 1));
+			twice_area += compute_twice_signed_area(
+					p_chain.get(begin), p_chain.get(point), p_chain.get(point + 1));
 		}
 		const double length = glm::length(glm::dvec2(p_chain.get(end) - p_chain.get(begin)));
 		lines.push_back({ find_normal(p_chain.get(begin), p_chain.get(end)),
@@ -313,29 +318,29 @@ PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &
 		const Line &before = lines[(i + count - 1) % count];
 		const Line &after = lines[i];
 		glm::dvec2 shift = (before.normal * before.offset + after.normal * after.offset) * 0.5;
-		const double turn = before.normal.x * after.normal.y - before.normal.y * after.normal.x;
-		if (std::abs(turn) > 0.1) { // where both moved lines meet
+		const double cross = before.normal.x * after.normal.y - before.normal.y * after.normal.x;
+		if (std::abs(cross) > 0.1) { // not nearly parallel: where both moved lines meet
 			shift = glm::dvec2(before.offset * after.normal.y - after.offset * before.normal.y,
 							after.offset * before.normal.x - before.offset * after.normal.x) /
-					turn;
+					cross;
 		}
-		moved.push_back(move_point(p_chain.get(left[i]), shift, p_tolerance, p_size));
+		moved.push_back(move_point(p_chain.get(kept_points[i]), shift, p_tolerance, p_size));
 	}
 	restore_area(compute_twice_area(*p_chain.loop), p_tolerance, p_size, moved);
 	return moved;
 }
 
-bool has_meeting(const std::vector<PolygonLoop> &p_loops) {
+bool has_intersection(const std::vector<PolygonLoop> &p_loops) {
 	std::vector<Chain> chains;
 	for (const PolygonLoop &loop : p_loops) {
 		chains.push_back({ &loop, std::vector<uint8_t>(loop.size(), 1) });
 	}
-	bool has_met = false;
-	visit_meetings(list_segments(chains), [&](const Segment &, const Segment &) {
-		has_met = true;
+	bool has_found = false;
+	visit_intersections(list_segments(chains), [&](const Segment &, const Segment &) {
+		has_found = true;
 		return false;
 	});
-	return has_met;
+	return has_found;
 }
 
 } // namespace
@@ -346,20 +351,20 @@ std::vector<PolygonLoop> simplify_loops(
 	for (const PolygonLoop &loop : p_loops) {
 		chains.push_back(simplify_loop(loop, p_tolerance, p_size));
 	}
-	while (part(chains)) { // ends at the latest where all points are back
+	while (restore_intersecting(chains)) { // ends at the latest when all points are restored
 	}
 	std::vector<PolygonLoop> balanced;
 	for (const Chain &chain : chains) {
-		balanced.push_back(balance(chain, p_tolerance, p_size));
+		balanced.push_back(balance_areas(chain, p_tolerance, p_size));
 	}
-	if (!has_meeting(balanced)) {
+	if (!has_intersection(balanced)) {
 		return balanced;
 	}
 	std::vector<PolygonLoop> simplified;
 	for (const Chain &chain : chains) {
 		PolygonLoop &loop = simplified.emplace_back();
 		for (uint32_t point = 0; point < chain.loop->size(); ++point) {
-			if (chain.is_left[point]) {
+			if (chain.is_kept[point]) {
 				loop.push_back((*chain.loop)[point]);
 			}
 		}

@@ -4,11 +4,12 @@
 
 namespace gnomon {
 
-/// Simplifies loops that neither cross nor touch. The result stays within p_tolerance of the input
-/// and still neither crosses nor touches itself: where segments would meet, points are restored.
-/// Then points are moved, by at most twice the tolerance, to preserve areas, except where segments
-/// would meet. Points on the border of the rectangle from (0, 0) to p_size stay, except those
-/// on a straight line along it.
+/// Simplifies loops that neither cross nor touch. Lengths are in units of the loops' points. Points
+/// are dropped if the remaining lines stay within p_tolerance of them; where lines would meet,
+/// points are restored, so that the result neither crosses nor touches itself. Then the remaining
+/// points are moved, by at most twice the tolerance, to preserve the areas of the loops. If lines
+/// would meet after that, no point is moved. Points on the border of the rectangle from (0, 0) to
+/// p_size stay, except those within a straight line along it.
 std::vector<PolygonLoop> simplify_loops(
 		const std::vector<PolygonLoop> &p_loops, int32_t p_tolerance, const glm::ivec2 &p_size);
 

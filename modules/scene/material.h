@@ -14,12 +14,13 @@ namespace gnomon {
 /// papers.
 enum class ShadingModel { METALLIC_ROUGHNESS, PHONG };
 
-/// MASK: a surface is there where its alpha is at least the cutoff, and nowhere else. BLEND is
-/// drawn and casts like MASK.
+/// MASK: the surface exists only where its alpha is at least the cutoff. BLEND is drawn and casts
+/// shadows like MASK, with a cutoff of 0.5.
 enum class AlphaMode { OPAQUE, MASK, BLEND };
 
-/// A surface's material. Colours are linear. Immutable once shared. Each texture multiplies the
-/// values above it; a mesh's vertex colours multiply base colour and alpha.
+/// A surface's material. Colours are linear. Immutable once shared. Base colour, emissive
+/// and metallic-roughness textures multiply the values of their name; a mesh's vertex colours
+/// multiply base colour and alpha.
 struct Material {
 	std::string name;
 	glm::vec3 base_color = glm::vec3(0.8f);
@@ -56,9 +57,9 @@ struct Material {
 	int file_index = -1;
 
 	bool operator==(const Material &) const = default;
-	/// Computes the fraction of light that one pass through the caster leaves, 0..1 per colour; 0 =
-	/// opaque. p_scale: scale of the node, for the thickness. Beer-Lambert law
-	/// (KHR_materials_volume).
+	/// Computes the fraction of light that remains after it passes through the caster once, 0..1
+	/// per colour channel; 0 = opaque. p_scale: scale of the node, which scales the thickness.
+	/// Beer-Lambert law (KHR_materials_volume).
 	glm::vec3 compute_transmittance(float p_scale) const;
 	/// Whether an alpha test removes parts of the surface. Materials that transmit light are not
 	/// cut out.
@@ -69,7 +70,7 @@ struct Material {
 	}
 };
 
-/// "metallic_roughness", "phong".
+/// Returns "metallic_roughness" or "phong".
 const char *get_shading_model_name(ShadingModel p_model);
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-// The materials of meshes as properties of their nodes.
+// Declares the materials of meshes as properties of their nodes.
 
 #include "modules/scene/node_members.h"
 
@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-const char LENGTHS[] = "0,10000,0.001";
+const char LENGTH_RANGE[] = "0,10000,0.001";
 const char GROUP[] = "Material";
 
 const Material &get_material(const Node3D &p_node) {
@@ -97,32 +97,33 @@ NodeField make_number_field(const char *p_name, double p_default, const char *p_
 } // namespace
 
 std::vector<NodeField> make_material_fields() {
-	const char SHARES[] = "0,1,0.01";
+	const char FRACTION_RANGE[] = "0,1,0.01";
 	return {
 		make_color_field<&Material::base_color>(
-				"base_color", 0.8, "Colour of the surface, and of what goes through it."),
-		make_number_field<&Material::metallic>(
-				"metallic", 0.0, SHARES, "1 for metals, whose reflections have the base colour."),
+				"base_color", 0.8, "Colour of the surface, and of light that passes through."),
+		make_number_field<&Material::metallic>("metallic", 0.0, FRACTION_RANGE,
+				"1 for metals, whose reflections have the base colour."),
 		make_number_field<&Material::roughness>(
-				"roughness", 1.0, SHARES, "How wide highlights are; 0 is a mirror."),
+				"roughness", 1.0, FRACTION_RANGE, "How wide highlights are; 0 is a mirror."),
 		{ make_info("shading_model", PropertyType::ENUM, std::string("metallic_roughness"),
 				  "metallic_roughness,phong",
 				  "How an opaque surface reflects: as glTF defines it, or as Phong did in 1975.",
 				  "", GROUP),
 				&read_shading_model, &write_shading_model, &has_material },
-		make_number_field<&Material::scatter>("scatter", 0.0, SHARES,
+		make_number_field<&Material::scatter>("scatter", 0.0, FRACTION_RANGE,
 				"How much light spreads below the surface, which softens shadows on it; 0 is "
 				"opaque."),
-		make_number_field<&Material::scatter_distance_m>("scatter_distance", 0.0, LENGTHS,
-				"How far light spreads at scatter 1. 0: 16 pixels, whatever they show.", "m"),
-		make_number_field<&Material::transmission>("transmission", 0.0, SHARES,
-				"Share of the light that goes through, so that the shadow has the base colour."),
-		make_number_field<&Material::thickness_m>("thickness", 0.0, LENGTHS,
-				"How much of the material light goes through, in the mesh's own lengths.", "m"),
-		make_color_field<&Material::attenuation_color>("attenuation_color", 1.0,
-				"What is left of white light after the attenuation distance."),
-		make_number_field<&Material::attenuation_distance_m>("attenuation_distance", 0.0, LENGTHS,
-				"The way after which that colour is left. 0: nothing is lost on the way.", "m"),
+		make_number_field<&Material::scatter_distance_m>("scatter_distance", 0.0, LENGTH_RANGE,
+				"How far light spreads at scatter 1. 0: 16 pixels of the image.", "m"),
+		make_number_field<&Material::transmission>("transmission", 0.0, FRACTION_RANGE,
+				"Fraction of the light that passes through, tinted by the base colour."),
+		make_number_field<&Material::thickness_m>("thickness", 0.0, LENGTH_RANGE,
+				"Distance that light travels inside, in the mesh's own units.", "m"),
+		make_color_field<&Material::attenuation_color>(
+				"attenuation_color", 1.0, "Colour of white light after the attenuation distance."),
+		make_number_field<&Material::attenuation_distance_m>("attenuation_distance", 0.0,
+				LENGTH_RANGE,
+				"Distance after which white light has attenuation_color. 0: no absorption.", "m"),
 	};
 }
 

@@ -11,8 +11,8 @@ namespace gnomon {
 
 namespace {
 
-// A normal this short has lost its direction to rounding; a longer one is only rescaled.
-const double SHORTEST_NORMAL = 1e-6;
+// A normal or tangent this short has lost its direction to rounding; a longer one is only rescaled.
+const double MIN_NORMAL_LENGTH = 1e-6;
 // Normals that are unit to within float rounding stay bit for bit as they came.
 const double UNIT_TOLERANCE = 1e-6;
 
@@ -69,8 +69,9 @@ void check_mesh(const Mesh &p_mesh) {
 	}
 }
 
-/// Area-weighted: the cross product's length is twice the area. Double, because the square of a
-/// millimetre in a large mesh vanishes in float.
+/// Sums the normals of the faces at each vertex, weighted by area: the cross product's length is
+/// twice the area. Uses double, because the square of a millimetre in a large mesh vanishes in
+/// float.
 std::vector<glm::dvec3> compute_face_normal_sums(const Mesh &p_mesh) {
 	std::vector<glm::dvec3> sums(p_mesh.positions_node.size(), glm::dvec3(0.0));
 	for (size_t first = 0; first + 2 < p_mesh.indices.size(); first += 3) {
@@ -94,7 +95,7 @@ void repair_normals(Mesh &r_mesh) {
 		if (std::abs(length - 1.0) <= UNIT_TOLERANCE) {
 			continue;
 		}
-		if (length > SHORTEST_NORMAL) {
+		if (length > MIN_NORMAL_LENGTH) {
 			normal = glm::vec3(glm::dvec3(normal) / length);
 			continue;
 		}
@@ -150,8 +151,8 @@ std::shared_ptr<const Mesh> make_deformed_mesh(
 std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_positions,
 		const std::vector<glm::vec3> &p_normals, const std::vector<uint32_t> &p_indices,
 		const std::vector<glm::vec2> &p_uvs) {
-	std::vector<glm::dvec3> along(p_positions.size(), glm::dvec3(0.0));
-	std::vector<double> sides(p_positions.size(), 0.0);
+	std::vector<glm::dvec3> tangent_sums(p_positions.size(), glm::dvec3(0.0));
+	std::vector<double> handedness_sums(p_positions.size(), 0.0);
 	for (size_t first = 0; first + 2 < p_indices.size(); first += 3) {
 		const uint32_t *corners = &p_indices[first];
 		glm::dvec3 positions[3];
@@ -167,38 +168,39 @@ std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_position
 				(positions[1] - positions[0]) * dv.y - (positions[2] - positions[0]) * dv.x;
 		const double length = glm::length(sum);
 		if (!(length > 0) || area == 0) {
-			continue; // no direction
+			continue; // degenerate
 		}
 		const glm::dvec3 tangent = sum * ((area < 0 ? -1.0 : 1.0) / length);
 		for (int corner = 0; corner < 3; ++corner) {
 			const glm::dvec3 a = positions[(corner + 1) % 3] - positions[corner];
 			const glm::dvec3 b = positions[(corner + 2) % 3] - positions[corner];
 			const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-			along[corners[corner]] += tangent * angle;
+			tangent_sums[corners[corner]] += tangent * angle;
 			// An image's y grows downwards.
-			sides[corners[corner]] += area < 0 ? angle : -angle;
+			handedness_sums[corners[corner]] += area < 0 ? angle : -angle;
 		}
 	}
 	std::vector<glm::vec4> tangents;
 	tangents.reserve(p_positions.size());
 	for (size_t index = 0; index < p_positions.size(); ++index) {
 		const glm::dvec3 normal = p_normals[index];
-		glm::dvec3 tangent = along[index] - normal * glm::dot(normal, along[index]);
-		if (!(glm::length(tangent) > SHORTEST_NORMAL)) { // any at right angles
+		glm::dvec3 tangent = tangent_sums[index] - normal * glm::dot(normal, tangent_sums[index]);
+		if (!(glm::length(tangent) > MIN_NORMAL_LENGTH)) { // any perpendicular one
 			tangent = glm::cross(
 					normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
 		}
-		tangents.emplace_back(glm::normalize(tangent), sides[index] < 0 ? -1.0f : 1.0f);
+		tangents.emplace_back(glm::normalize(tangent), handedness_sums[index] < 0 ? -1.0f : 1.0f);
 	}
 	return tangents;
 }
 
-double Bounds::compute_way_out(const glm::dvec3 &p_point, const glm::dvec3 &p_way) const {
+double Bounds::compute_exit_distance(
+		const glm::dvec3 &p_point, const glm::dvec3 &p_direction) const {
 	double nearest = 1e300;
 	for (int axis = 0; axis < 3; ++axis) {
-		const double side = p_way[axis] > 0 ? maximum[axis] : minimum[axis];
-		if (p_way[axis] != 0) {
-			nearest = std::min(nearest, (side - p_point[axis]) / p_way[axis]);
+		const double side = p_direction[axis] > 0 ? maximum[axis] : minimum[axis];
+		if (p_direction[axis] != 0) {
+			nearest = std::min(nearest, (side - p_point[axis]) / p_direction[axis]);
 		}
 	}
 	return std::max(nearest, 0.0);

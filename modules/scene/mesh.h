@@ -23,7 +23,7 @@ struct Bounds {
 		minimum = glm::min(minimum, p_bounds.minimum);
 		maximum = glm::max(maximum, p_bounds.maximum);
 	}
-	/// p_index: 0 .. 7; bits 0, 1, 2: whether x, y, z are the greatest.
+	/// p_index: 0 .. 7; bits 0, 1, 2 select the maximum of x, y, z.
 	glm::dvec3 get_corner(int p_index) const {
 		return glm::dvec3(p_index & 1 ? maximum.x : minimum.x, p_index & 2 ? maximum.y : minimum.y,
 				p_index & 4 ? maximum.z : minimum.z);
@@ -32,9 +32,9 @@ struct Bounds {
 	double compute_distance(const glm::dvec3 &p_point) const {
 		return glm::distance(p_point, glm::clamp(p_point, minimum, maximum));
 	}
-	/// Distance from a point inside, along a unit vector, to where the ray leaves the box; 0 if the
-	/// point is outside.
-	double compute_way_out(const glm::dvec3 &p_point, const glm::dvec3 &p_way) const;
+	/// Returns the distance from a point, along a unit vector, to where the ray leaves the box. The
+	/// point should be in the box; 0 if it is beyond the side that the ray would leave through.
+	double compute_exit_distance(const glm::dvec3 &p_point, const glm::dvec3 &p_direction) const;
 	/// Length of the diagonal; 0 when empty.
 	double get_diagonal() const { return is_empty() ? 0 : glm::length(maximum - minimum); }
 };
@@ -49,8 +49,8 @@ struct MeshRig;
 /// vertex.
 struct MeshAttributes {
 	std::vector<glm::vec2> uvs[2]; // x along an image's rows, y down from its top
-	/// Direction in which u of the normal map's first coordinates grows on the surface. w is 1 or
-	/// -1: whether v grows along the cross product of normal and tangent, or against it.
+	/// Direction on the surface in which u of the normal map grows. w is 1 or -1: v grows along the
+	/// cross product of normal and tangent, or against it.
 	std::vector<glm::vec4> tangents;
 	std::vector<glm::vec4> colors;		// linear, and alpha
 	std::shared_ptr<const MeshRig> rig; // how the mesh deforms; null: it does not
@@ -58,14 +58,15 @@ struct MeshAttributes {
 
 /// A point on a triangle, as barycentric coordinates: it follows the corners when they move.
 struct TrianglePoint {
-	glm::uvec3 corners = glm::uvec3(0);	   // vertices
-	glm::vec3 shares = glm::vec3(1, 0, 0); // barycentric weights; their sum is 1
+	glm::uvec3 corners = glm::uvec3(0);		// vertices
+	glm::vec3 weights = glm::vec3(1, 0, 0); // barycentric weights; their sum is 1
 };
 
-/// For a mesh that was cut out of another: the source triangle of each triangle. Face planes come
-/// from the source, because rounding tilts those of small triangles.
+/// For a mesh that was cut out of another, which is what the alpha test leaves of it (cut_mesh.h):
+/// the source triangle of each triangle. Face planes come from the source, because rounding tilts
+/// those of small triangles.
 struct MeshSource {
-	std::weak_ptr<const Mesh> mesh; // null: the mesh is its own
+	std::weak_ptr<const Mesh> mesh; // null: the mesh was not cut out of another
 	std::vector<uint32_t> triangles;
 	std::vector<TrianglePoint> points; // one per vertex if the source has a rig; otherwise empty
 };
@@ -78,9 +79,8 @@ struct Mesh {
 	MeshAttributes attributes;
 	std::vector<uint32_t> indices; // three per triangle, each below the number of positions
 	MeshSource source;
-	/// For a mesh that poses deform on the GPU (PoseSlot): the mesh at rest, whose triangles and
-	/// attributes it shares. Its CPU vertices are those at rest as well. Null: the mesh does not
-	/// deform.
+	/// If the GPU deforms this mesh (PoseSlot): the mesh at rest. Both have the same triangles and
+	/// attributes, and the same CPU vertices: those at rest. Null for other meshes.
 	std::shared_ptr<const Mesh> rest;
 	uint64_t slot_id = 0; // id of that PoseSlot
 	Bounds bounds_node;
@@ -103,7 +103,7 @@ std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3>
 std::shared_ptr<const Mesh> make_deformed_mesh(
 		const std::shared_ptr<const Mesh> &p_rest, uint64_t p_slot_id);
 
-/// Computes tangents for normal-map coordinates when the mesh has none: for each vertex the
+/// Computes tangents for a mesh that has no tangents, from its UVs: for each vertex the
 /// angle-weighted sum over its faces, orthogonal to its normal. Vertices whose faces disagree on
 /// handedness are not split. p_uvs: one per vertex.
 std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_positions,

@@ -10,9 +10,10 @@ namespace gnomon {
 
 namespace {
 
-// Number of poses after which an unused mesh is dropped, such as that of a freed material.
-const uint64_t LONGEST_UNUSED = 100;
-const double GREATEST_POSITION_M = 1e18; // its square is a float
+// Number of calls of make_pose after which an unused deformed mesh is dropped, such as one that was
+// cut with a freed material.
+const uint64_t MAX_UNUSED_POSES = 100;
+const double MAX_POSITION_M = 1e18; // its square fits into a float
 
 void check_finite(std::span<const glm::dmat4> p_joints, std::span<const float> p_weights,
 		const std::string &p_object) {
@@ -32,16 +33,16 @@ void check_finite(std::span<const glm::dmat4> p_joints, std::span<const float> p
 	}
 }
 
-/// p_pieces: a mesh that was cut out of the one whose posed vertices are p_positions.
-std::vector<glm::vec3> move_points(
-		const Mesh &p_pieces, const std::vector<glm::vec3> &p_positions) {
+/// Moves the vertices of a mesh that was cut out of another. p_cut: the cut mesh; p_positions:
+/// the posed vertices of the source.
+std::vector<glm::vec3> move_points(const Mesh &p_cut, const std::vector<glm::vec3> &p_positions) {
 	std::vector<glm::vec3> moved;
-	moved.reserve(p_pieces.source.points.size());
-	for (const TrianglePoint &point : p_pieces.source.points) {
+	moved.reserve(p_cut.source.points.size());
+	for (const TrianglePoint &point : p_cut.source.points) {
 		glm::dvec3 position(0.0);
 		for (int corner = 0; corner < 3; ++corner) {
 			position +=
-					double(point.shares[corner]) * glm::dvec3(p_positions[point.corners[corner]]);
+					double(point.weights[corner]) * glm::dvec3(p_positions[point.corners[corner]]);
 		}
 		moved.emplace_back(position);
 	}
@@ -55,14 +56,14 @@ MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p
 		rest(std::move(p_rest)),
 		joints(std::move(p_joints)), weights(std::move(p_weights)) {
 	check_finite(joints, weights, p_object);
-	bounds = bound_deformed_vertices(*rest, joints, weights);
-	const glm::dvec3 least = bounds.minimum;
-	const glm::dvec3 most = bounds.maximum;
+	bounds = compute_deformed_bounds(*rest, joints, weights);
+	const glm::dvec3 min_position = bounds.minimum;
+	const glm::dvec3 max_position = bounds.maximum;
 	for (int axis = 0; axis < 3; ++axis) {
-		if (!(std::abs(least[axis]) <= GREATEST_POSITION_M &&
-					std::abs(most[axis]) <= GREATEST_POSITION_M)) {
-			fail(p_object, ": its pose moves vertices to ", least[axis], "..", most[axis],
-					" m, must be within ", GREATEST_POSITION_M,
+		if (!(std::abs(min_position[axis]) <= MAX_POSITION_M &&
+					std::abs(max_position[axis]) <= MAX_POSITION_M)) {
+			fail(p_object, ": its pose moves vertices to ", min_position[axis], "..",
+					max_position[axis], " m, must be within ", MAX_POSITION_M,
 					" m. Correct its joints' transforms, its inverse bind matrices or its "
 					"weights.");
 		}
@@ -73,26 +74,26 @@ MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p
 
 std::shared_ptr<const Mesh> MeshPose::get_mesh(const std::shared_ptr<const Mesh> &p_rest) const {
 	const std::lock_guard<std::mutex> lock(mutex);
-	const auto get_whole = [&] {
-		std::shared_ptr<const Mesh> &whole = meshes[rest->id];
-		if (!whole) {
+	const auto get_uncut = [&] {
+		std::shared_ptr<const Mesh> &uncut = meshes[rest->id];
+		if (!uncut) {
 			DeformedVertices vertices = deform_vertices(*rest, joints, weights);
-			whole = make_mesh(rest->name, std::move(vertices.positions),
+			uncut = make_mesh(rest->name, std::move(vertices.positions),
 					std::move(vertices.normals), rest->indices, rest->attributes);
 		}
-		return whole;
+		return uncut;
 	};
 	if (p_rest == rest) {
-		return get_whole();
+		return get_uncut();
 	}
-	std::shared_ptr<const Mesh> &pieces = meshes[p_rest->id];
-	if (!pieces) {
-		const std::shared_ptr<const Mesh> whole = get_whole();
-		pieces = make_mesh(p_rest->name, move_points(*p_rest, whole->positions_node), {},
+	std::shared_ptr<const Mesh> &posed_cut = meshes[p_rest->id];
+	if (!posed_cut) {
+		const std::shared_ptr<const Mesh> uncut = get_uncut();
+		posed_cut = make_mesh(p_rest->name, move_points(*p_rest, uncut->positions_node), {},
 				p_rest->indices, {},
-				MeshSource{ whole, p_rest->source.triangles, p_rest->source.points });
+				MeshSource{ uncut, p_rest->source.triangles, p_rest->source.points });
 	}
-	return pieces;
+	return posed_cut;
 }
 
 PoseSlot::PoseSlot(std::shared_ptr<const Mesh> p_rest) : rest(std::move(p_rest)) {
@@ -105,7 +106,7 @@ std::shared_ptr<const MeshPose> PoseSlot::make_pose(std::vector<glm::dmat4> p_jo
 	const std::lock_guard<std::mutex> lock(mutex);
 	++pose_count;
 	std::erase_if(deformed, [&](const auto &p_item) {
-		return p_item.second.last_use + LONGEST_UNUSED < pose_count;
+		return p_item.second.last_use + MAX_UNUSED_POSES < pose_count;
 	});
 	if (!pose || pose->get_joints() != p_joints || pose->get_weights() != p_weights) {
 		pose = std::make_shared<const MeshPose>(

@@ -17,8 +17,8 @@ namespace gnomon {
 class MeshPose {
 public:
 	/// p_rest must have a rig. p_joints and p_weights: see deform_vertices. A pose that is not
-	/// finite, or that would move vertices out of the range of floats, is an Error that names
-	/// p_object.
+	/// finite, or that would move vertices farther than 1e18 m from the origin, is an Error that
+	/// names p_object.
 	MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p_joints,
 			std::vector<float> p_weights, const std::string &p_object);
 
@@ -28,8 +28,8 @@ public:
 	uint64_t get_hash() const { return hash; }
 	/// Bounds that enclose the posed vertices.
 	const Bounds &get_bounds() const { return bounds; }
-	/// Returns the mesh with posed vertices, for CPU code. The argument is the mesh at rest, or one
-	/// that was cut out of it. Computed at the first call; thread-safe.
+	/// Returns the mesh with posed vertices, for CPU code. p_rest: the mesh at rest, or one that
+	/// was cut out of it. Computed at the first call; thread-safe.
 	std::shared_ptr<const Mesh> get_mesh(const std::shared_ptr<const Mesh> &p_rest) const;
 
 private:
@@ -42,15 +42,16 @@ private:
 	mutable std::map<uint64_t, std::shared_ptr<const Mesh>> meshes; // by id of the mesh at rest
 };
 
-/// The pose of one surface of a node. As long as the pose does not change, the MeshPose and
-/// everything derived from it are reused. The deformed meshes stay the same while the slot lives,
-/// but one that 100 poses did not use is dropped. Thread-safe.
+/// The current pose of one surface of a node. As long as the pose does not change, the MeshPose and
+/// everything derived from it are reused. Deformed meshes are cached while the slot lives; one that
+/// is unused for 100 calls of make_pose is dropped. Thread-safe.
 class PoseSlot {
 public:
 	explicit PoseSlot(std::shared_ptr<const Mesh> p_rest);
 
 	const std::shared_ptr<const Mesh> &get_rest() const { return rest; }
-	/// See MeshPose.
+	/// Returns the pose: the last one if its joints and weights are equal. Parameters and errors
+	/// as in the constructor of MeshPose.
 	std::shared_ptr<const MeshPose> make_pose(std::vector<glm::dmat4> p_joints,
 			std::vector<float> p_weights, const std::string &p_object);
 	/// Returns the deformed mesh for the mesh at rest, or for one that was cut out of it; its GPU

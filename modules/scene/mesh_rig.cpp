@@ -56,8 +56,8 @@ void normalize_weights(MeshRig &r_rig, const std::string &p_name) {
 			sum += weights[i];
 		}
 		if (r_rig.keeps_weight_sums) {
-			r_rig.least_weight_sum = std::min(r_rig.least_weight_sum, sum);
-			r_rig.greatest_weight_sum = std::max(r_rig.greatest_weight_sum, sum);
+			r_rig.min_weight_sum = std::min(r_rig.min_weight_sum, sum);
+			r_rig.max_weight_sum = std::max(r_rig.max_weight_sum, sum);
 		} else if (sum > 0) {
 			for (size_t i = 0; i < influences; ++i) {
 				weights[i] = static_cast<float>(weights[i] / sum);
@@ -68,7 +68,7 @@ void normalize_weights(MeshRig &r_rig, const std::string &p_name) {
 	}
 }
 
-void bound_parts(MeshRig &r_rig, std::span<const glm::vec3> p_positions) {
+void compute_rig_bounds(MeshRig &r_rig, std::span<const glm::vec3> p_positions) {
 	r_rig.joint_count = 0;
 	for (const uint32_t joint : r_rig.joints) {
 		r_rig.joint_count = std::max(r_rig.joint_count, joint + 1);
@@ -95,7 +95,7 @@ template <typename T> uint64_t add_hash(const std::vector<T> &p_values, uint64_t
 	return compute_hash(bytes_of(std::span<const T>(p_values)), p_hash);
 }
 
-/// The weighted sum of the joints' matrices at a vertex.
+/// Returns the weighted sum of the joints' matrices at a vertex.
 glm::dmat4 blend_joints(
 		const MeshRig &p_rig, size_t p_vertex, std::span<const glm::dmat4> p_joints) {
 	glm::dmat4 blended(0.0);
@@ -122,15 +122,15 @@ double get_weight(std::span<const float> p_weights, size_t p_target) {
 } // namespace
 
 uint64_t MeshRig::compute_vertex_hash(uint32_t p_vertex) const {
-	std::map<uint32_t, float> moved_by; // in an order of its own
+	std::map<uint32_t, float> joint_weights; // sorted by joint
 	for (size_t i = 0; i < influence_count; ++i) {
 		const size_t index = size_t(p_vertex) * influence_count + i;
 		if (weights[index] > 0) {
-			moved_by[joints[index]] += weights[index];
+			joint_weights[joints[index]] += weights[index];
 		}
 	}
 	uint64_t hash = 1;
-	for (const auto &[joint, weight] : moved_by) {
+	for (const auto &[joint, weight] : joint_weights) {
 		hash = compute_value_hash(joint, hash);
 		hash = compute_value_hash(weight, hash);
 	}
@@ -148,7 +148,7 @@ std::shared_ptr<const MeshRig> make_mesh_rig(
 	auto rig = std::make_shared<MeshRig>(std::move(p_rig));
 	rig->vertex_count = p_positions_node.size();
 	normalize_weights(*rig, p_name);
-	bound_parts(*rig, p_positions_node);
+	compute_rig_bounds(*rig, p_positions_node);
 	uint64_t hash = add_hash(rig->joints, 1);
 	hash = add_hash(rig->weights, hash);
 	for (const MorphTarget &target : rig->targets) {
@@ -195,10 +195,10 @@ DeformedVertices deform_vertices(const Mesh &p_mesh, std::span<const glm::dmat4>
 	return vertices;
 }
 
-Bounds bound_deformed_vertices(const Mesh &p_mesh, std::span<const glm::dmat4> p_joints,
+Bounds compute_deformed_bounds(const Mesh &p_mesh, std::span<const glm::dmat4> p_joints,
 		std::span<const float> p_weights) {
 	const MeshRig &rig = *p_mesh.attributes.rig;
-	Bounds added; // by all targets together
+	Bounds added; // offsets by all targets together
 	added.add(glm::dvec3(0.0));
 	for (size_t target = 0; target < rig.targets.size(); ++target) {
 		const double weight = get_weight(p_weights, target);
@@ -222,7 +222,7 @@ Bounds bound_deformed_vertices(const Mesh &p_mesh, std::span<const glm::dmat4> p
 	}
 	// The blend of the joints is inside these bounds; a weight sum other than 1 scales it.
 	Bounds scaled;
-	for (const double sum : { rig.least_weight_sum, rig.greatest_weight_sum }) {
+	for (const double sum : { rig.min_weight_sum, rig.max_weight_sum }) {
 		scaled.add(sum * bounds.minimum);
 		scaled.add(sum * bounds.maximum);
 	}

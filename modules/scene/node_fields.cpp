@@ -1,4 +1,4 @@
-// The members of nodes, meshes and cameras that are properties, and copies of them.
+// Declares the members of nodes, meshes and cameras that are properties, and copies nodes.
 
 #include "modules/core/error.h"
 #include "modules/scene/mesh_rig.h"
@@ -16,16 +16,16 @@ namespace gnomon {
 
 namespace {
 
-const char LENGTHS[] = "-10000,10000,0.01";
+const char POSITION_HINT[] = "-10000,10000,0.01";
 
-/// A transform in parts: parent_from_node = position * rotation * scale, without shear. Rotation in
-/// degrees about y, then x, then z, as Godot's.
-struct TransformParts {
+/// A transform as the product position * rotation * scale = parent_from_node. A shear is lost.
+/// The rotation is in degrees about y, then x, then z, as in Godot.
+struct TransformComponents {
 	glm::dvec3 position = glm::dvec3(0.0);
 	glm::dvec3 rotation_deg = glm::dvec3(0.0);
 	glm::dvec3 scale = glm::dvec3(1.0);
 
-	explicit TransformParts(const Node3D &p_node) : position(p_node.parent_from_node[3]) {
+	explicit TransformComponents(const Node3D &p_node) : position(p_node.parent_from_node[3]) {
 		glm::dmat3 axes(p_node.parent_from_node);
 		for (int axis = 0; axis < 3; ++axis) {
 			scale[axis] = glm::length(axes[axis]);
@@ -42,13 +42,13 @@ struct TransformParts {
 			}
 		}
 		if (!(std::abs(glm::determinant(axes) - 1.0) < 0.5)) {
-			axes = glm::dmat3(1.0); // a line or a point
+			axes = glm::dmat3(1.0); // strongly sheared, or collapsed to a line or a point
 		}
 		double y = 0;
 		double x = 0;
 		double z = 0;
 		glm::extractEulerAngleYXZ(glm::dmat4(axes), y, x, z);
-		const double STEP_DEG = 1e-6; // files have floats, and 1.5e-8 means 0
+		const double STEP_DEG = 1e-6; // rounded to this: floats in files give 1.5e-8 instead of 0
 		rotation_deg =
 				glm::round(DEGREES * glm::dvec3(x, y, z) / STEP_DEG) * STEP_DEG + 0.0; // no -0
 	}
@@ -61,15 +61,16 @@ struct TransformParts {
 	}
 };
 
-template <glm::dvec3 TransformParts::*PART> PropertyValue read_part(const Node3D &p_node) {
-	return TransformParts(p_node).*PART;
+template <glm::dvec3 TransformComponents::*COMPONENT>
+PropertyValue read_component(const Node3D &p_node) {
+	return TransformComponents(p_node).*COMPONENT;
 }
 
-template <glm::dvec3 TransformParts::*PART>
-void write_part(Node3D &r_node, const PropertyValue &p_value) {
-	TransformParts parts(r_node);
-	parts.*PART = std::get<glm::dvec3>(p_value);
-	parts.apply(r_node);
+template <glm::dvec3 TransformComponents::*COMPONENT>
+void write_component(Node3D &r_node, const PropertyValue &p_value) {
+	TransformComponents components(r_node);
+	components.*COMPONENT = std::get<glm::dvec3>(p_value);
+	components.apply(r_node);
 }
 
 PropertyValue read_position(const Node3D &p_node) {
@@ -85,17 +86,18 @@ bool is_staged(const Node3D &p_node) {
 }
 
 std::vector<NodeField> make_node_fields() {
-	return { { make_info("position", PropertyType::VECTOR3, glm::dvec3(0.0), LENGTHS,
+	return { { make_info("position", PropertyType::VECTOR3, glm::dvec3(0.0), POSITION_HINT,
 					   "Position of the node in its parent.", "m", "Transform"),
 					 &read_position, &write_position },
 		{ make_info("rotation", PropertyType::VECTOR3, glm::dvec3(0.0), "-360,360,1",
-				  "Turn about y, then x, then z.", "deg", "Transform"),
-				&read_part<&TransformParts::rotation_deg>,
-				&write_part<&TransformParts::rotation_deg> },
+				  "Rotation about y, then x, then z.", "deg", "Transform"),
+				&read_component<&TransformComponents::rotation_deg>,
+				&write_component<&TransformComponents::rotation_deg> },
 		{ make_info("scale", PropertyType::VECTOR3, glm::dvec3(1.0), "-10000,10000,0.01",
-				  "Size along each axis. 0 along one makes it flat: it casts nothing.", "",
-				  "Transform"),
-				&read_part<&TransformParts::scale>, &write_part<&TransformParts::scale> },
+				  "Size along each axis. 0 along one makes the node flat; along two, it vanishes.",
+				  "", "Transform"),
+				&read_component<&TransformComponents::scale>,
+				&write_component<&TransformComponents::scale> },
 		{ make_info("staged", PropertyType::BOOL, false, "",
 				  "Added because the file has no such node, and not saved. Untick it to save the "
 				  "node with the "
@@ -107,7 +109,7 @@ std::vector<NodeField> make_node_fields() {
 
 std::vector<NodeField> make_mesh_fields() {
 	std::vector<NodeField> fields = {
-		{ make_info("cast_shadow", PropertyType::BOOL, true, "", "Whether the mesh hides lights.",
+		{ make_info("cast_shadow", PropertyType::BOOL, true, "", "Whether the mesh casts shadows.",
 				  "", "Shadow"),
 				&read_flag<MeshInstance3D, &MeshInstance3D::casts_shadow>,
 				&write_flag<MeshInstance3D, &MeshInstance3D::casts_shadow> },
@@ -140,7 +142,7 @@ std::unique_ptr<Node3D> Node3D::copy() const {
 }
 
 void Node3D::assign(const Node3D &p_other) {
-	GNOMON_ASSERT(typeid(*this) == typeid(p_other), get_class_name(), " is no ",
+	GNOMON_ASSERT(typeid(*this) == typeid(p_other), get_class_name(), " is not a ",
 			p_other.get_class_name());
 	name = p_other.name;
 	parent_from_node = p_other.parent_from_node;
@@ -185,7 +187,7 @@ Bounds MeshInstance3D::compute_bounds() const {
 		const SkinTransforms transforms =
 				compute_surface_transforms(*this, *surface.mesh, world_from_node, world_from_nodes);
 		const Bounds own = surface.mesh->attributes.rig
-				? bound_deformed_vertices(*surface.mesh, transforms.joints, get_morph_weights())
+				? compute_deformed_bounds(*surface.mesh, transforms.joints, get_morph_weights())
 				: surface.mesh->bounds_node;
 		bounds.add(transform_bounds(own, transforms.world_from_mesh));
 	}

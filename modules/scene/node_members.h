@@ -5,18 +5,22 @@
 #include <memory>
 #include <vector>
 
-// Shared by the files that declare members of node classes as properties.
+// Helpers for the files that declare members of node classes as properties.
 
 namespace gnomon {
 
-constexpr double DEGREES = 180.0 / 3.14159265358979323846; // in a radian
+constexpr double DEGREES = 180.0 / 3.14159265358979323846; // per radian
 
+/// Casts a node to its class, which the caller knows.
 template <typename T> T &to(Node3D &r_node) {
 	return static_cast<T &>(r_node);
 }
 template <typename T> const T &to(const Node3D &p_node) {
 	return static_cast<const T &>(p_node);
 }
+
+// Functions for NodeField::read and NodeField::write of a member: a bool, a number, or an angle
+// that is stored in radians and shown in degrees.
 
 template <typename T, auto MEMBER> PropertyValue read_flag(const Node3D &p_node) {
 	return to<T>(p_node).*MEMBER;
@@ -48,12 +52,13 @@ inline PropertyInfo make_info(const char *p_name, PropertyType p_type, PropertyV
 	return { p_name, p_type, std::move(p_default), p_hint, p_tooltip, p_unit, p_group };
 }
 
-/// The fields of a mesh node's materials.
+/// Makes the fields that edit a mesh node's materials.
 std::vector<NodeField> make_material_fields();
 
-/// Appends fields to those that every node has.
+/// Returns the fields that every node has, followed by p_more.
 std::vector<NodeField> extend_node_fields(std::vector<NodeField> p_more);
 
+/// Implements Node3D::copy for class T.
 template <typename T> std::unique_ptr<Node3D> copy_as(const Node3D &p_node) {
 	auto node = std::make_unique<T>();
 	node->assign(p_node);

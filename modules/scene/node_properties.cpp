@@ -32,14 +32,15 @@ PropertyList list_stored_properties(const Node3D &p_node) {
 	return list;
 }
 
-/// Returns the stored properties of a node that is not changed.
+/// Returns the stored properties of a node; an empty list if it has none.
 const PropertyValues &get_stored(const Node3D &p_node) {
 	static const PropertyValues none;
 	const PropertyValues *stored = p_node.find_stored_properties();
 	return stored != nullptr ? *stored : none;
 }
 
-/// Members are floats: their defaults in double differ a little.
+/// Compares values with a tolerance: members are floats, and their defaults in double differ a
+/// little.
 bool is_close(const PropertyValue &p_left, const PropertyValue &p_right) {
 	const double *left = std::get_if<double>(&p_left);
 	const double *right = std::get_if<double>(&p_right);
@@ -97,7 +98,7 @@ PropertyValue get_node_property(const Node3D &p_node, std::string_view p_name) {
 	if (!info) {
 		fail_unknown(p_node, p_name);
 	}
-	// A file may hold anything under a name that nothing declared when it was read.
+	// A file may contain any type of value under a name that was undeclared when it was read.
 	const auto stored = get_stored(p_node).find(p_name);
 	const bool is_used =
 			stored != get_stored(p_node).end() && check_property(*info, stored->second).empty();

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-// Nodes as an inspector sees them: properties by name, whatever the class.
+// Access to the properties of nodes by name, whatever their class, for an inspector.
 
 namespace gnomon {
 
@@ -22,19 +22,22 @@ struct NodeField {
 	bool (*applies)(const Node3D &p_node) = nullptr;
 };
 
-/// Adds, or redeclares, properties that other modules keep among a node's stored properties.
+/// A function that adds to r_list, or redeclares there, properties of another module that a node
+/// stores by name.
 using NodePropertySource = void (*)(const Node3D &p_node, PropertyList &r_list);
 void add_node_property_source(NodePropertySource p_source);
 void remove_node_property_source(NodePropertySource p_source);
 
 /// Lists all properties that apply to the node, in display order.
 PropertyList list_node_properties(const Node3D &p_node);
-/// The value that is set, else the default. A name that the node lacks is an Error.
+/// Returns the value that is set; the default if none is set, or an invalid one. A name that the
+/// node lacks is an Error.
 PropertyValue get_node_property(const Node3D &p_node, std::string_view p_name);
-/// Returns false if the property has its default value.
+/// Returns whether the property is set: a member of the class if it differs from its default, a
+/// stored property if it has any value, even the default.
 bool is_node_property_set(const Node3D &p_node, std::string_view p_name);
-/// Checks the value, and converts it. A refused value or an unknown name is an Error that names
-/// node, property and range. None: back to the default.
+/// Checks, converts and sets a value; nullopt resets the property to its default. A refused value
+/// is an Error that names node, property and range; an unknown name is one that lists the known.
 void set_node_property(
 		Node3D &r_node, std::string_view p_name, const std::optional<PropertyValue> &p_value);
 

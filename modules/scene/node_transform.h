@@ -5,13 +5,14 @@
 
 namespace gnomon {
 
-/// A transform without shear, as scene files store it and animations replace its parts: translation
-/// * rotation * scale.
+/// A transform without shear, translation * rotation * scale. Scene files store these components,
+/// and animations replace them one by one.
 struct NodeTransform {
 	glm::dvec3 translation = glm::dvec3(0.0);
 	glm::dquat rotation = glm::dquat(1, 0, 0, 0); // unit
 	glm::dvec3 scale = glm::dvec3(1.0);
 
+	/// Returns the matrix.
 	glm::dmat4 compose() const;
 };
 

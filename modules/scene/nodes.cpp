@@ -40,7 +40,7 @@ glm::dmat4 Node3D::compute_world_from_node() const {
 
 std::shared_ptr<PoseSlot> MeshInstance3D::get_pose_slot(
 		const std::shared_ptr<const Mesh> &p_mesh) const {
-	std::erase_if(pose_slots, [&](const auto &p_item) { // of surfaces that are gone
+	std::erase_if(pose_slots, [&](const auto &p_item) { // of removed surfaces
 		return std::none_of(surfaces.begin(), surfaces.end(), [&](const Surface &p_surface) {
 			return p_surface.mesh && p_surface.mesh->id == p_item.first;
 		});

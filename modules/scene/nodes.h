@@ -27,9 +27,9 @@ struct NodeGizmo {
 	glm::dvec3 axis_y = glm::dvec3(0, 1, 0);
 	double radius_m = 0;
 	bool is_filled = false;
-	std::string property; // property that the handle changes; empty: no handle
-	double value = 0;	  // current value of that property
-	double value_per_m = 1;
+	std::string property;	// property that the handle changes; empty: no handle
+	double value = 0;		// current value of that property
+	double value_per_m = 1; // change of the property per metre of radius_m
 };
 
 /// A node of the scene tree. Transforms are double, so that a scene far from the origin keeps full
@@ -46,39 +46,40 @@ public:
 	/// Index of this node in the source file, or -1. Saving uses it to preserve data that the
 	/// program does not understand.
 	int file_index = -1;
-	/// Added because the file lacks a camera or a light (stage.h); not saved.
+	/// True: stage_scene (stage.h) added the node because the file lacks a camera or a light. Such
+	/// nodes are not saved.
 	bool is_staged = false;
 
 	virtual ~Node3D() = default;
-	/// "Light3D", for the editor's tree.
+	/// Returns the name of the class, such as "Light3D", for the editor's tree.
 	virtual const char *get_class_name() const { return "Node3D"; }
 	/// Members that can be read and set by name; those of the base class come first.
 	virtual const std::vector<NodeField> &get_fields() const;
-	/// Values that the class stores by name in addition to its members; null: none.
+	/// Returns the values that the class stores by name in addition to its members; null: none.
 	virtual PropertyValues *get_stored_properties() { return nullptr; }
 	const PropertyValues *find_stored_properties() const {
 		return const_cast<Node3D *>(this)->get_stored_properties();
 	}
 	/// Declares the stored properties that every node of the class has and that apply to this one.
 	virtual void add_stored_properties(PropertyList & /*r_list*/) const {}
-	/// World bounds of the node's own geometry; empty if it has none.
+	/// Computes the world bounds of the node's own geometry, as posed; empty if it has none.
 	virtual Bounds compute_bounds() const { return {}; }
-	/// What a viewport draws while the node is selected.
+	/// Appends what a viewport draws while the node is selected.
 	virtual void add_gizmos(std::vector<NodeGizmo> & /*r_gizmos*/) const {}
-	/// Another node of the same class and state, without parent and children.
+	/// Returns a node of the same class and state, without parent and children.
 	virtual std::unique_ptr<Node3D> copy() const;
-	/// Takes over the state of a node of the same class; parent and children stay.
+	/// Copies the state of a node of the same class, but not its parent and children.
 	virtual void assign(const Node3D &p_other);
-	/// Takes the child and sets its parent. Returns it.
+	/// Takes ownership of a child, appends it, sets its parent and returns it.
 	Node3D *add_child(std::unique_ptr<Node3D> p_child);
 	/// Inserts a child before the one at the index; appends it if there is none.
 	Node3D *insert_child(std::unique_ptr<Node3D> p_child, size_t p_index);
-	/// Takes a child out of the tree.
+	/// Removes a child from the tree and returns it.
 	std::unique_ptr<Node3D> remove_child(const Node3D &p_child);
 	const glm::dmat4 &get_parent_from_node() const {
 		return posed_parent_from_node ? *posed_parent_from_node : parent_from_node;
 	}
-	/// Uses the posed transforms.
+	/// Computes the transform to the world, with the posed transforms.
 	glm::dmat4 compute_world_from_node() const;
 };
 
@@ -88,7 +89,7 @@ struct Skin {
 	std::vector<int> joints;
 	std::vector<glm::dmat4> joint_from_mesh; // inverse bind matrices, one per joint
 	/// The closest common ancestor of all joints that is not a joint itself: when it moves, the
-	/// mesh moves with it as a whole. -1: the world.
+	/// mesh moves with it as a whole. Node3D::file_index; -1: the world.
 	int frame = -1;
 };
 
@@ -124,11 +125,11 @@ private:
 };
 
 enum class LightType { OMNI, SPOT, DIRECTIONAL };
-/// "omni", "spot", "directional".
+/// Returns "omni", "spot" or "directional".
 const char *get_light_type_name(LightType p_type);
 
-/// The settings of a light without its transform; its node, its file and a frame's snapshot each
-/// hold one.
+/// The settings of a light without its transform: the base of Light3D and LightSnapshot, and what a
+/// scene file stores of a light.
 struct LightSettings {
 	LightType type = LightType::OMNI;
 	glm::vec3 color = glm::vec3(1.0f); // linear
@@ -155,13 +156,13 @@ public:
 	const std::vector<NodeField> &get_fields() const override;
 	PropertyValues *get_stored_properties() override { return &properties; }
 	void add_stored_properties(PropertyList &r_list) const override;
-	/// Shows the light's true size; for a directional light, a cone of its angular size at a
-	/// distance of 1 m.
+	/// Shows the light's true size; for a directional light, a ring at a distance of 1 m that spans
+	/// its angular size.
 	void add_gizmos(std::vector<NodeGizmo> &r_gizmos) const override;
 	std::unique_ptr<Node3D> copy() const override;
 	void assign(const Node3D &p_other) override;
 	/// light_size, light_angular_distance, shadow_enabled, shadow_technique, penumbra_outer_width,
-	/// penumbra_inner_width: what every technique must answer for (doc/scene_files.md).
+	/// penumbra_inner_width: the properties that every technique supports (doc/scene_files.md).
 	static const PropertyList &get_property_list();
 };
 
@@ -183,7 +184,7 @@ class SceneDocument; // data that a file format keeps for saving; see gltf_scene
 class Scene {
 public:
 	std::string path; // path of the source file; empty for a generated scene
-	/// Other files that its content was read from.
+	/// Other files that were read for its content, such as images.
 	std::vector<std::filesystem::path> side_files;
 	std::unique_ptr<Node3D> root = std::make_unique<Node3D>();
 	/// S in metres (doc/glossary.md): extras.scene_size. 0 = the diagonal of the casters.
@@ -191,7 +192,7 @@ public:
 	std::vector<std::shared_ptr<const Animation>> animations;
 	std::shared_ptr<SceneDocument> document;
 
-	/// Nodes of one class, in tree order.
+	/// Returns all nodes of a class, in tree order.
 	template <typename T> std::vector<T *> find_nodes() const {
 		std::vector<T *> found;
 		visit(*root, [&](Node3D &p_node) {
@@ -202,7 +203,7 @@ public:
 		return found;
 	}
 	/// Returns the node of that class and name. If it is absent: an Error that lists the existing
-	/// names.
+	/// names. p_kind: what the message calls the class, such as "light".
 	template <typename T> T &find_node(const std::string &p_name, const char *p_kind) const {
 		std::vector<std::string> names;
 		for (T *node : find_nodes<T>()) {

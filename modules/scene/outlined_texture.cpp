@@ -8,9 +8,9 @@ namespace gnomon {
 
 namespace {
 
-/// Reduces the image to its first (-1) or last (1) column or row where a part of the plane requires
-/// it.
-std::shared_ptr<const Image> draw_out(const Image &p_image, int p_part_x, int p_part_y) {
+/// Makes the image of a part of the texture plane outside the image, with clamping. Along each
+/// axis, -1 selects the first column or row, 1 the last, and 0 all.
+std::shared_ptr<const Image> make_border_image(const Image &p_image, int p_part_x, int p_part_y) {
 	const glm::uvec2 size(
 			p_part_x == 0 ? p_image.size_px.x : 1, p_part_y == 0 ? p_image.size_px.y : 1);
 	std::vector<uint8_t> texels;
@@ -29,7 +29,7 @@ template <size_t COUNT>
 bool is_outside(const MeshTriangle &p_triangle, const std::array<glm::dvec2, COUNT> &p_corners) {
 	for (int side = 0; side < 3; ++side) {
 		if (std::all_of(p_corners.begin(), p_corners.end(), [&](const glm::dvec2 &p_corner) {
-				return p_triangle.compute_inside(side, p_corner) < 0;
+				return p_triangle.compute_side_area(side, p_corner) < 0;
 			})) {
 			return true;
 		}
@@ -39,76 +39,77 @@ bool is_outside(const MeshTriangle &p_triangle, const std::array<glm::dvec2, COU
 
 // A long, thin triangle covers little of a tile's outline, but each outline edge is tested: this
 // many tiles of its length cost as much as one tile that it covers.
-const double LONG_TILES_OF_ONE = 4;
-const double LEAST_EDGES = 4; // of a tile's outline
-const int64_t ROW_COUNT = 64;
-// Rejecting a tile of the triangle's bounding box that it does not overlap is cheap.
-const double TESTS_OF_ONE_TILE = 4;
+const double LONG_TILES_PER_TILE = 4;
+const double MIN_EDGES = 4;	  // of a tile's outline
+const int64_t ROW_COUNT = 64; // rows of a tile by which triangles are looked up
+// Rejecting a tile that the triangle's bounding box overlaps, but not the triangle itself, is
+// cheap: this many cost as much as one tile.
+const double REJECTIONS_PER_TILE = 4;
 
 } // namespace
 
-void TileCover::add(const MeshTriangle &p_triangle) {
+void TileCoverage::add(const MeshTriangle &p_triangle) {
 	const glm::dvec2 low = glm::min(glm::min(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
 	const glm::dvec2 high =
 			glm::max(glm::max(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
 	const glm::dvec2 size = high - low;
 	area += std::abs(p_triangle.area) / 2;
 	box_area += size.x * size.y;
-	long_sides += std::max(size.x - 1, 0.0) + std::max(size.y - 1, 0.0);
+	excess_side_length += std::max(size.x - 1, 0.0) + std::max(size.y - 1, 0.0);
 	longest_side = std::max({ longest_side, size.x, size.y });
-	farthest = std::max(
-			{ farthest, std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y) });
+	max_coordinate = std::max({ max_coordinate, std::abs(low.x), std::abs(low.y), std::abs(high.x),
+			std::abs(high.y) });
 }
 
-bool TileCover::fits(double p_tile_size, double p_most_tiles) const {
-	const double FARTHEST_TILE = double(uint64_t(1) << 40);
+bool TileCoverage::fits(double p_tile_size, double p_max_tiles) const {
+	const double MAX_TILE_COORDINATE = double(uint64_t(1) << 40);
 	// No real texture repeats this often on one triangle: such coordinates are damaged, and each
 	// tile costs time.
-	const double MOST_TILES_OF_SIDE = double(uint64_t(1) << 13);
-	return box_area / (p_tile_size * p_tile_size) <= TESTS_OF_ONE_TILE * p_most_tiles &&
-			long_sides / p_tile_size <= p_most_tiles &&
-			longest_side / p_tile_size <= MOST_TILES_OF_SIDE &&
-			farthest / p_tile_size <= FARTHEST_TILE;
+	const double MAX_TILES_PER_SIDE = double(uint64_t(1) << 13);
+	return box_area / (p_tile_size * p_tile_size) <= REJECTIONS_PER_TILE * p_max_tiles &&
+			excess_side_length / p_tile_size <= p_max_tiles &&
+			longest_side / p_tile_size <= MAX_TILES_PER_SIDE &&
+			max_coordinate / p_tile_size <= MAX_TILE_COORDINATE;
 }
 
-OutlinedTexture::OutlinedTexture(const AlphaTest &p_test, const TileCover &p_cover,
+OutlinedTexture::OutlinedTexture(const AlphaTest &p_test, const TileCoverage &p_coverage,
 		const OutlineBudget &p_budget, double p_tolerance_px) :
 		test(p_test),
 		tolerance_px(p_tolerance_px) {
-	const double tile_count = p_cover.area + p_cover.long_sides / LONG_TILES_OF_ONE;
-	const double share = p_budget.edges_per_mesh / std::max(tile_count, 1.0);
+	const double tile_count = p_coverage.area + p_coverage.excess_side_length / LONG_TILES_PER_TILE;
+	const double ratio = p_budget.edges_per_mesh / std::max(tile_count, 1.0);
 	edge_budget = std::bit_floor(
-			static_cast<uint32_t>(std::clamp(share, LEAST_EDGES, double(p_budget.edges_per_tile))));
+			static_cast<uint32_t>(std::clamp(ratio, MIN_EDGES, double(p_budget.edges_per_tile))));
 	const bool repeats = p_test.wrap_u != TextureWrap::CLAMP || p_test.wrap_v != TextureWrap::CLAMP;
-	const double most_tiles = p_budget.edges_per_mesh / LEAST_EDGES;
+	const double max_tiles = p_budget.edges_per_mesh / MIN_EDGES;
 	while (repeats &&
-			(share * tile_size * tile_size < LEAST_EDGES || !p_cover.fits(tile_size, most_tiles))) {
+			(ratio * tile_size * tile_size < MIN_EDGES || !p_coverage.fits(tile_size, max_tiles))) {
 		tile_size *= 2;
 	}
 }
 
-std::vector<OutlinedTexture::Stretch> OutlinedTexture::list_stretches(
+std::vector<OutlinedTexture::Interval> OutlinedTexture::list_intervals(
 		TextureWrap p_wrap, double p_minimum, double p_maximum) const {
-	std::vector<Stretch> stretches;
+	std::vector<Interval> intervals;
 	if (p_wrap == TextureWrap::CLAMP) {
 		if (p_minimum < 0) {
-			stretches.push_back({ -1, -std::exp2(std::ceil(std::log2(-p_minimum))), 0 });
+			intervals.push_back({ -1, -std::exp2(std::ceil(std::log2(-p_minimum))), 0 });
 		}
 		if (p_maximum > 0 && p_minimum < 1) {
-			stretches.push_back({});
+			intervals.push_back({});
 		}
 		if (p_maximum > 1) {
-			stretches.push_back({ 1, 1, 1 + std::exp2(std::ceil(std::log2(p_maximum - 1))) });
+			intervals.push_back({ 1, 1, 1 + std::exp2(std::ceil(std::log2(p_maximum - 1))) });
 		}
-		return stretches;
+		return intervals;
 	}
 	const double first = std::floor(p_minimum / tile_size);
 	for (double tile = first; tile * tile_size < p_maximum; tile += 1) {
 		const bool is_odd = std::floor(tile / 2) * 2 != tile;
-		stretches.push_back({ 0, tile * tile_size, (tile + 1) * tile_size,
+		intervals.push_back({ 0, tile * tile_size, (tile + 1) * tile_size,
 				p_wrap == TextureWrap::MIRROR && is_odd });
 	}
-	return stretches;
+	return intervals;
 }
 
 void OutlinedTexture::Tile::fill_rows() {
@@ -129,9 +130,9 @@ void OutlinedTexture::Tile::fill_rows() {
 std::vector<uint32_t> OutlinedTexture::Tile::list_triangles(
 		double p_minimum, double p_maximum) const {
 	// One more row on either side, to allow for rounding.
-	const auto find_row = [](double p_position, int64_t p_more) {
+	const auto find_row = [](double p_position, int64_t p_row_offset) {
 		const double row = std::floor(std::clamp(p_position, 0.0, 1.0) * ROW_COUNT);
-		return std::clamp<int64_t>(static_cast<int64_t>(row) + p_more, 0, ROW_COUNT - 1);
+		return std::clamp<int64_t>(static_cast<int64_t>(row) + p_row_offset, 0, ROW_COUNT - 1);
 	};
 	std::vector<uint32_t> triangles;
 	for (int64_t row = find_row(p_minimum, -1); row <= find_row(p_maximum, 1); ++row) {
@@ -146,14 +147,14 @@ const OutlinedTexture::Tile &OutlinedTexture::get_tile(int p_part_x, int p_part_
 	auto [found, is_new] = tiles.try_emplace({ p_part_x, p_part_y });
 	if (is_new) {
 		AlphaTest part = test;
-		std::shared_ptr<const Image> drawn_out;
+		std::shared_ptr<const Image> border_image;
 		if (p_part_x != 0 || p_part_y != 0) {
-			drawn_out = draw_out(*test.image, p_part_x, p_part_y);
-			part.image = drawn_out.get();
+			border_image = make_border_image(*test.image, p_part_x, p_part_y);
+			part.image = border_image.get();
 		}
 		AlphaOutline &outline = found->second.outline;
-		outline = make_alpha_outline(part,
-				tile_size > 1 ? static_cast<uint32_t>(LEAST_EDGES) : edge_budget, tolerance_px);
+		outline = make_alpha_outline(
+				part, tile_size > 1 ? static_cast<uint32_t>(MIN_EDGES) : edge_budget, tolerance_px);
 		found->second.fill_rows();
 		const double block = std::min(outline.block_size_px * tile_size, double(INT32_MAX));
 		block_size_px = std::max(block_size_px, static_cast<uint32_t>(block));
@@ -167,16 +168,18 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 	const glm::dvec2 minimum = glm::min(glm::min(a, b), c);
 	const glm::dvec2 maximum = glm::max(glm::max(a, b), c);
 	std::vector<Triangle> triangles;
-	const std::vector<Stretch> columns = list_stretches(test.wrap_u, minimum.x, maximum.x);
-	const std::vector<Stretch> rows = list_stretches(test.wrap_v, minimum.y, maximum.y);
-	const auto find_coordinate = [](const Stretch &p_stretch, int32_t p_at, int32_t p_size) {
-		const double share = double(p_at) / p_size;
-		// Interval ends are exact, so that neighbours share them.
-		return p_stretch.is_mirrored ? p_stretch.end - share * (p_stretch.end - p_stretch.begin)
-									 : p_stretch.begin + share * (p_stretch.end - p_stretch.begin);
+	const std::vector<Interval> columns = list_intervals(test.wrap_u, minimum.x, maximum.x);
+	const std::vector<Interval> rows = list_intervals(test.wrap_v, minimum.y, maximum.y);
+	// p_at: coordinate of an outline point in units, 0..p_size.
+	const auto find_coordinate = [](const Interval &p_interval, int32_t p_at, int32_t p_size) {
+		const double ratio = double(p_at) / p_size;
+		// Exact at the interval's ends, so that adjacent intervals get equal coordinates.
+		return p_interval.is_mirrored
+				? p_interval.end - ratio * (p_interval.end - p_interval.begin)
+				: p_interval.begin + ratio * (p_interval.end - p_interval.begin);
 	};
-	for (const Stretch &row : rows) {
-		for (const Stretch &column : columns) {
+	for (const Interval &row : rows) {
+		for (const Interval &column : columns) {
 			const std::array<glm::dvec2, 4> box = { { { column.begin, row.begin },
 					{ column.end, row.begin }, { column.end, row.end },
 					{ column.begin, row.end } } };

@@ -9,7 +9,8 @@ namespace gnomon {
 
 namespace {
 
-/// The sweep goes from above to below, and from left to right where heights are equal.
+/// Whether p_a comes before p_b in the sweep, which goes from top to bottom, and from left to right
+/// at equal heights.
 bool is_above(const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
 	return p_a.y > p_b.y || (p_a.y == p_b.y && p_a.x < p_b.x);
 }
@@ -20,8 +21,8 @@ public:
 	std::vector<uint32_t> run();
 
 private:
-	/// Edge i goes from point i to the next one of its loop. Those in the sweep's status have the
-	/// inside to their right and do not cross: left to right is a strict order.
+	/// Edge i goes from point i to the next one of its loop. Edges in the sweep's status have the
+	/// inside to their right and do not cross, so that left to right is a strict order.
 	struct IsLeftOf {
 		using is_transparent = void;
 		const Triangulator &triangulator;
@@ -46,11 +47,11 @@ private:
 
 	std::vector<glm::ivec2> points;
 	std::vector<uint32_t> next, previous;
-	std::vector<uint32_t> helpers; // per edge
-	std::vector<uint8_t> is_merge; // per point
-	std::vector<std::vector<uint32_t>> outgoing;
+	std::vector<uint32_t> helpers;				 // per edge: its helper point (de Berg et al.)
+	std::vector<uint8_t> is_merge;				 // per point
+	std::vector<std::vector<uint32_t>> outgoing; // per point: points that edges lead to
 	Status status{ IsLeftOf{ *this } };
-	bool is_sound = true;
+	bool is_valid = true; // false: a loop has too few points, or loops cross or touch
 	std::vector<uint32_t> triangles;
 };
 
@@ -58,7 +59,7 @@ Triangulator::Triangulator(std::span<const PolygonLoop> p_loops) {
 	for (const PolygonLoop &loop : p_loops) {
 		const uint32_t first = static_cast<uint32_t>(points.size());
 		const uint32_t count = static_cast<uint32_t>(loop.size());
-		is_sound = is_sound && count >= 3;
+		is_valid = is_valid && count >= 3;
 		for (uint32_t i = 0; i < count; ++i) {
 			GNOMON_ASSERT(std::abs(loop[i].x) <= MAX_POLYGON_COORDINATE &&
 							std::abs(loop[i].y) <= MAX_POLYGON_COORDINATE,
@@ -86,13 +87,13 @@ const glm::ivec2 &Triangulator::get_lower(uint32_t p_edge) const {
 }
 
 bool Triangulator::IsLeftOf::operator()(uint32_t p_edge, const glm::ivec2 &p_point) const {
-	return compute_turn(triangulator.get_lower(p_edge), triangulator.get_upper(p_edge), p_point) <
-			0;
+	return compute_twice_signed_area(
+				   triangulator.get_lower(p_edge), triangulator.get_upper(p_edge), p_point) < 0;
 }
 
 bool Triangulator::IsLeftOf::operator()(const glm::ivec2 &p_point, uint32_t p_edge) const {
-	return compute_turn(triangulator.get_lower(p_edge), triangulator.get_upper(p_edge), p_point) >
-			0;
+	return compute_twice_signed_area(
+				   triangulator.get_lower(p_edge), triangulator.get_upper(p_edge), p_point) > 0;
 }
 
 bool Triangulator::IsLeftOf::operator()(uint32_t p_a, uint32_t p_b) const {
@@ -104,26 +105,26 @@ bool Triangulator::IsLeftOf::operator()(uint32_t p_a, uint32_t p_b) const {
 	if (upper_a == upper_b) {
 		return (*this)(p_a, triangulator.get_lower(p_b));
 	}
-	// Tests on which side of the other edge the upper end of the one that begins lower is.
+	// Tests the upper end of the edge that begins lower against the other edge.
 	return is_above(upper_a, upper_b) ? (*this)(p_a, upper_b) : (*this)(upper_a, p_b);
 }
 
 std::vector<uint32_t> Triangulator::run() {
-	if (!is_sound || !split_into_monotone()) {
+	if (!is_valid || !split_into_monotone()) {
 		return {};
 	}
 	triangulate_pieces();
 	int64_t twice_area = 0;
 	for (uint32_t point = 0; point < points.size(); ++point) {
-		twice_area += compute_turn(glm::ivec2(0), points[point], points[next[point]]);
+		twice_area += compute_twice_signed_area(glm::ivec2(0), points[point], points[next[point]]);
 	}
 	for (size_t i = 0; i < triangles.size(); i += 3) {
-		const int64_t turn = compute_turn(
+		const int64_t signed_area = compute_twice_signed_area(
 				points[triangles[i]], points[triangles[i + 1]], points[triangles[i + 2]]);
-		is_sound = is_sound && turn >= 0;
-		twice_area -= turn;
+		is_valid = is_valid && signed_area >= 0;
+		twice_area -= signed_area;
 	}
-	return is_sound && twice_area == 0 ? std::move(triangles) : std::vector<uint32_t>();
+	return is_valid && twice_area == 0 ? std::move(triangles) : std::vector<uint32_t>();
 }
 
 bool Triangulator::split_into_monotone() {
@@ -136,25 +137,25 @@ bool Triangulator::split_into_monotone() {
 			[&](uint32_t p_a, uint32_t p_b) { return is_above(points[p_a], points[p_b]); });
 	for (const uint32_t point : order) {
 		visit(point);
-		if (!is_sound) {
+		if (!is_valid) {
 			return false;
 		}
 	}
 	return status.empty();
 }
 
-/// De Berg et al., HANDLESTARTVERTEX to HANDLEREGULARVERTEX.
+/// Handles a point of the sweep: de Berg et al., HANDLESTARTVERTEX to HANDLEREGULARVERTEX.
 void Triangulator::visit(uint32_t p_point) {
 	const glm::ivec2 &point = points[p_point];
 	const glm::ivec2 &before = points[previous[p_point]];
 	const glm::ivec2 &after = points[next[p_point]];
 	const bool is_before_below = is_above(point, before);
 	const bool is_after_below = is_above(point, after);
-	const bool is_convex = compute_turn(before, point, after) > 0;
+	const bool is_convex = compute_twice_signed_area(before, point, after) > 0;
 	if (is_before_below && is_after_below) {
 		if (!is_convex) { // split
 			const uint32_t left = find_left_edge(p_point);
-			if (!is_sound) {
+			if (!is_valid) {
 				return;
 			}
 			connect_helper(left, p_point, true);
@@ -166,7 +167,7 @@ void Triangulator::visit(uint32_t p_point) {
 		if (!is_convex) { // merge
 			is_merge[p_point] = 1;
 			const uint32_t left = find_left_edge(p_point);
-			if (!is_sound) {
+			if (!is_valid) {
 				return;
 			}
 			connect_helper(left, p_point, false);
@@ -177,7 +178,7 @@ void Triangulator::visit(uint32_t p_point) {
 		open_edge(p_point);
 	} else {
 		const uint32_t left = find_left_edge(p_point);
-		if (!is_sound) {
+		if (!is_valid) {
 			return;
 		}
 		connect_helper(left, p_point, false);
@@ -188,7 +189,7 @@ void Triangulator::visit(uint32_t p_point) {
 uint32_t Triangulator::find_left_edge(uint32_t p_point) {
 	auto found = status.lower_bound(points[p_point]);
 	if (found == status.begin()) {
-		is_sound = false;
+		is_valid = false;
 		return 0;
 	}
 	return *--found;
@@ -196,11 +197,11 @@ uint32_t Triangulator::find_left_edge(uint32_t p_point) {
 
 void Triangulator::close_edge(uint32_t p_edge, uint32_t p_point) {
 	connect_helper(p_edge, p_point, false);
-	is_sound = is_sound && status.erase(p_edge) == 1;
+	is_valid = is_valid && status.erase(p_edge) == 1;
 }
 
 void Triangulator::open_edge(uint32_t p_point) {
-	is_sound = is_sound && status.insert(p_point).second;
+	is_valid = is_valid && status.insert(p_point).second;
 	helpers[p_point] = p_point;
 }
 
@@ -212,23 +213,23 @@ void Triangulator::connect_helper(uint32_t p_edge, uint32_t p_point, bool p_alwa
 	}
 }
 
-/// Clockwise, beginning at the edge to the point before.
+/// Sorts the outgoing edges of a point clockwise, beginning with the one to the previous point.
 void Triangulator::sort_outgoing(uint32_t p_point) {
 	const glm::ivec2 origin = points[p_point];
 	const glm::ivec2 start = points[previous[p_point]];
 	const auto is_left = [&](uint32_t p_other) {
-		return compute_turn(origin, start, points[p_other]) > 0;
+		return compute_twice_signed_area(origin, start, points[p_other]) > 0;
 	};
 	std::sort(outgoing[p_point].begin(), outgoing[p_point].end(), [&](uint32_t p_a, uint32_t p_b) {
-		// What is turned clockwise from the start by less than half a turn is to its right.
+		// Directions that are clockwise from the start by less than 180 degrees are to its right.
 		if (is_left(p_a) != is_left(p_b)) {
 			return is_left(p_b);
 		}
-		return compute_turn(origin, points[p_a], points[p_b]) < 0;
+		return compute_twice_signed_area(origin, points[p_a], points[p_b]) < 0;
 	});
 }
 
-/// The next corner of the piece to the left of an edge.
+/// Returns the next corner of the piece to the left of an edge; p_to if there is none.
 uint32_t Triangulator::find_next(uint32_t p_from, uint32_t p_to) const {
 	const std::vector<uint32_t> &list = outgoing[p_to];
 	if (previous[p_to] == p_from) {
@@ -242,31 +243,31 @@ void Triangulator::triangulate_pieces() {
 	for (uint32_t point = 0; point < points.size(); ++point) {
 		sort_outgoing(point);
 	}
-	std::vector<std::vector<uint8_t>> is_walked(points.size());
+	std::vector<std::vector<uint8_t>> is_visited(points.size());
 	for (uint32_t point = 0; point < points.size(); ++point) {
-		is_walked[point].resize(outgoing[point].size());
+		is_visited[point].resize(outgoing[point].size());
 	}
 	std::vector<uint32_t> corners;
 	for (uint32_t point = 0; point < points.size(); ++point) {
 		for (size_t i = 0; i < outgoing[point].size(); ++i) {
-			if (is_walked[point][i]) {
+			if (is_visited[point][i]) {
 				continue;
 			}
 			corners.clear();
 			uint32_t from = point;
 			uint32_t to = outgoing[point][i];
 			size_t index = i;
-			while (is_sound && !is_walked[from][index]) {
-				is_walked[from][index] = 1;
+			while (is_valid && !is_visited[from][index]) {
+				is_visited[from][index] = 1;
 				corners.push_back(from);
-				const uint32_t further = find_next(from, to);
-				const auto found = std::find(outgoing[to].begin(), outgoing[to].end(), further);
-				is_sound = further != to && found != outgoing[to].end();
+				const uint32_t next_corner = find_next(from, to);
+				const auto found = std::find(outgoing[to].begin(), outgoing[to].end(), next_corner);
+				is_valid = next_corner != to && found != outgoing[to].end();
 				index = static_cast<size_t>(found - outgoing[to].begin());
 				from = to;
-				to = further;
+				to = next_corner;
 			}
-			if (!is_sound) {
+			if (!is_valid) {
 				return;
 			}
 			triangulate_monotone(corners);
@@ -274,7 +275,7 @@ void Triangulator::triangulate_pieces() {
 	}
 }
 
-/// De Berg et al., TRIANGULATEMONOTONEPOLYGON.
+/// Triangulates a monotone piece: de Berg et al., TRIANGULATEMONOTONEPOLYGON.
 void Triangulator::triangulate_monotone(const std::vector<uint32_t> &p_corners) {
 	const size_t count = p_corners.size();
 	size_t top = 0;
@@ -285,7 +286,7 @@ void Triangulator::triangulate_monotone(const std::vector<uint32_t> &p_corners) 
 	}
 	struct Corner {
 		uint32_t point;
-		bool is_left; // on the way down from the top, counterclockwise
+		bool is_left; // on the left chain: counterclockwise from the top down
 	};
 	std::vector<Corner> order;
 	for (size_t i = 0; i < count; ++i) {
@@ -304,7 +305,7 @@ void Triangulator::triangulate_monotone(const std::vector<uint32_t> &p_corners) 
 		const bool is_last = i + 1 == count;
 		if (is_last || corner.is_left != stack.back().is_left) {
 			for (size_t k = 1; k < stack.size(); ++k) {
-				// The stack is the other side's, from above to below.
+				// The stack has points of the other chain, from top to bottom.
 				if (stack[k].is_left) {
 					add(stack[k - 1].point, stack[k].point, corner.point);
 				} else {
@@ -318,8 +319,9 @@ void Triangulator::triangulate_monotone(const std::vector<uint32_t> &p_corners) 
 		stack.pop_back();
 		while (!stack.empty()) {
 			const glm::ivec2 &a = points[stack.back().point];
-			const int64_t turn = compute_turn(a, points[last.point], points[corner.point]);
-			if (corner.is_left ? turn <= 0 : turn >= 0) {
+			const int64_t signed_area =
+					compute_twice_signed_area(a, points[last.point], points[corner.point]);
+			if (corner.is_left ? signed_area <= 0 : signed_area >= 0) {
 				break;
 			}
 			if (corner.is_left) {
@@ -337,7 +339,8 @@ void Triangulator::triangulate_monotone(const std::vector<uint32_t> &p_corners) 
 
 } // namespace
 
-int64_t compute_turn(const glm::ivec2 &p_a, const glm::ivec2 &p_b, const glm::ivec2 &p_c) {
+int64_t compute_twice_signed_area(
+		const glm::ivec2 &p_a, const glm::ivec2 &p_b, const glm::ivec2 &p_c) {
 	const int64_t ab_x = int64_t(p_b.x) - p_a.x;
 	const int64_t ab_y = int64_t(p_b.y) - p_a.y;
 	const int64_t ac_x = int64_t(p_c.x) - p_a.x;

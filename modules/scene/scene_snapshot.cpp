@@ -16,10 +16,10 @@ namespace gnomon {
 namespace {
 
 // Volume of the unit axes' parallelepiped below which an orientation is rounding noise.
-const double FLATTEST_AXES = 1e-9;
+const double MIN_AXES_VOLUME = 1e-9;
 
-/// A property as every technique must read it. Values come checked from files and the inspector;
-/// code may set anything.
+/// Reads a property, checked and converted to its type. Values from files and the inspector are
+/// checked already, but code may set any value.
 PropertyValue read_property(const LightSnapshot &p_light, std::string_view p_name) {
 	const PropertyList &list = Light3D::get_property_list();
 	const PropertyInfo &info = *list.find(p_name);
@@ -36,8 +36,8 @@ float read_float(const LightSnapshot &p_light, std::string_view p_name) {
 	return static_cast<float>(std::get<double>(read_property(p_light, p_name)));
 }
 
-/// The longest of the cross products of a matrix's columns.
-glm::dvec3 find_longest_cross(const glm::dmat3 &p_matrix) {
+/// Returns the longest of the cross products of a matrix's columns.
+glm::dvec3 find_longest_cross_product(const glm::dmat3 &p_matrix) {
 	glm::dvec3 longest(0.0);
 	for (int column = 0; column < 3; ++column) {
 		const glm::dvec3 product = glm::cross(p_matrix[column], p_matrix[(column + 1) % 3]);
@@ -54,17 +54,17 @@ void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	const glm::dmat3 axes(r_world_from_node);
 	const double longest =
 			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
-	const glm::dvec3 normal_world = find_longest_cross(axes);
-	const glm::dvec3 lost_node = find_longest_cross(glm::transpose(axes));
+	const glm::dvec3 normal_world = find_longest_cross_product(axes);
+	const glm::dvec3 flat_axis_node = find_longest_cross_product(glm::transpose(axes));
 	if (longest <= 0 || glm::length(normal_world) <= ROUNDING * longest * longest ||
 			std::abs(glm::determinant(axes)) > ROUNDING * longest * glm::length(normal_world)) {
-		return; // has three dimensions, or fewer than two
+		return; // not flat, or collapsed to a line or a point
 	}
 	const glm::dvec3 along = THICKNESS * longest * glm::normalize(normal_world);
-	const glm::dvec3 lost = glm::normalize(lost_node);
-	glm::dmat3 thick = axes + glm::outerProduct(along, lost);
+	const glm::dvec3 flat_axis = glm::normalize(flat_axis_node);
+	glm::dmat3 thick = axes + glm::outerProduct(along, flat_axis);
 	if (glm::determinant(thick) < 0) {
-		thick = axes - glm::outerProduct(along, lost);
+		thick = axes - glm::outerProduct(along, flat_axis);
 	}
 	for (int column = 0; column < 3; ++column) {
 		r_world_from_node[column] = glm::dvec4(thick[column], 0.0);
@@ -81,7 +81,8 @@ std::shared_ptr<const Mesh> choose_caster_mesh(const InstanceSnapshot &p_instanc
 	const glm::dmat3 axes(p_instance.world_from_node);
 	const double scale =
 			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
-	const double radius = p_light.compute_widest_image(p_instance.bounds_world, p_scene_bounds);
+	const double radius =
+			p_light.compute_max_penumbra_half_width(p_instance.bounds_world, p_scene_bounds);
 	const CutLevels &levels = *p_instance.caster_levels;
 	const std::shared_ptr<const Mesh> mesh = levels.get_mesh(levels.choose_level(radius / scale));
 	if (!mesh) {
@@ -108,7 +109,7 @@ glm::dmat3 compute_orientation(
 		is_degenerate = is_degenerate || !(length > 0) || !std::isfinite(length);
 		axes[axis] /= length;
 	}
-	if (is_degenerate || !(std::abs(glm::determinant(axes)) > FLATTEST_AXES)) {
+	if (is_degenerate || !(std::abs(glm::determinant(axes)) > MIN_AXES_VOLUME)) {
 		fail(p_kind, " \"", p_name,
 				"\": its transform has no orientation (a scale is 0, too large, ",
 				"or axes coincide). Set the scale of it and of its parents to other than 0.");
@@ -130,8 +131,8 @@ InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 	instance.casts_shadow = cut.mesh != nullptr;
 	instance.caster_mesh = cut.mesh ? cut.mesh : instance.mesh;
 	instance.caster_levels = cut.levels;
-	instance.outline_block_size_px = cut.block_size_px;
-	instance.outline_hash = cut.content_hash;
+	instance.cut_block_size_px = cut.block_size_px;
+	instance.cut_hash = cut.content_hash;
 	instance.node_name = p_node_name;
 	instance.world_from_node = p_world_from_node;
 	thicken_if_flat(instance.world_from_node);
@@ -190,20 +191,23 @@ void LightSnapshot::decide_settings(double p_scene_size_m) {
 	decide_width("penumbra_inner_width", penumbra_inner_width_m, is_inner_width_derived);
 }
 
-double LightSnapshot::compute_widest_image(const Bounds &p_caster, const Bounds &p_scene) const {
-	double widest = 0;
+double LightSnapshot::compute_max_penumbra_half_width(
+		const Bounds &p_caster, const Bounds &p_scene) const {
+	double max_half_width = 0;
 	for (int index = 0; index < 8; ++index) {
 		const glm::dvec3 corner = p_caster.get_corner(index);
 		const glm::dvec3 from_light = corner - position_world;
 		const double distance = glm::length(from_light);
 		const bool is_directional = type == LightType::DIRECTIONAL;
-		const glm::dvec3 way =
+		const glm::dvec3 direction =
 				is_directional || distance <= 0 ? get_direction_world() : from_light / distance;
-		const double beyond = p_scene.compute_way_out(corner, way);
-		const double share = is_directional ? beyond : beyond / std::max(distance + beyond, 1e-300);
-		widest = std::max(widest, get_disc_radius() * share);
+		const double distance_behind = p_scene.compute_exit_distance(corner, direction);
+		const double ratio = is_directional
+				? distance_behind
+				: distance_behind / std::max(distance + distance_behind, 1e-300);
+		max_half_width = std::max(max_half_width, get_disc_radius() * ratio);
 	}
-	return widest;
+	return max_half_width;
 }
 
 uint64_t LightSnapshot::compute_hash(uint64_t p_seed) const {
@@ -218,7 +222,7 @@ uint64_t LightSnapshot::compute_hash(uint64_t p_seed) const {
 uint64_t InstanceSnapshot::compute_hash(uint64_t p_seed) const {
 	uint64_t hash = compute_value_hash(mesh->content_hash, p_seed);
 	hash = compute_value_hash(get_pose_hash(), hash);
-	hash = compute_value_hash(outline_hash, hash);
+	hash = compute_value_hash(cut_hash, hash);
 	hash = compute_value_hash(world_from_node, hash);
 	hash = compute_value_hash(casts_shadow, hash);
 	return compute_value_hash(compute_transmittance(), hash);

@@ -31,7 +31,7 @@ struct LightSnapshot : LightSettings {
 	glm::dvec3 position_world = glm::dvec3(0.0);   // the light's centre L; unused for directional
 	glm::dmat3 world_from_light = glm::dmat3(1.0); // orthonormal; the light shines along -Z
 	std::string file_path;						   // for messages: "lights[0]"
-	/// Only instances on one of these layers cast its shadow.
+	/// Bit mask: only instances on one of these layers cast a shadow of this light.
 	uint32_t caster_layers = ~0u;
 
 	// Values that decide_settings derives from the properties.
@@ -50,12 +50,13 @@ struct LightSnapshot : LightSettings {
 	glm::dvec3 get_direction_world() const { return -world_from_light[2]; }
 	/// R for spot and omni; the tangent of half the apparent diameter for directional.
 	float get_disc_radius() const;
-	/// Reads the properties that every light has. A value out of range is an Error that names the
+	/// Sets the members above from the properties. A value out of range is an Error that names the
 	/// light. p_scene_size_m: S.
 	void decide_settings(double p_scene_size_m);
-	/// Radius of the widest image of the light's disc, in metres, that a receiver within p_scene
-	/// sees on a caster within p_caster: half the width of the penumbra, measured at the caster.
-	double compute_widest_image(const Bounds &p_caster, const Bounds &p_scene) const;
+	/// Computes half the width, in metres, of the widest penumbra that a caster within p_caster
+	/// casts on receivers within p_scene, measured at the caster: the radius of the light's disc as
+	/// it is projected onto the caster from the receiver.
+	double compute_max_penumbra_half_width(const Bounds &p_caster, const Bounds &p_scene) const;
 	/// Hashes everything that the light's exact shadow depends on: type, transform, range, cone and
 	/// size.
 	uint64_t compute_hash(uint64_t p_seed) const;
@@ -79,16 +80,16 @@ struct InstanceSnapshot {
 	std::string node_name; // for messages
 	glm::dmat4 world_from_node = glm::dmat4(1.0);
 	Bounds bounds_world;
-	Bounds caster_bounds_node;			// bounds of caster_mesh, as posed
-	uint32_t outline_block_size_px = 0; // see CutMesh
-	uint64_t outline_hash = 0;			// see CutMesh::content_hash
+	Bounds caster_bounds_node;		// enclose caster_mesh, as posed
+	uint32_t cut_block_size_px = 0; // see CutMesh::block_size_px
+	uint64_t cut_hash = 0;			// see CutMesh::content_hash
 	bool casts_shadow = true;
 	bool is_planar_receiver = false;
 	uint32_t layers = 1; // see LightSnapshot::caster_layers
 
-	/// Poses a mesh at rest. The slot must be that of the mesh.
+	/// Applies a pose to an instance whose mesh is at rest. The slot must be that of the mesh.
 	void set_pose(std::shared_ptr<PoseSlot> p_slot, std::shared_ptr<const MeshPose> p_pose);
-	/// The two meshes with posed vertices, for CPU code.
+	/// Return mesh and caster_mesh with posed vertices, for CPU code.
 	std::shared_ptr<const Mesh> get_posed_mesh() const;
 	std::shared_ptr<const Mesh> get_posed_caster_mesh() const;
 	/// Hash of the pose; 0 if there is none.
@@ -97,13 +98,14 @@ struct InstanceSnapshot {
 	bool is_mirrored() const;
 	/// The fraction of light that passes through it, see Material::compute_transmittance.
 	glm::vec3 compute_transmittance() const;
-	/// Hashes everything that its shadow depends on: mesh content, pose, transform, and
-	/// transmittance.
+	/// Hashes everything that its shadow depends on: mesh content, pose, alpha test, transform,
+	/// casts_shadow and transmittance.
 	uint64_t compute_hash(uint64_t p_seed) const;
 };
-/// Makes an instance that casts a shadow, as build_snapshot does. A transform that flattens the
-/// mesh gets a minimum thickness. Vertices that are not finite in the world are an Error that names
-/// the node. p_material: null = the default material. The mesh must have triangles.
+/// Makes an instance as build_snapshot does. It casts a shadow unless the alpha test removes all of
+/// it. A transform that flattens the mesh gets a minimum thickness. Vertices that are not finite in
+/// the world are an Error that names the node. p_material: null = the default material. The mesh
+/// must have triangles.
 InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 		std::shared_ptr<const Material> p_material, const glm::dmat4 &p_world_from_node,
 		const std::string &p_node_name);
@@ -120,28 +122,30 @@ struct SceneSnapshot {
 	CameraSnapshot camera;
 	std::vector<LightSnapshot> lights;
 	std::vector<InstanceSnapshot> instances;
-	double scene_size_m = 0; // the scene size S, at least 1e-9; measured on the scene at rest
+	double scene_size_m = 0; // the scene size S, at least 1e-9: from the file or measured at rest
 
 	/// Camera-relative space: the world's axes with the camera at the origin.
 	glm::vec3 to_camera_relative(const glm::dvec3 &p_position_world) const {
 		return glm::vec3(p_position_world - camera.position_world);
 	}
-	/// Node to camera-relative space, composed in double.
+	/// Returns the matrix from node to camera-relative space, composed in double.
 	glm::mat4 get_camera_relative_from_node(const InstanceSnapshot &p_instance) const;
 	/// Returns the scene in which only instances on the light's layers cast shadows, and cut-out
 	/// instances cast them with the level of detail that suits the light's penumbra. Null if that
 	/// equals this scene.
 	std::shared_ptr<const SceneSnapshot> select_casters(const LightSnapshot &p_light) const;
-	/// Null: there is no light of that name.
+	/// Returns null if there is no light of that name.
 	const LightSnapshot *find_light(const std::string &p_name) const;
-	/// Bounds of all shadow casters; empty without casters.
+	/// Computes the bounds of all shadow casters; empty without casters.
 	Bounds compute_caster_bounds() const;
-	/// Bounds of all instances; empty without any.
+	/// Computes the bounds of all instances; empty without instances.
 	Bounds compute_bounds() const;
 };
 
 /// Builds a snapshot of the whole tree, with p_camera as its camera. Nodes with a transform that is
-/// not finite are an Error that names them; singular transforms are allowed (they draw nothing).
+/// not finite are an Error that names them; of singular transforms, those that flatten a mesh give
+/// it a minimum thickness, and those that collapse it to a line or point draw nothing. A light or
+/// camera with a singular transform is an Error (compute_orientation).
 std::shared_ptr<const SceneSnapshot> build_snapshot(const Scene &p_scene, const Camera3D &p_camera);
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-// build_snapshot: reads from a scene's tree what one frame needs.
+// build_snapshot: reads what one frame needs from a scene's tree.
 
 #include "modules/core/error.h"
 #include "modules/scene/mesh_pose.h"
@@ -13,7 +13,7 @@ namespace gnomon {
 
 namespace {
 
-const double SMALLEST_SCENE_SIZE_M = 1e-9; // S divides; a scene of one point must not be 0 / 0
+const double MIN_SCENE_SIZE_M = 1e-9; // S is a divisor, also in a scene of one point
 
 bool is_finite(const glm::dmat4 &p_matrix) {
 	for (int column = 0; column < 4; ++column) {
@@ -76,7 +76,7 @@ private:
 	SceneSnapshot &snapshot;
 	bool is_posed;
 	bool is_animated = false;
-	std::vector<std::pair<const MeshInstance3D *, glm::dmat4>> deformable; // and its own transform
+	std::vector<std::pair<const MeshInstance3D *, glm::dmat4>> deformable; // and world_from_node
 	WorldTransforms world_from_nodes;
 
 	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
@@ -160,14 +160,14 @@ std::shared_ptr<const SceneSnapshot> build_snapshot(
 	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
 	if (has_own_size) {
 		snapshot->scene_size_m = p_scene.scene_size_m;
-	} else if (reader.has_animated_nodes()) { // so that it does not change from frame to frame
-		SceneSnapshot still;
-		TreeReader(still, false).read(*p_scene.root);
-		snapshot->scene_size_m = still.compute_caster_bounds().get_diagonal();
+	} else if (reader.has_animated_nodes()) { // at rest, so that S does not change with the pose
+		SceneSnapshot rest_snapshot;
+		TreeReader(rest_snapshot, false).read(*p_scene.root);
+		snapshot->scene_size_m = rest_snapshot.compute_caster_bounds().get_diagonal();
 	} else {
 		snapshot->scene_size_m = snapshot->compute_caster_bounds().get_diagonal();
 	}
-	snapshot->scene_size_m = std::max(SMALLEST_SCENE_SIZE_M, snapshot->scene_size_m);
+	snapshot->scene_size_m = std::max(MIN_SCENE_SIZE_M, snapshot->scene_size_m);
 	for (LightSnapshot &light : snapshot->lights) {
 		light.decide_settings(snapshot->scene_size_m);
 	}

@@ -43,10 +43,10 @@ SkinTransforms compute_skin_transforms(
 	transforms.joints.reserve(p_skin.joints.size());
 	for (size_t index = 0; index < p_skin.joints.size(); ++index) {
 		const auto joint = p_world_from_nodes.find(p_skin.joints[index]);
-		const glm::dmat4 mesh_from_joint = joint == p_world_from_nodes.end()
-				? glm::dmat4(1.0)
-				: mesh_from_world * joint->second;
-		transforms.joints.push_back(mesh_from_joint * p_skin.joint_from_mesh[index]);
+		// Vertices of a removed joint stay at rest.
+		transforms.joints.push_back(joint == p_world_from_nodes.end()
+						? glm::dmat4(1.0)
+						: mesh_from_world * joint->second * p_skin.joint_from_mesh[index]);
 	}
 	return transforms;
 }

@@ -17,19 +17,19 @@ namespace gnomon {
 namespace {
 
 const double CAMERA_FOV_RAD = 0.64;
-const double CAMERA_MARGIN = 1.12; // 1: what is framed touches the sides of the image
+const double CAMERA_MARGIN = 1.12; // 1: the framed points touch the sides of the image
 // Direction to the camera: from the front, which faces +z, slightly from the left and from above.
 const glm::dvec3 TO_CAMERA(-0.5, 0.45, 1.0);
 // Direction to the light: over the camera's other shoulder, so that the shadow falls where it is
 // visible.
 const glm::dvec3 TO_LIGHT(0.75, 1.6, 0.7);
-// Distance of the light in diagonals of the meshes' bounds. The largest light of a report, radius
-// 0.3, is accurate from 5 radii on; a corner is 0.5 nearer.
+// Lengths in diagonals of the meshes' bounds. The largest light of a report, of radius 0.3, is
+// accurate from a distance of 5 radii on; corners can be 0.5 nearer than the centre.
 const double LIGHT_DISTANCE = 2.2;
-const double LIGHT_SIZE = 0.1;
+const double LIGHT_SIZE = 0.1; // radius
 const double GROUND_HALF_WIDTH = 6.0;
 const double GROUND_HALF_HEIGHT = 0.05;
-const double GROUND_GAP = 1e-3; // coplanar faces would flicker
+const double GROUND_GAP = 1e-3; // below the meshes, because coplanar faces would flicker
 
 Bounds compute_bounds(const Scene &p_scene) {
 	Bounds bounds;
@@ -52,24 +52,24 @@ glm::dvec3 project_to_ground(
 	return glm::mix(p_light, p_point, (p_light.y - p_ground_y) / (p_light.y - p_point.y));
 }
 
-/// The nearest position from which an image, square or narrower, shows all points with the margin,
-/// for a camera that looks along -TO_CAMERA. Its up is y.
+/// Returns the nearest position from which an image, square or narrower, shows all points with the
+/// margin, for a camera that looks along -TO_CAMERA and whose up direction is y.
 glm::dvec3 find_camera_position(const std::vector<glm::dvec3> &p_points, double p_aspect) {
 	const glm::dmat3 world_from_view(look_at(TO_CAMERA, glm::dvec3(0.0)));
 	const glm::dvec2 slope =
 			std::tan(CAMERA_FOV_RAD / 2) / CAMERA_MARGIN * glm::dvec2(std::min(p_aspect, 1.0), 1.0);
-	// Seen where |x - position.x| <= slope.x * (position.z - z), and the same for y: each point
+	// A point is visible if |x - position.x| <= slope.x * (position.z - z), and the same for y. It
 	// bounds position.x + slope.x * position.z from below and position.x - slope.x * position.z
 	// from above.
-	glm::dvec2 least(-std::numeric_limits<double>::infinity());
-	glm::dvec2 greatest(std::numeric_limits<double>::infinity());
+	glm::dvec2 lower(-std::numeric_limits<double>::infinity());
+	glm::dvec2 upper(std::numeric_limits<double>::infinity());
 	for (const glm::dvec3 &point : p_points) {
 		const glm::dvec3 view = glm::transpose(world_from_view) * point;
-		least = glm::max(least, glm::dvec2(view) + slope * view.z);
-		greatest = glm::min(greatest, glm::dvec2(view) - slope * view.z);
+		lower = glm::max(lower, glm::dvec2(view) + slope * view.z);
+		upper = glm::min(upper, glm::dvec2(view) - slope * view.z);
 	}
-	const glm::dvec2 z = (least - greatest) / (2.0 * slope);
-	return world_from_view * glm::dvec3(0.5 * (least + greatest), std::max(z.x, z.y));
+	const glm::dvec2 z = (lower - upper) / (2.0 * slope);
+	return world_from_view * glm::dvec3(0.5 * (lower + upper), std::max(z.x, z.y));
 }
 
 /// Returns a name that no node of the scene has.
@@ -113,9 +113,9 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode, double p_aspect) {
 	if (p_mode == StageMode::OFF || !(size_m > 0) || !std::isfinite(size_m)) {
 		return "";
 	}
-	const bool is_all = p_mode == StageMode::ON;
-	const bool needs_camera = is_all || r_scene.find_nodes<Camera3D>().empty();
-	const bool needs_light = is_all || r_scene.find_nodes<Light3D>().empty();
+	const bool adds_all = p_mode == StageMode::ON;
+	const bool needs_camera = adds_all || r_scene.find_nodes<Camera3D>().empty();
+	const bool needs_light = adds_all || r_scene.find_nodes<Light3D>().empty();
 	const glm::dvec3 centre = 0.5 * (bounds.minimum + bounds.maximum);
 	std::vector<glm::dvec3> framed; // relative to the centre, which may be far from the origin
 	for (int corner = 0; corner < 8; ++corner) {
@@ -147,6 +147,7 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode, double p_aspect) {
 		}
 		light->inner_cone_rad = 0.5f;
 		light->outer_cone_rad = 0.8f;
+		// The illuminance of the meshes, about 250 lx, does not depend on their size.
 		light->intensity = static_cast<float>(1200.0 * std::max(size_m * size_m, 1e-6));
 		light->properties["light_size"] = std::min(LIGHT_SIZE * size_m, MAX_LENGTH_M);
 		add_first(r_scene, std::move(light), "Stage light");

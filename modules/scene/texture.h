@@ -24,7 +24,8 @@ struct Image {
 	}
 };
 
-/// Four bytes per texel and at least one texel; anything else is a programming error.
+/// Makes an image with a new id. p_texels: four bytes per texel and at least one texel; anything
+/// else is a programming error.
 std::shared_ptr<const Image> make_image(
 		std::string p_name, glm::uvec2 p_size_px, std::vector<uint8_t> p_texels);
 

@@ -11,14 +11,15 @@ namespace {
 
 /// Smallest width of a triangle relative to its corners' coordinates: several thousand rounding
 /// errors.
-const double THINNEST = 1e-12;
+const double MIN_RELATIVE_WIDTH = 1e-12;
 
 double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 	return p_a.x * p_b.y - p_a.y * p_b.x;
 }
 
 /// Returns a value above 0 to the left of the line from a to b.
-double compute_side(const glm::dvec2 &p_a, const glm::dvec2 &p_b, const glm::dvec2 &p_point) {
+double compute_signed_area(
+		const glm::dvec2 &p_a, const glm::dvec2 &p_b, const glm::dvec2 &p_point) {
 	return cross(p_b - p_a, p_point - p_a);
 }
 
@@ -32,29 +33,29 @@ void MeshTriangle::set_up() {
 	for (int i = 0; i < 3; ++i) {
 		const int k = (i + 1) % 3;
 		MeshSide &side = sides[i];
-		side.is_turned = to_position_bits(position[k]) < to_position_bits(position[i]);
-		side.uv[0] = side.is_turned ? uv[k] : uv[i];
-		side.uv[1] = side.is_turned ? uv[i] : uv[k];
-		side.position[0] = side.is_turned ? position[k] : position[i];
-		side.position[1] = side.is_turned ? position[i] : position[k];
+		side.is_reversed = to_position_bits(position[k]) < to_position_bits(position[i]);
+		side.uv[0] = side.is_reversed ? uv[k] : uv[i];
+		side.uv[1] = side.is_reversed ? uv[i] : uv[k];
+		side.position[0] = side.is_reversed ? position[k] : position[i];
+		side.position[1] = side.is_reversed ? position[i] : position[k];
 	}
 	area = cross(uv[1] - uv[0], uv[2] - uv[0]);
-	double longest = 0;
-	double farthest = 0;
+	double max_length = 0;
+	double max_coordinate = 0;
 	for (const MeshSide &side : sides) {
-		longest = std::max(longest, glm::length(side.uv[1] - side.uv[0]));
-		farthest = std::max({ farthest, std::abs(side.uv[0].x), std::abs(side.uv[0].y),
+		max_length = std::max(max_length, glm::length(side.uv[1] - side.uv[0]));
+		max_coordinate = std::max({ max_coordinate, std::abs(side.uv[0].x), std::abs(side.uv[0].y),
 				std::abs(side.uv[1].x), std::abs(side.uv[1].y) });
 	}
-	if (std::abs(area) < THINNEST * longest * farthest) {
+	if (std::abs(area) < MIN_RELATIVE_WIDTH * max_length * max_coordinate) {
 		area = 0;
 	}
 }
 
-double MeshTriangle::compute_inside(int p_side, const glm::dvec2 &p_uv) const {
+double MeshTriangle::compute_side_area(int p_side, const glm::dvec2 &p_uv) const {
 	const MeshSide &side = sides[p_side];
-	const double left = compute_side(side.uv[0], side.uv[1], p_uv);
-	return side.is_turned != (area < 0) ? -left : left;
+	const double left = compute_signed_area(side.uv[0], side.uv[1], p_uv);
+	return side.is_reversed != (area < 0) ? -left : left;
 }
 
 glm::vec3 MeshTriangle::compute_position(const glm::dvec2 &p_uv) const {
@@ -74,28 +75,29 @@ ClippedPiece::ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm:
 		const glm::dvec2 &b = p_uvs[(i + 1) % 3];
 		Point &point = points.emplace_back();
 		point.uv = a;
-		const bool is_turned = std::tie(b.x, b.y) < std::tie(a.x, a.y);
-		lines.push_back({ -1, is_turned ? b : a, is_turned ? a : b });
+		const bool is_reversed = std::tie(b.x, b.y) < std::tie(a.x, a.y);
+		lines.push_back({ -1, is_reversed ? b : a, is_reversed ? a : b });
 	}
 	for (int side = 0; side < 3 && !points.empty(); ++side) {
 		clip(side);
 	}
 	const bool is_finite = std::all_of(points.begin(), points.end(),
 			[](const Point &p_point) { return std::isfinite(p_point.uv.x + p_point.uv.y); });
-	if (!is_finite) { // rounding made lines parallel that cross: next to nothing is left
+	if (!is_finite) { // rounding made crossing lines parallel: the piece is negligible
 		points.clear();
 	}
 	for (Point &point : points) {
-		point.share = std::clamp(point.share, 0.0, 1.0);
+		point.fraction = std::clamp(point.fraction, 0.0, 1.0);
 	}
 }
 
-/// Returns a value above 0 inside of a side, and 0 on it, which the point then records.
+/// Returns a value above 0 inside of a side, and 0 on it; then it also sets the point's side or
+/// corner.
 double ClippedPiece::locate(int p_side, Point &r_point) const {
 	if (r_point.side == p_side || r_point.corner == p_side || r_point.corner == (p_side + 1) % 3) {
 		return 0;
 	}
-	const double inside = triangle.compute_inside(p_side, r_point.uv);
+	const double inside = triangle.compute_side_area(p_side, r_point.uv);
 	if (inside == 0 && r_point.corner < 0) {
 		if (r_point.side >= 0) { // on two sides: their corner
 			r_point.corner = r_point.side == (p_side + 1) % 3 ? r_point.side : p_side;
@@ -104,12 +106,13 @@ double ClippedPiece::locate(int p_side, Point &r_point) const {
 			const MeshSide &side = triangle.sides[p_side];
 			const glm::dvec2 along = side.uv[1] - side.uv[0];
 			r_point.side = p_side;
-			r_point.share = glm::dot(r_point.uv - side.uv[0], along) / glm::dot(along, along);
+			r_point.fraction = glm::dot(r_point.uv - side.uv[0], along) / glm::dot(along, along);
 		}
 	}
 	return inside;
 }
 
+/// Returns the intersection of a side with a line of the piece.
 ClippedPiece::Point ClippedPiece::cross_line(int p_side, const Line &p_line) const {
 	Point point;
 	if (p_line.side >= 0) {
@@ -121,10 +124,9 @@ ClippedPiece::Point ClippedPiece::cross_line(int p_side, const Line &p_line) con
 	const glm::dvec2 along = side.uv[1] - side.uv[0];
 	const glm::dvec2 across = p_line.b - p_line.a;
 	point.side = p_side;
-	// Measured along the whole line, because other sides may cut off what is beyond this one's
-	// ends.
-	point.share = cross(p_line.a - side.uv[0], across) / cross(along, across);
-	point.uv = side.uv[0] + along * point.share;
+	// Not clamped to the side's ends, because other sides clip what is beyond them.
+	point.fraction = cross(p_line.a - side.uv[0], across) / cross(along, across);
+	point.uv = side.uv[0] + along * point.fraction;
 	return point;
 }
 
@@ -164,7 +166,7 @@ glm::vec3 ClippedPiece::get_position(const Point &p_point) const {
 	if (p_point.corner >= 0) {
 		return triangle.position[p_point.corner];
 	}
-	return p_point.side >= 0 ? triangle.sides[p_point.side].get_position(p_point.share)
+	return p_point.side >= 0 ? triangle.sides[p_point.side].get_position(p_point.fraction)
 							 : triangle.compute_position(p_point.uv);
 }
 

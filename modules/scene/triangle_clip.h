@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-// A texture's outline clipped to the triangles of a mesh, so that triangles that share an edge make
-// the same points on it.
+// Clips a texture's outline to the triangles of a mesh. Triangles with a common edge compute the
+// same points on it.
 
 namespace gnomon {
 
@@ -17,14 +17,15 @@ using PositionBits = std::array<uint32_t, 3>;
 /// Returns the position's bits, with -0 as 0.
 PositionBits to_position_bits(const glm::vec3 &p_position);
 
-/// An edge of the mesh, ordered by the positions of its ends: the same from both its triangles.
+/// An edge of a triangle, its ends ordered by position, so that both triangles at the edge have the
+/// same one.
 struct MeshSide {
 	glm::dvec2 uv[2];
 	glm::dvec3 position[2];
-	bool is_turned = false; // reversed relative to the triangle's winding
+	bool is_reversed = false; // reversed relative to the triangle's winding
 
-	glm::vec3 get_position(double p_share) const {
-		return glm::vec3(position[0] + (position[1] - position[0]) * p_share);
+	glm::vec3 get_position(double p_fraction) const {
+		return glm::vec3(position[0] + (position[1] - position[0]) * p_fraction);
 	}
 	std::pair<PositionBits, PositionBits> get_key() const {
 		return { to_position_bits(glm::vec3(position[0])),
@@ -41,23 +42,26 @@ struct MeshTriangle {
 	/// thin that rounding decides.
 	double area = 0;
 
+	/// Computes sides and area from uv and position.
 	void set_up();
 	/// False: the whole triangle shows one line of texels, or none.
 	bool has_area() const { return std::isfinite(area) && area != 0; }
-	/// Twice the signed area of the point with one of the sides, not its distance; above 0 inside.
-	double compute_inside(int p_side, const glm::dvec2 &p_uv) const;
+	/// Returns twice the signed area of the triangle of a side and the point: the distance from the
+	/// side times its length. Above 0 inside.
+	double compute_side_area(int p_side, const glm::dvec2 &p_uv) const;
 	glm::vec3 compute_position(const glm::dvec2 &p_uv) const;
 };
 
-/// A convex piece of an outline while it is clipped to a triangle. Each side remembers the line it
-/// lies on, so that a point is computed from the same two lines wherever it occurs.
+/// A convex piece of an outline that is clipped to a triangle of the mesh. For each edge of the
+/// piece it stores the original line, so that a point is computed from the same two lines wherever
+/// it occurs. "Side" means a side of the mesh's triangle.
 class ClippedPiece {
 public:
 	struct Point {
 		glm::dvec2 uv = glm::dvec2(0.0);
-		int corner = -1;  // corner index of the triangle, or -1
-		int side = -1;	  // side of the triangle on which the point lies, or -1
-		double share = 0; // position along that side; while clipping it may be outside 0..1
+		int corner = -1;	 // corner index of the triangle, or -1
+		int side = -1;		 // side of the triangle on which the point lies, or -1
+		double fraction = 0; // position along that side; while clipping it may be outside 0..1
 	};
 
 	ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm::dvec2, 3> &p_uvs);

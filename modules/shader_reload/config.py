@@ -19,7 +19,7 @@ def can_disable():
 
 
 def configure(env):
-    # Static libraries: each before those that it needs.
+    # Static libraries in link order: each before its dependencies.
     env.Append(
         LIBS=["SPIRV", "glslang-default-resource-limits", "glslang", "MachineIndependent", "GenericCodeGen", "OSDependent"]
         + ["OGLCompiler", "SPIRV-Tools-opt", "SPIRV-Tools"]

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: whoever edits makes its watcher.
+// This module registers nothing: users create a ShaderWatcher themselves.

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const int GLSL_VERSION = 460; // where a file does not state it itself
-const size_t DEEPEST_INCLUDE = 32;
+const int GLSL_VERSION = 460;		 // for files without a #version line
+const size_t MAX_INCLUDE_DEPTH = 32; // nesting limit, which ends circular includes
 
 EShLanguage find_stage(const std::string &p_name) {
 	static const std::map<std::string, EShLanguage> STAGES = { { ".vert", EShLangVertex },
@@ -33,13 +33,13 @@ EShLanguage find_stage(const std::string &p_name) {
 	return found->second;
 }
 
-/// Finds includes from the folder of shaders, whoever includes them.
+/// Resolves includes relative to the root of the shader sources, not to the including file.
 class FolderIncluder : public glslang::TShader::Includer {
 public:
 	explicit FolderIncluder(fs::path p_folder) : folder(std::move(p_folder)) {}
 
 	IncludeResult *includeLocal(const char *p_name, const char *, size_t p_depth) override {
-		if (p_depth > DEEPEST_INCLUDE) {
+		if (p_depth > MAX_INCLUDE_DEPTH) {
 			return nullptr;
 		}
 		try {
@@ -48,7 +48,7 @@ public:
 			const size_t length = text->size();
 			return new IncludeResult(p_name, data, length, text.release());
 		} catch (const Error &) {
-			return nullptr; // the compiler reports where it is included
+			return nullptr; // the compiler then reports the line of the #include
 		}
 	}
 	IncludeResult *includeSystem(const char *p_name, const char *p_by, size_t p_depth) override {
@@ -65,7 +65,7 @@ private:
 	fs::path folder;
 };
 
-/// The compiler's lines that have content, without its summary.
+/// Removes empty lines and the summary line from the compiler's log.
 std::string tidy_log(const std::string &p_log) {
 	std::istringstream lines(p_log);
 	std::string tidy;
@@ -78,7 +78,7 @@ std::string tidy_log(const std::string &p_log) {
 	return tidy;
 }
 
-/// The compiler's tables live as long as the program uses it.
+/// Initializes glslang's global tables for the rest of the process.
 struct CompilerProcess {
 	CompilerProcess() { glslang::InitializeProcess(); }
 	~CompilerProcess() { glslang::FinalizeProcess(); }
@@ -92,9 +92,9 @@ ShaderSource find_shader_source(const std::string &p_name) {
 	if (variant.empty()) {
 		return { p_name, {} };
 	}
-	const fs::path what = name.stem().stem();
+	const fs::path base_name = name.stem().stem();
 	ShaderSource source = {
-		(name.parent_path() / what).generic_string() + name.extension().string(), "VARIANT_"
+		(name.parent_path() / base_name).generic_string() + name.extension().string(), "VARIANT_"
 	};
 	std::transform(variant.begin() + 1, variant.end(), std::back_inserter(source.macro),
 			[](unsigned char p_letter) { return static_cast<char>(std::toupper(p_letter)); });
@@ -114,7 +114,7 @@ std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string
 	shader.setPreamble(preamble.c_str());
 	shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
 	shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
-	// The target of shaders/shader_builders.py: the lowest that has subgroup operations.
+	// The same target as in shaders/shader_builders.py: the lowest with subgroup operations.
 	shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
 	shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
 	const EShMessages messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
@@ -129,7 +129,7 @@ std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string
 	}
 	std::vector<uint32_t> words;
 	glslang::SpvOptions options;
-	options.disableOptimizer = true; // as at build time: the driver optimises
+	options.disableOptimizer = true; // as in the build: the driver optimises
 	options.stripDebugInfo = true;
 	glslang::GlslangToSpv(*program.getIntermediate(stage), words, &options);
 	return words;

@@ -33,7 +33,7 @@ void ShaderWatcher::add_file(const std::string &p_name) {
 	try {
 		file.includes = find_includes(load_text_file(folder / p_name));
 	} catch (const Error &) {
-		return; // it went away just now
+		return; // deleted since its time was read
 	}
 	for (const std::string &name : std::vector<std::string>(file.includes)) {
 		add_file(name);
@@ -42,16 +42,16 @@ void ShaderWatcher::add_file(const std::string &p_name) {
 
 std::set<std::string> ShaderWatcher::find_all_files(const std::string &p_name) const {
 	std::set<std::string> all;
-	std::vector<std::string> waiting = { p_name };
-	while (!waiting.empty()) {
-		const std::string name = waiting.back();
-		waiting.pop_back();
+	std::vector<std::string> pending = { p_name };
+	while (!pending.empty()) {
+		const std::string name = pending.back();
+		pending.pop_back();
 		if (!all.insert(name).second) {
 			continue;
 		}
 		if (const auto found = files.find(name); found != files.end()) {
-			waiting.insert(
-					waiting.end(), found->second.includes.begin(), found->second.includes.end());
+			pending.insert(
+					pending.end(), found->second.includes.begin(), found->second.includes.end());
 		}
 	}
 	return all;
@@ -66,7 +66,9 @@ std::set<std::string> ShaderWatcher::find_changed_files() {
 			changed.insert(name);
 		}
 	}
-	// Files that were missing are known by those that include them.
+	// Includes that were missing are not in `files`; they are found through the files that include
+	// them. A deleted file stays in `files` with its old time, so that the loop above finds it once
+	// it exists again.
 	for (const auto &[name, file] : std::map<std::string, File>(files)) {
 		for (const std::string &include : file.includes) {
 			if (!files.contains(include)) {
@@ -90,13 +92,16 @@ std::vector<ShaderChange> ShaderWatcher::poll() {
 		files.erase(name);
 	}
 	for (const std::string &name : changed) {
-		add_file(name); // what it includes may be another now
+		// Reads its includes again, since they may have changed. If the file was deleted since
+		// find_changed_files, it is now missing from `files`: an include is found again through the
+		// files that include it, an entry point is not found again.
+		add_file(name);
 	}
 	for (const std::string &name : entry_points) {
 		const std::set<std::string> used = find_all_files(find_shader_source(name).file);
-		const bool is_concerned = std::any_of(used.begin(), used.end(),
+		const bool is_affected = std::any_of(used.begin(), used.end(),
 				[&](const std::string &p_file) { return changed.contains(p_file); });
-		if (!is_concerned) {
+		if (!is_affected) {
 			continue;
 		}
 		ShaderChange change;

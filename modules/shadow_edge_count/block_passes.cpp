@@ -12,16 +12,16 @@ namespace gnomon {
 
 namespace {
 
-// Capacity of all edge lists: an average per block, and 24 MB at most. Blocks whose lists do not
-// fit cost time, but are still exact.
+// Capacity of all edge lists together: an average per block, and at most 24 MB at 4 bytes per edge.
+// Blocks whose lists do not fit take more time, but are still exact.
 constexpr uint64_t LISTED_EDGES_PER_BLOCK = 2048;
-constexpr uint64_t MOST_LISTED_EDGES = 6'000'000;
+constexpr uint64_t MAX_LISTED_EDGES = 6'000'000;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
 }
 
-/// The bindings of every pass over blocks, count_blocks_inc.glsl.
+/// The bindings of every pass over blocks, see count_blocks_inc.glsl.
 std::vector<PassBinding> make_block_bindings(const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = p_blocks.receivers;
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, p_blocks.constants));
@@ -29,7 +29,7 @@ std::vector<PassBinding> make_block_bindings(const CountBlocks &p_blocks) {
 	return bindings;
 }
 
-/// Adds the bindings of the face lists, count_lists_inc.glsl.
+/// The bindings of passes that read face lists, see count_lists_inc.glsl.
 std::vector<PassBinding> make_plain_bindings(
 		const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = make_block_bindings(p_blocks);
@@ -42,13 +42,13 @@ std::vector<PassBinding> make_plain_bindings(
 	return bindings;
 }
 
-/// Adds the bindings of count_resolve_inc.glsl.
+/// The bindings of passes that count edges, see count_resolve_inc.glsl.
 std::vector<PassBinding> make_count_bindings(
 		const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = make_plain_bindings(p_passes, p_blocks);
 	bindings.push_back(PassBinding::read(COUNT_BINDING_EDGES, p_passes.light.edges));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_BUNDLES, p_passes.light.bundles));
-	bindings.push_back(PassBinding::read(COUNT_BINDING_RECEIVES, p_blocks.receives));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_BLOCK_RECEIVERS, p_blocks.block_receivers));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_CHAINS, p_blocks.chains));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_LISTS, p_blocks.lists));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_MASKS, p_passes.masks));
@@ -64,7 +64,8 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, 0 };
 	const PipelineRID pipeline = inputs.device.get_compute_pipeline({ p_shader, p_shader,
 			{ { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(inputs.views.size()) },
-					{ EDGE_COUNT_CONSTANT_GROUP_SIZE, inputs.device.get_features().subgroup_size },
+					{ EDGE_COUNT_CONSTANT_SUBGROUP_SIZE,
+							inputs.device.get_features().subgroup_size },
 					{ EDGE_COUNT_CONSTANT_HAS_NO_LIST,
 							p_kind == EDGE_COUNT_BLOCKS_UNLISTED ||
 											p_kind == EDGE_COUNT_BLOCKS_FILTERED
@@ -82,7 +83,8 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 	});
 }
 
-/// Adds percentage-closer soft shadows for the blocks that have more edges than the budget.
+/// Adds a pass that filters blocks with more edges than the budget (percentage-closer soft
+/// shadows).
 void add_filter_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, RGTexture p_mask) {
 	CountBlocks blocks = p_blocks;
@@ -105,7 +107,7 @@ uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count) {
 	const uint64_t chunks_per_block = std::max<uint64_t>(edges / EDGE_COUNT_CHUNK_SIZE, 1);
 	return static_cast<uint32_t>(
 			std::min<uint64_t>(uint64_t(blocks.x) * blocks.y * chunks_per_block,
-					MOST_LISTED_EDGES / EDGE_COUNT_CHUNK_SIZE));
+					MAX_LISTED_EDGES / EDGE_COUNT_CHUNK_SIZE));
 }
 
 shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &p_inputs,
@@ -121,10 +123,10 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 	constants.budget = p_settings.budget;
 	constants.node_capacity = p_capacities.nodes_per_view;
 	constants.face_count = p_capacities.face_count;
-	constants.most_cut_faces = p_capacities.cut_face_count;
+	constants.max_cut_face_count = p_capacities.cut_face_count;
 	constants.interpolation = p_settings.interpolation;
-	constants.most_bundles = p_capacities.get_bundle_count();
-	constants.most_edges = p_settings.disc_radius > 0 ? p_capacities.edge_count : 0;
+	constants.max_bundle_count = p_capacities.get_bundle_count();
+	constants.max_edge_count = p_settings.disc_radius > 0 ? p_capacities.edge_count : 0;
 	return constants;
 }
 
@@ -142,7 +144,8 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	const auto make_words = [&](const char *p_name, uint64_t p_count) {
 		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t), BufferUsage::STORAGE });
 	};
-	blocks.receives = make_words("block receivers", block_count * EDGE_COUNT_RECEIVES_WORDS);
+	blocks.block_receivers =
+			make_words("block receivers", block_count * EDGE_COUNT_RECEIVERS_WORDS);
 	blocks.chains = make_words("block chains", block_count * part_count * EDGE_COUNT_CHAIN_WORDS);
 	blocks.lists = r_graph.create_buffer(make_fetched_buffer_desc(inputs.device, "block edges",
 			uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1) * sizeof(uint32_t),
@@ -157,17 +160,17 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			.execute([dispatches = blocks.dispatches](PassContext &p_context) {
 				p_context.commands.clear_buffer(p_context.get(dispatches));
 			});
-	// One subgroup is one work group.
+	// Each work group is one subgroup.
 	const uint32_t subgroup_size = inputs.device.get_features().subgroup_size;
 	const auto get_pipeline = [&](const std::string &p_shader) {
 		return inputs.device.get_compute_pipeline({ p_shader, p_shader,
-				{ { EDGE_COUNT_CONSTANT_GROUP_SIZE, subgroup_size },
+				{ { EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, subgroup_size },
 						{ EDGE_COUNT_CONSTANT_VIEW_COUNT, constants.view_count } } });
 	};
 	std::vector<PassBinding> bindings = blocks.receivers;
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants));
 	bindings.push_back(PassBinding::write(COUNT_BINDING_BOXES, boxes));
-	bindings.push_back(PassBinding::write(COUNT_BINDING_RECEIVES, blocks.receives));
+	bindings.push_back(PassBinding::write(COUNT_BINDING_BLOCK_RECEIVERS, blocks.block_receivers));
 	add_compute_pass(r_graph, "receiver boxes",
 			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings),
 			{ constants.block_count.x * subgroup_size, constants.block_count.y, 1 });
@@ -177,7 +180,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 					choose_fetching_shader(inputs.device, "shadow_edge_count/list_blocks.comp")),
 			{ PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants),
 					PassBinding::read(COUNT_BINDING_BOXES, boxes),
-					PassBinding::read(COUNT_BINDING_RECEIVES, blocks.receives),
+					PassBinding::read(COUNT_BINDING_BLOCK_RECEIVERS, blocks.block_receivers),
 					PassBinding::read(COUNT_BINDING_EDGES, light.edges),
 					PassBinding::read(COUNT_BINDING_BUNDLES, light.bundles),
 					PassBinding::read(COUNT_BINDING_HEADS, light.heads),
@@ -211,7 +214,7 @@ RGTexture add_count_passes(
 	add_kind_pass(r_graph, p_passes, p_blocks, "resolve plain",
 			choose("shadow_edge_count/resolve_plain.comp"), EDGE_COUNT_BLOCKS_PLAIN,
 			std::move(bindings));
-	const bool is_fine = p_passes.settings.get_turn_count() > 1;
+	const bool is_fine = p_passes.settings.get_sample_set_count() > 1;
 	const char *resolve =
 			is_fine ? "shadow_edge_count/resolve_fine.comp" : "shadow_edge_count/resolve.comp";
 	const char *resolve_smooth = is_fine ? "shadow_edge_count/resolve_smooth_fine.comp"

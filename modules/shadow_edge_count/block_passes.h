@@ -12,25 +12,26 @@ struct CountBlockPasses {
 	CountFrameBuffers light;
 	CountCapacities capacities;
 	uint32_t empty_views = 0; // bit i: view i has no casters or no receivers
-	RGBuffer masks;			  // the tables of DiscMasks, one per turn
-	/// Depth map of the views, when blocks may have more edges than the budget; else empty.
+	RGBuffer masks;			  // mask tables of all sample sets, see DiscMasks
+	/// Depth maps of the views. Empty if no block can have more edges than the budget.
 	RGTexture depth_map;
-	std::vector<LightView> depth_views; // of that map
+	std::vector<LightView> depth_views; // the views of depth_map
 };
 
-/// Lists of edges, one per block of pixels.
+/// Results of add_block_passes: edge lists of the blocks of pixels, and lists of blocks by kind.
 struct CountBlocks {
-	std::vector<PassBinding> receivers; // make_map_resolve_bindings
+	std::vector<PassBinding> receivers; // from make_map_resolve_bindings
 	RGBuffer constants;					// CountLightConstants
-	RGBuffer receives;					// per block, EDGE_COUNT_RECEIVES_*
+	RGBuffer block_receivers;			// per block, EDGE_COUNT_RECEIVERS_*
 	RGBuffer chains;					// per block and part, EDGE_COUNT_CHAIN_*
-	RGBuffer lists;
-	RGBuffer blocks;	 // by kind, EDGE_COUNT_BLOCKS_*
-	RGBuffer dispatches; // see EDGE_COUNT_BLOCK_KINDS
+	RGBuffer lists;						// chunks of edges, see EDGE_COUNT_CHUNK_SIZE
+	RGBuffer blocks;					// a list of blocks for each kind, EDGE_COUNT_BLOCKS_*
+	RGBuffer dispatches;				// indirect dispatch arguments for each kind
 	uint32_t block_count = 0;
 };
 
-/// The light's constants for passes over views and pixels.
+/// The light's constants for passes over views and pixels. p_empty_views: bit i is set if view i
+/// has no casters or no receivers.
 shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &p_inputs,
 		const CountSettings &p_settings, const CountCapacities &p_capacities,
 		uint32_t p_empty_views);
@@ -38,16 +39,18 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 /// Adds passes that find the bounds of each block's receivers and list its edges.
 CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_passes);
 
-/// Adds one pass for each kind of block. Returns the mask.
+/// Adds one resolve pass for each kind of block. Returns the mask.
 RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 
 /// Adds a pass that writes a debug image with three array layers: per pixel the number of edges
-/// that were counted, the number of solids between it and the light's centre, and its block's kind.
+/// that were counted, the number of solids between it and the light's centre, and its block's kind
+/// (EDGE_COUNT_BLOCKS_*).
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 
-/// Capacity of the edge lists of all blocks together, in chunks; at least 1.
+/// Capacity of the edge lists of all blocks together, in chunks of EDGE_COUNT_CHUNK_SIZE edges. At
+/// least 1. p_size_px: size of the image. p_edge_count: number of edges of the casters.
 uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count);
 
 } // namespace gnomon

@@ -12,8 +12,8 @@ namespace gnomon {
 
 namespace {
 
-// Node capacity of a view's face lists when no bound is known: four per face, the maximum number of
-// texels that a small face meets, and some per texel for large faces.
+// Node capacity of a view's face lists if there is no smaller upper bound: four per face, the
+// maximum number of texels that a small face overlaps, and some per texel for large faces.
 constexpr uint64_t NODES_PER_FACE = 4;
 constexpr uint64_t NODES_PER_TEXEL_OF_ONE_VIEW = 4;
 constexpr uint64_t NODES_PER_TEXEL_OF_SIX_VIEWS = 2;
@@ -42,8 +42,8 @@ CountCapacities choose_capacities(
 			capacities.texels_per_view *
 					(p_view_count == 1 ? NODES_PER_TEXEL_OF_ONE_VIEW
 									   : NODES_PER_TEXEL_OF_SIX_VIEWS);
-	// Rounded to powers of two, so that a moving scene seldom needs other buffers.
-	const uint64_t bound = p_casters.node_bound;
+	// Rounded up to powers of two, so that a moving scene seldom needs other buffers.
+	const uint64_t bound = p_casters.max_nodes_per_view;
 	capacities.nodes_per_view = static_cast<uint32_t>(
 			bound >= usual ? usual : std::min(usual, std::bit_ceil(std::max(bound, uint64_t(1)))));
 	return capacities;
@@ -66,11 +66,11 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	const auto make = [&](const char *p_what, uint64_t p_count, uint64_t p_item_bytes,
 							  std::optional<Format> p_fetched_format = std::nullopt) {
 		const uint64_t size_bytes = std::max(p_count, uint64_t(1)) * p_item_bytes;
-		const uint64_t most_bytes = p_device.get_features().max_storage_buffer_bytes;
-		if (size_bytes > most_bytes) {
+		const uint64_t max_bytes = p_device.get_features().max_storage_buffer_bytes;
+		if (size_bytes > max_bytes) {
 			fail("Light \"", p_light, "\": edge_count needs ", size_bytes, " bytes for the ",
 					p_what, " of its casters, and ", p_device.get_info().name, " has room for ",
-					most_bytes,
+					max_bytes,
 					" in one buffer. Let fewer meshes cast shadows, or set another "
 					"shadow_technique.");
 		}

@@ -13,17 +13,19 @@ namespace gnomon {
 
 namespace {
 
-// Below 24 bits, see EDGE_COUNT_FACE_MASK.
+// Maximum number of faces, and of edges. Their indices must fit in 24 bits, see
+// EDGE_COUNT_FACE_MASK.
 constexpr uint32_t MAX_COUNT = 10'000'000;
 
 // Maximum number of faces to examine one by one, which takes some tenths of a millisecond.
 constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
 
-const double SIDE_TOLERANCE_SIZES = 2.5e-7; // shift by rounding, fraction of S
-const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same, directional
+const double SIDE_TOLERANCE_SIZES = 2.5e-7; // shift of a face's plane by rounding, fraction of S
+const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same for a directional light, as a cosine
 
-/// Upper bound of the number of texels that the faces of a mesh overlap.
-uint64_t compute_node_bound(
+/// Upper bound of the number of texels that the faces of a mesh overlap, summed over the faces.
+/// p_size_px: size of the view's map.
+uint64_t compute_max_overlapped_texels(
 		const MeshTopology &p_topology, const glm::mat4 &p_clip_from_node, glm::vec2 p_size_px) {
 	const double whole = double(p_size_px.x) * p_size_px.y;
 	std::vector<glm::vec4> clip;
@@ -33,8 +35,8 @@ uint64_t compute_node_bound(
 	double sum = 0;
 	for (size_t first = 0; first < p_topology.triangles.size(); first += 3) {
 		glm::dvec2 positions[3];
-		bool is_before = false;
-		int outside_counts[5] = {}; // vertices outside each view plane; 3: not in the view
+		bool crosses_near_plane = false; // then the face may overlap every texel
+		int outside_counts[5] = {};		 // vertices outside each view plane; 3: the face is outside
 		for (size_t corner = 0; corner < 3; ++corner) {
 			const glm::dvec4 point(clip[p_topology.triangles[first + corner]]);
 			outside_counts[0] += point.x > point.w;
@@ -42,43 +44,47 @@ uint64_t compute_node_bound(
 			outside_counts[2] += point.y > point.w;
 			outside_counts[3] += point.y < -point.w;
 			outside_counts[4] += point.z > point.w;
-			is_before = is_before || !(point.z <= point.w) || !(point.w > 0.0); // the near plane
+			crosses_near_plane = crosses_near_plane || !(point.z <= point.w) || !(point.w > 0.0);
 			positions[corner] = (glm::dvec2(point) / point.w * 0.5 + 0.5) * glm::dvec2(p_size_px);
 		}
 		if (std::any_of(std::begin(outside_counts), std::end(outside_counts),
 					[](int p_count) { return p_count == 3; })) {
 			continue;
 		}
-		const glm::dvec2 least = glm::min(positions[0], glm::min(positions[1], positions[2]));
-		const glm::dvec2 greatest = glm::max(positions[0], glm::max(positions[1], positions[2]));
+		const glm::dvec2 minimum = glm::min(positions[0], glm::min(positions[1], positions[2]));
+		const glm::dvec2 maximum = glm::max(positions[0], glm::max(positions[1], positions[2]));
 		const glm::dvec2 size =
-				glm::min(greatest, glm::dvec2(p_size_px)) - glm::max(least, glm::dvec2(0.0)) + 2.0;
+				glm::min(maximum, glm::dvec2(p_size_px)) - glm::max(minimum, glm::dvec2(0.0)) + 2.0;
 		const double box = std::max(size.x, 0.0) * std::max(size.y, 0.0);
 		// Upper bound of the unit squares that a convex region overlaps, from its area, the sides
 		// of its bounds and its perimeter.
 		const glm::dvec2 u = positions[1] - positions[0];
 		const glm::dvec2 v = positions[2] - positions[0];
 		const double outline = glm::length(u) + glm::length(v) + glm::length(u - v);
-		const glm::dvec2 sides = greatest - least;
+		const glm::dvec2 sides = maximum - minimum;
 		const double triangle =
 				0.5 * std::abs(u.x * v.y - u.y * v.x) + sides.x + sides.y + 0.5 * outline + 4.0;
 		const double covered = std::min(box, triangle);
-		sum += is_before || !std::isfinite(covered) ? whole : std::min(covered * 1.01 + 1.0, whole);
+		sum += crosses_near_plane || !std::isfinite(covered)
+				? whole
+				: std::min(covered * 1.01 + 1.0, whole);
 	}
 	return static_cast<uint64_t>(std::ceil(sum));
 }
 
-/// True when the instance's bounds come within R of the light's centre.
+/// True if the instance's bounds come within R of the light's centre.
 bool is_near_light(
 		const InstanceSnapshot &p_instance, const LightView &p_view, double p_disc_radius) {
-	const double WIDENED = 1.01; // for rounding
+	const double WIDENING = 1.01; // for rounding
 	const Bounds bounds = transform_bounds(p_instance.bounds_world, p_view.view_from_world);
 	const glm::dvec3 nearest =
 			glm::clamp(glm::dvec3(0.0), glm::dvec3(bounds.minimum), glm::dvec3(bounds.maximum));
-	return glm::length(nearest) <= WIDENED * p_disc_radius;
+	return glm::length(nearest) <= WIDENING * p_disc_radius;
 }
 
-uint32_t add_up(uint32_t p_sum, uint32_t p_count, const char *p_what, const std::string &p_light) {
+/// The sum of both. Throws an Error if it exceeds MAX_COUNT.
+uint32_t add_checked(
+		uint32_t p_sum, uint32_t p_count, const char *p_what, const std::string &p_light) {
 	if (p_count > MAX_COUNT - p_sum) {
 		fail("Light \"", p_light, "\": its casters have more than ", MAX_COUNT, " ", p_what,
 				", which is the most for edge_count. Let fewer meshes cast shadows.");
@@ -102,12 +108,12 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
 	std::set<uint32_t> with_faces;
-	bool is_deformed = false; // the CPU does not know the faces' positions
+	bool is_deformed = false; // some mesh is deformed on the GPU, so the CPU has no face positions
 	for (const uint32_t index : collect_casters(p_inputs, view_indices)) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
 		if (volume == 0 || !std::isfinite(volume)) {
-			++result.flat_instance_count;
+			++result.collapsed_instance_count;
 			continue;
 		}
 		const auto &gpu = p_inputs.meshes.get_derived<CountGpuMesh>(instance.caster_mesh, [&] {
@@ -125,7 +131,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 		CountCaster caster;
 		caster.gpu = &gpu;
 		caster.positions =
-				p_inputs.meshes.get_topology(instance.caster_mesh, TopologyPart::POSITIONS)
+				p_inputs.meshes.get_topology(instance.caster_mesh, TopologyBuffer::POSITIONS)
 						.positions.get();
 		caster.mesh_id = instance.caster_mesh->id;
 		caster.pose_hash = instance.get_pose_hash();
@@ -138,8 +144,9 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 							? SIDE_TOLERANCE_COSINE
 							: SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m) };
 		result.face_count =
-				add_up(result.face_count, gpu.face_count, "triangles", p_inputs.light.name);
-		result.edge_count = add_up(result.edge_count, gpu.edge_count, "edges", p_inputs.light.name);
+				add_checked(result.face_count, gpu.face_count, "triangles", p_inputs.light.name);
+		result.edge_count =
+				add_checked(result.edge_count, gpu.edge_count, "edges", p_inputs.light.name);
 		result.word_count += gpu.word_count;
 		result.block_count += gpu.block_count;
 		result.casters.push_back(caster);
@@ -160,17 +167,17 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 					: 0;
 		}
 		result.empty_views |= face_count == 0 ? 1u << view : 0u;
-		// All casters, including those known to be outside the view.
+		// All casters, including those outside the view: their faces are listed too.
 		for (const uint32_t index : with_faces) {
 			if (is_bounded) {
 				const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-				bound += compute_node_bound(*get_topology(instance.caster_mesh),
+				bound += compute_max_overlapped_texels(*get_topology(instance.caster_mesh),
 						p_inputs.views[view].compute_clip_from_node(instance.world_from_node),
 						glm::vec2(p_inputs.views[view].size_px));
 			}
 		}
-		result.node_bound =
-				is_bounded ? std::max(result.node_bound, bound) : CountCasters::UNKNOWN_COUNT;
+		result.max_nodes_per_view =
+				is_bounded ? std::max(result.max_nodes_per_view, bound) : CountCasters::UNBOUNDED;
 	}
 	return result;
 }

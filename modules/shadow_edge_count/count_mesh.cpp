@@ -20,22 +20,22 @@ uint32_t spread_bits(uint32_t p_value) {
 	return (value | value << 2) & 0x09249249u;
 }
 
-/// Edges sorted by their midpoints along a Morton curve through the mesh's bounds.
+/// The mesh's edges, sorted by their midpoints along a Morton curve through the mesh's bounds.
 std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
 	const std::vector<glm::vec3> &positions = p_topology.welded_positions_node;
-	glm::dvec3 least(1e300);
-	glm::dvec3 greatest(-1e300);
+	glm::dvec3 minimum(1e300);
+	glm::dvec3 maximum(-1e300);
 	for (const glm::vec3 &position : positions) {
-		least = glm::min(least, glm::dvec3(position));
-		greatest = glm::max(greatest, glm::dvec3(position));
+		minimum = glm::min(minimum, glm::dvec3(position));
+		maximum = glm::max(maximum, glm::dvec3(position));
 	}
-	const glm::dvec3 size = glm::max(greatest - least, glm::dvec3(1e-300));
+	const glm::dvec3 size = glm::max(maximum - minimum, glm::dvec3(1e-300));
 	std::vector<std::pair<uint32_t, MeshEdge>> ordered;
 	ordered.reserve(p_topology.edges.size());
 	for (const MeshEdge &edge : p_topology.edges) {
 		const glm::dvec3 middle =
 				0.5 * (glm::dvec3(positions[edge.a]) + glm::dvec3(positions[edge.b]));
-		const glm::uvec3 cell(glm::clamp((middle - least) / size * 1023.0, 0.0, 1023.0));
+		const glm::uvec3 cell(glm::clamp((middle - minimum) / size * 1023.0, 0.0, 1023.0));
 		ordered.emplace_back(
 				spread_bits(cell.x) | spread_bits(cell.y) << 1 | spread_bits(cell.z) << 2, edge);
 	}

@@ -11,21 +11,24 @@
 
 namespace gnomon {
 
-/// A mesh as the passes that find faces and edges read it. Vertices are welded vertices.
+/// A mesh in the format that the passes that find faces and edges read. Vertices are welded.
 struct CountMesh {
-	/// The edges that can be silhouettes: not those between coplanar faces. Sorted for spatial
-	/// locality, see CountEdgeBundle.
+	/// The edges that can be silhouettes: all but those between coplanar faces. Sorted for spatial
+	/// locality, so that bundles of consecutive edges are small, see CountEdgeBundle.
 	std::vector<shader::CountMeshEdge> edges;
 	std::vector<shader::CountMeshFace> faces;
 
+	/// Words with one bit per edge.
 	uint32_t get_word_count() const {
 		return (uint32_t(edges.size()) + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
 	}
+	/// Blocks of EDGE_COUNT_WORDS_PER_BLOCK such words.
 	uint32_t get_block_count() const {
 		return (get_word_count() + EDGE_COUNT_WORDS_PER_BLOCK - 1) / EDGE_COUNT_WORDS_PER_BLOCK;
 	}
 };
 
+/// Converts a mesh. Faces retain their order, edges are sorted.
 CountMesh build_count_mesh(const MeshTopology &p_topology);
 
 /// A mesh in GPU memory, in addition to its welded positions (GpuTopology).
@@ -38,7 +41,7 @@ struct CountGpuMesh {
 	uint32_t block_count = 0;
 };
 
-/// A mesh whose triangles are all degenerate has no faces and no buffers.
+/// Uploads a mesh. If all its triangles are degenerate, the result has no faces and no buffers.
 CountGpuMesh upload_count_mesh(
 		RenderingDevice &p_device, const std::string &p_name, const MeshTopology &p_topology);
 

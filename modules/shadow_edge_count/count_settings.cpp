@@ -6,11 +6,11 @@ namespace gnomon {
 
 namespace {
 
-/// An edge counts only when it is nearer to the light than the receiver by this fraction of the
-/// receiver's distance to the light (directional: of max(S, D / 250), D the view's depth). Edges
-/// closer to the receiver than that are its own, or rounding.
+/// An edge counts only if it is nearer to the light than the receiver by this fraction of the
+/// receiver's distance to the light (directional: of max(S, D / 250), D the view's depth in
+/// metres). Closer edges are those of the receiver's own surface, or due to rounding.
 const double NEARER_TOLERANCE = 2e-5;
-const double LARGEST_DEPTH_SHARE = 250.0;
+const double DEPTH_RANGE_DIVISOR = 250.0;
 
 } // namespace
 
@@ -37,7 +37,8 @@ void add_count_properties(PropertyList &r_list) {
 			"light's radius within a block of 8 x 8 pixels, 16 of these are counted and the others "
 			"interpolated. More is faster and less exact; 0: each pixel is counted.",
 			"", group });
-	r_list.add_removed({ "edge_count_layers", "All solids before the light are counted exactly." });
+	r_list.add_removed(
+			{ "edge_count_layers", "All solids in front of the light are counted exactly." });
 }
 
 CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
@@ -51,7 +52,6 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
 	settings.budget = budget < 0 ? EDGE_COUNT_NO_BUDGET : static_cast<uint32_t>(budget);
-	// The mean of both penumbra widths in metres; for a directional light divided by S: a tangent.
 	const double widths_m =
 			0.5 * (double(p_light.penumbra_outer_width_m) + p_light.penumbra_inner_width_m);
 	settings.disc_radius =
@@ -77,7 +77,7 @@ shader::CountLightConstants make_count_light_constants(
 	constants.depth_far_m = first.far_m;
 	constants.scene_size_m = static_cast<float>(p_scene_size_m);
 	constants.nearer_tolerance = static_cast<float>(NEARER_TOLERANCE *
-			(first.is_orthographic ? std::max(p_scene_size_m, depth_range_m / LARGEST_DEPTH_SHARE)
+			(first.is_orthographic ? std::max(p_scene_size_m, depth_range_m / DEPTH_RANGE_DIVISOR)
 								   : 1.0));
 	constants.is_directional = first.is_orthographic ? 1 : 0;
 	constants.view_count = static_cast<uint32_t>(p_views.size());

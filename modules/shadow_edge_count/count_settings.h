@@ -6,25 +6,30 @@
 
 namespace gnomon {
 
-/// The technique's properties of one light.
+/// Settings of the technique for one light, from its light properties.
 struct CountSettings {
-	uint32_t sample_count = 64; // points of the light: 64 or 256
-	uint32_t map_size_px = 256;
+	uint32_t sample_count = 64;				// points of the light: 64 or 256
+	uint32_t map_size_px = 256;				// width and height of each view's map of face lists
 	uint32_t budget = EDGE_COUNT_NO_BUDGET; // maximum number of edges of one block of pixels
 	float interpolation = 0; // maximum motion of an edge's image within a block, as a multiple of R
-	double disc_radius = 0;	 // R in metres; directional: a tangent
+	/// R: the mean of the light's two penumbra widths in metres, by default its radius.
+	/// Directional: that mean divided by S, a tangent.
+	double disc_radius = 0;
 
 	bool has_budget() const { return budget != EDGE_COUNT_NO_BUDGET; }
-	uint32_t get_turn_count() const { return sample_count / EDGE_COUNT_SAMPLE_COUNT; }
+	/// Number of sets of 64 points: 1 or 4.
+	uint32_t get_sample_set_count() const { return sample_count / EDGE_COUNT_SAMPLE_COUNT; }
 };
 
+/// Adds the technique's light properties.
 void add_count_properties(PropertyList &r_list);
+/// p_properties: all of the light's properties that add_count_properties adds, with their values.
 CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues &p_properties);
 
-/// The light's constants that every pass over its views and pixels reads; image sizes and
-/// capacities are left at 0. All views look from the light's centre (directional: one
-/// view), so they differ from the first only by a rotation.
+/// The light's constants that every pass over its views and pixels reads. Image sizes and
+/// capacities stay 0. All views must look from the light's centre, so that they differ from the
+/// first only by a rotation (directional: there is one view). p_disc_radius: as in CountSettings.
 shader::CountLightConstants make_count_light_constants(
 		const std::vector<LightView> &p_views, double p_disc_radius, double p_scene_size_m);
 

@@ -8,7 +8,8 @@ namespace gnomon {
 
 namespace {
 
-/// Reverses the bits of p_value, which is below p_count, a power of two.
+/// Reverses the order of the lowest log2(p_count) bits of p_value. p_count: a power of two above
+/// p_value.
 uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
 	uint32_t reversed = 0;
 	for (uint32_t bit = 1; bit < p_count; bit *= 2) {
@@ -17,7 +18,8 @@ uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
 	return reversed;
 }
 
-/// The direction at the centre of a bin of diamond angles, see count_masks_inc.glsl; not unit.
+/// The direction at the centre of a bin of diamond angles, not unit. A diamond angle is 0 at -y, 1
+/// at +x, 2 at +y and 3 at -x, see find_direction_bin in count_masks_inc.glsl.
 glm::dvec2 compute_bin_center(uint32_t p_bin) {
 	const double angle = 4.0 * (p_bin + 0.5) / DiscMasks::DIRECTION_COUNT;
 	const double x = angle < 2.0 ? 1.0 - std::abs(angle - 1.0) : std::abs(angle - 3.0) - 1.0;
@@ -28,15 +30,16 @@ glm::dvec2 compute_bin_center(uint32_t p_bin) {
 } // namespace
 
 glm::dvec2 DiscMasks::compute_sample(uint32_t p_index) const {
-	const uint32_t count = SAMPLE_COUNT * turn_count;
-	const uint32_t number = p_index * turn_count + turn;
+	const uint32_t count = SAMPLE_COUNT * sample_set_count;
+	const uint32_t number = p_index * sample_set_count + sample_set;
 	const double radius = std::sqrt((reverse_bits(number, count) + 0.5) / count);
 	const double angle = 2.0 * std::numbers::pi * (number + 0.5) / count;
 	return radius * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-DiscMasks::DiscMasks(uint32_t p_turn, uint32_t p_turn_count) :
-		turn(p_turn), turn_count(p_turn_count), table(size_t(DIRECTION_COUNT) * OFFSET_COUNT, 0) {
+DiscMasks::DiscMasks(uint32_t p_sample_set, uint32_t p_sample_set_count) :
+		sample_set(p_sample_set), sample_set_count(p_sample_set_count),
+		table(size_t(DIRECTION_COUNT) * OFFSET_COUNT, 0) {
 	std::array<glm::dvec2, SAMPLE_COUNT> samples;
 	for (uint32_t index = 0; index < SAMPLE_COUNT; ++index) {
 		samples[index] = compute_sample(index);

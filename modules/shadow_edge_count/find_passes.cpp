@@ -9,7 +9,7 @@ namespace {
 using Content = PassBuilder::Content;
 
 /// Adds a pass that runs a shader once per caster. p_items: number of invocations that a caster
-/// needs; 0: it is skipped.
+/// needs; 0: it is skipped. p_bind: returns the bindings of a caster.
 template <typename Items, typename Bind>
 void add_caster_pass(RenderingDevice &p_device, PassBuilder p_pass, const char *p_shader,
 		const CountFindPasses &p_passes, Items p_items, Bind p_bind) {
@@ -83,7 +83,8 @@ void add_edge_passes(
 			{ p_passes.capacities.get_bundle_group_count(), 1, 1 });
 }
 
-/// Adds a compute pass with an indirect dispatch.
+/// Adds a compute pass with an indirect dispatch. p_word: offset of its arguments in p_dispatches,
+/// in words.
 void add_indirect_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
 		std::vector<PassBinding> p_bindings, RGBuffer p_dispatches, uint32_t p_word,
 		const shader::CountFaceListPush &p_push) {
@@ -137,9 +138,9 @@ void add_find_passes(
 
 void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 		const CountFindPasses &p_passes, uint32_t p_view_index) {
-	// Each further attempt chooses larger texels by the node count of the attempt before; the last
-	// one uses a single texel.
-	const uint32_t attempt_count = p_passes.may_be_short ? 5 : 1;
+	// Each further attempt chooses larger texels from the node count of the previous one. The last
+	// attempt uses a single texel.
+	const uint32_t attempt_count = p_passes.may_overflow ? 5 : 1;
 	const CountFrameBuffers buffers = p_passes.buffers;
 	const std::string view = text(" view ", p_view_index);
 	const auto get_pipeline = [&](const char *p_shader) {

@@ -14,8 +14,8 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t BORDER_PX = 1;			 // for rounding of receivers at the view's side
-constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // for blocks over budget; the same as for pcss
+constexpr uint32_t BORDER_PX = 1;			 // for rounding of receivers at the edge of a view
+constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // for blocks over budget; as the default of pcss
 
 void check_device(const ShadowTechnique::Inputs &p_inputs) {
 	if (!p_inputs.device.get_features().subgroup_operations) {
@@ -44,7 +44,7 @@ void ShadowEdgeCount::get_quality_settings(
 void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const CountSettings view_settings = read_count_settings(p_light, p_scene.scene, p_properties);
-	// A directional light's view holds all casters: nothing can hide receivers outside it.
+	// A directional light's view contains all casters, so nothing can hide receivers outside it.
 	const float margin_m = p_light.type == LightType::DIRECTIONAL
 			? 0.0f
 			: static_cast<float>(view_settings.disc_radius);
@@ -59,41 +59,42 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	const size_t view_count = p_inputs.views.size();
 	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius);
-	// A block may list an edge in each of its views.
+	// A block may list the same edge once per view.
 	may_filter = settings.has_budget() &&
 			(uint64_t(casters.edge_count) * view_count > settings.budget || !p_inputs.may_skip);
-	// Only the filter reads beyond the view of a receiver.
-	views.begin(
-			p_inputs, may_filter ? CachedViews::Reads::ACROSS_VIEWS : CachedViews::Reads::OWN_VIEW);
+	// Only the filter reads views other than that of the receiver.
+	views.begin(p_inputs,
+			may_filter ? CachedViews::FilterReach::ADJACENT_VIEWS
+					   : CachedViews::FilterReach::SINGLE_VIEW);
 	has_casters = casters.face_count > 0;
 	if (views.is_all_empty() || !has_casters) {
-		if (views.may_forget() || !has_casters) {
+		if (views.may_free_maps() || !has_casters) {
 			buffers.reset();
 			depth_map.reset();
-			drawn = {};
+			cached = {};
 		}
-		views.plan(p_inputs, r_plan, !drawn.casters.casters.empty());
+		views.plan(p_inputs, r_plan, !cached.casters.casters.empty());
 		return;
 	}
 	check_device(p_inputs);
 	const CountCapacities capacities = choose_capacities(
 			static_cast<uint32_t>(view_count), p_inputs.views[0].size_px, casters);
 	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, capacities) &&
-			drawn.disc_radius == settings.disc_radius && drawn.casters.has_layout_of(casters) &&
-			(!may_filter || drawn.has_depth_map);
+			cached.disc_radius == settings.disc_radius && cached.casters.has_layout_of(casters) &&
+			(!may_filter || cached.has_depth_map);
 	if (has_content && p_inputs.may_skip && p_inputs.may_reuse &&
-			drawn.first_view == p_inputs.views[0]) {
-		compare_casters(drawn.casters, casters);
+			cached.first_view == p_inputs.views[0]) {
+		compare_casters(cached.casters, casters);
 	}
 	views.plan(p_inputs, r_plan, has_content);
-	drawn.disc_radius = settings.disc_radius;
-	drawn.has_depth_map = may_filter;
+	cached.disc_radius = settings.disc_radius;
+	cached.has_depth_map = may_filter;
 	if (!may_filter) {
 		depth_map.reset();
 	}
 	if (!views.get_needed_views().empty()) {
-		drawn.first_view = p_inputs.views[0];
-		drawn.casters = std::move(casters);
+		cached.first_view = p_inputs.views[0];
+		cached.casters = std::move(casters);
 		plan_casters(r_plan);
 	}
 	plan_blocks(r_plan);
@@ -102,7 +103,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	uint32_t reused_count = 0;
 	uint32_t moved_count = 0;
-	for (const CountCaster &caster : drawn.casters.casters) {
+	for (const CountCaster &caster : cached.casters.casters) {
 		++(caster.is_moved ? moved_count : reused_count);
 	}
 	if (moved_count > 0) {
@@ -112,20 +113,20 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 		r_plan.skip(text("find edges, casters: ", reused_count),
 				"cached: neither the light nor the caster moved");
 	}
-	if (drawn.casters.flat_instance_count > 0) {
-		r_plan.skip(text("edges of instances: ", drawn.casters.flat_instance_count),
-				"a scale of theirs is 0");
+	if (cached.casters.collapsed_instance_count > 0) {
+		r_plan.skip(text("edges of instances: ", cached.casters.collapsed_instance_count),
+				"their transform collapses them to a line or a point");
 	}
 	if (settings.disc_radius <= 0) {
 		r_plan.skip("edges", "the light has no size");
 	}
-	if (drawn.casters.may_cut_disc) {
+	if (cached.casters.may_cut_disc) {
 		r_plan.run("faces that cut the light's disc");
-	} else if (drawn.disc_radius > 0) {
+	} else if (cached.disc_radius > 0) {
 		r_plan.skip("faces that cut the light's disc", "no caster comes so near to its centre");
 	}
-	if (!is_node_count_known()) {
-		r_plan.run("face lists with larger texels, where there is no room");
+	if (!do_face_lists_fit()) {
+		r_plan.run("face lists again with larger texels, if a list overflows");
 	}
 }
 
@@ -138,12 +139,12 @@ void ShadowEdgeCount::plan_blocks(TechniquePlan &r_plan) {
 	if (may_filter) {
 		r_plan.run(pass);
 	} else {
-		r_plan.skip(pass, text("all casters together have ", drawn.casters.edge_count));
+		r_plan.skip(pass, text("all casters together have ", cached.casters.edge_count));
 	}
 }
 
-bool ShadowEdgeCount::is_node_count_known() const {
-	return drawn.casters.node_bound <= buffers.get_capacities().nodes_per_view;
+bool ShadowEdgeCount::do_face_lists_fit() const {
+	return cached.casters.max_nodes_per_view <= buffers.get_capacities().nodes_per_view;
 }
 
 void ShadowEdgeCount::at_light_view(
@@ -156,9 +157,9 @@ void ShadowEdgeCount::at_light_view(
 		constants = r_graph.upload_constants("counted views",
 				make_block_constants(p_inputs, settings, buffers.get_capacities(), 0));
 	}
-	const CountFindPasses passes = { drawn.casters, buffers.get_capacities(),
+	const CountFindPasses passes = { cached.casters, buffers.get_capacities(),
 		buffers.import(r_graph), constants, settings.disc_radius > 0,
-		!is_node_count_known() || !p_inputs.may_skip };
+		!do_face_lists_fit() || !p_inputs.may_skip };
 	if (!are_casters_found) {
 		add_find_passes(r_graph, p_inputs.device, passes);
 		are_casters_found = true;
@@ -197,16 +198,17 @@ RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &
 }
 
 RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inputs) {
-	const uint32_t turn_count = settings.get_turn_count();
-	if (!masks || mask_turn_count != turn_count) {
-		// The masks of all turns are adjacent, since the shader reads two at once.
+	const uint32_t sample_set_count = settings.get_sample_set_count();
+	if (!masks || mask_sample_set_count != sample_set_count) {
+		// The tables of all sets are interleaved, since the shader reads the masks of two sets at
+		// once.
 		std::vector<uint64_t> tables;
-		for (uint32_t turn = 0; turn < turn_count; ++turn) {
-			const DiscMasks disc_masks(turn, turn_count);
+		for (uint32_t sample_set = 0; sample_set < sample_set_count; ++sample_set) {
+			const DiscMasks disc_masks(sample_set, sample_set_count);
 			const std::vector<uint64_t> &table = disc_masks.get_table();
-			tables.resize(table.size() * turn_count);
+			tables.resize(table.size() * sample_set_count);
 			for (size_t i = 0; i < table.size(); ++i) {
-				tables[i * turn_count + turn] = table[i];
+				tables[i * sample_set_count + sample_set] = table[i];
 			}
 		}
 		const auto bytes = bytes_of(std::span<const uint64_t>(tables));
@@ -214,15 +216,15 @@ RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inp
 				p_inputs.device.create_buffer_with_data(
 						{ "masks of " + p_inputs.light.name, bytes.size(),
 								BufferUsage::TEXEL | BufferUsage::COPY_TARGET, MemoryKind::GPU,
-								turn_count == 1 ? Format::RG32_UINT : Format::RGBA32_UINT },
+								sample_set_count == 1 ? Format::RG32_UINT : Format::RGBA32_UINT },
 						bytes));
-		mask_turn_count = turn_count;
+		mask_sample_set_count = sample_set_count;
 	}
 	return r_graph.import_buffer(masks.get());
 }
 
 RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
-	const uint32_t empty_views = views.get_empty_views() | drawn.casters.empty_views;
+	const uint32_t empty_views = views.get_empty_views() | cached.casters.empty_views;
 	if (!has_casters || views.is_all_empty() ||
 			empty_views == ~0u >> (32 - p_inputs.views.size())) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);

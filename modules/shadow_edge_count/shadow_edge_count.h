@@ -19,7 +19,7 @@ public:
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
 	bool queries_receivers_only() const override { return true; }
 	ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const override {
-		return { .least_caster_distance_radii = 0 }; // a caster may cut the disc
+		return { .min_caster_distance_radii = 0 }; // a caster may cut the disc
 	}
 	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
 	void at_light_view(
@@ -29,8 +29,8 @@ public:
 	std::vector<std::string> get_shader_files() const override;
 
 private:
-	/// The state for which the buffers were filled.
-	struct Drawn {
+	/// The light and casters for which the buffers were last filled.
+	struct CachedState {
 		LightView first_view; // its axes are those of light space
 		double disc_radius = -1;
 		CountCasters casters;
@@ -39,8 +39,8 @@ private:
 
 	void plan_casters(TechniquePlan &r_plan);
 	void plan_blocks(TechniquePlan &r_plan);
-	/// True when the face lists of each view certainly fit into their capacity.
-	bool is_node_count_known() const;
+	/// True if the face lists of each view are certain to fit.
+	bool do_face_lists_fit() const;
 	RGBuffer import_masks(RenderGraph &r_graph, const Inputs &p_inputs);
 	/// The depth map for blocks over budget; one texture array for all views.
 	RGTexture import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs);
@@ -48,17 +48,17 @@ private:
 
 	CountBuffers buffers;
 	CachedViews views;
-	Drawn drawn;
-	OwnedBuffer masks;
-	uint32_t mask_turn_count = 0;
+	CachedState cached;
+	OwnedBuffer masks;					// mask tables of all sample sets, see import_masks
+	uint32_t mask_sample_set_count = 0; // number of sets in masks
 	OwnedTexture depth_map;
 
-	// This frame.
+	// State of this frame.
 	CountSettings settings;
-	bool has_casters = false; // some caster has faces
-	bool may_filter = false;  // blocks may have more edges than the budget
-	bool are_casters_found = false;
-	RGBuffer constants; // CountLightConstants, for the passes that find faces
+	bool has_casters = false;		// some caster has faces
+	bool may_filter = false;		// blocks may have more edges than the budget
+	bool are_casters_found = false; // the passes of add_find_passes were added
+	RGBuffer constants;				// CountLightConstants, for the passes that find faces
 	RGTexture frame_depth_map;
 	RGTexture debug_image;
 };

@@ -12,7 +12,7 @@ namespace gnomon {
 std::vector<glm::vec4> build_jitter_offsets(uint32_t p_ring_count) {
 	constexpr uint32_t SET_COUNT = JITTERED_PCF_SETS_PER_SIDE * JITTERED_PCF_SETS_PER_SIDE;
 	std::mt19937 random(1);
-	// Not std::uniform_real_distribution, whose numbers differ between libraries.
+	// Uniform in [0, 1). std::uniform_real_distribution differs between standard libraries.
 	const auto next = [&] { return random() / 4294967296.0; };
 	std::vector<glm::vec2> offsets;
 	for (uint32_t set = 0; set < SET_COUNT; ++set) {

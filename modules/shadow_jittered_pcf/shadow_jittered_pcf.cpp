@@ -24,7 +24,7 @@ void ShadowJitteredPcf::get_light_properties(PropertyList &r_list) const {
 
 void ShadowJitteredPcf::get_quality_settings(
 		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
-	// One radius serves one light size; which is best is what the report shows.
+	// One radius suits one light size. The error report shows which is best.
 	for (const double radius_uv : { 0.003, 0.01, 0.03 }) {
 		r_settings.push_back(
 				{ text("radius ", radius_uv), { { "jittered_pcf_radius_uv", radius_uv } } });

@@ -5,13 +5,13 @@
 namespace gnomon {
 
 /// A shadow map filtered over a disc of one radius for all pixels, with taps that differ from pixel
-/// to pixel, so that banding becomes noise. The outermost ring of taps decides whether the rest is
-/// needed: where it is all lit or all hidden, its answer is final. Blind to the light's size.
+/// to pixel, so that banding becomes noise. The outermost ring of taps decides whether the others
+/// are needed: where it is all lit or all hidden, that is the result. Ignores the light's size.
 class ShadowJitteredPcf : public DepthMapTechnique {
 public:
 	ShadowJitteredPcf() :
 			DepthMapTechnique("shadow_jittered_pcf/resolve.comp", "jittered_pcf_map_size",
-					CachedViews::Reads::ACROSS_VIEWS) {}
+					CachedViews::FilterReach::ADJACENT_VIEWS) {}
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_quality_settings(
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;
@@ -22,7 +22,7 @@ private:
 			std::vector<PassBinding> p_bindings) override;
 
 	OwnedBuffer offsets;
-	uint32_t offset_ring_count = 0; // of what `offsets` holds
+	uint32_t offset_ring_count = 0; // number of rings in `offsets`
 };
 
 } // namespace gnomon

@@ -9,8 +9,8 @@ namespace gnomon {
 namespace {
 
 constexpr double GOLDEN_ANGLE_RAD = 2.399963229728653;
-// 1 / plastic number. The golden ratio would be correlated with the golden angle, and so would the
-// radius with the direction.
+// 1 / plastic number. With the golden ratio instead, the radius would correlate with the direction,
+// which advances by the golden angle.
 constexpr double RADIUS_STEP = 0.7548776662466927;
 
 glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
@@ -19,25 +19,26 @@ glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
 	return radius * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
 }
 
-/// Inverts F(x) = 2/pi (asin x - x sqrt(1 - x^2)), the fraction of the points within x R.
-double compute_ball_radius(double p_share) {
+/// Radius, as a fraction of R, within which the fraction p_fraction of an omni light's points are:
+/// inverts F(x) = 2/pi (asin x - x sqrt(1 - x^2)) by bisection.
+double compute_ball_radius(double p_fraction) {
 	double low = 0;
 	double high = 1;
 	for (int step = 0; step < 50; ++step) {
 		const double x = 0.5 * (low + high);
-		const double share = (std::asin(x) - x * std::sqrt(1 - x * x)) * 2 / glm::pi<double>();
-		(share < p_share ? low : high) = x;
+		const double fraction = (std::asin(x) - x * std::sqrt(1 - x * x)) * 2 / glm::pi<double>();
+		(fraction < p_fraction ? low : high) = x;
 	}
 	return 0.5 * (low + high);
 }
 
 glm::dvec3 compute_ball_point(uint32_t p_index, uint32_t p_count) {
-	// A Fibonacci sphere gives the direction; the radius visits its strata in another order.
+	// A Fibonacci sphere gives the direction. The radii are stratified in an independent order.
 	const double z = 1 - 2 * (p_index + 0.5) / p_count;
 	const double angle_rad = GOLDEN_ANGLE_RAD * p_index;
-	const double share = std::fmod(0.5 + p_index * RADIUS_STEP, 1.0);
+	const double fraction = std::fmod(0.5 + p_index * RADIUS_STEP, 1.0);
 	const double ring = std::sqrt(std::max(0.0, 1 - z * z));
-	return compute_ball_radius(share) *
+	return compute_ball_radius(fraction) *
 			glm::dvec3(ring * std::cos(angle_rad), ring * std::sin(angle_rad), z);
 }
 

@@ -11,8 +11,8 @@ namespace gnomon {
 class ShadowMap : public DepthMapTechnique {
 public:
 	ShadowMap() :
-			DepthMapTechnique(
-					"shadow_map/resolve.comp", "shadow_map_size", CachedViews::Reads::OWN_VIEW) {}
+			DepthMapTechnique("shadow_map/resolve.comp", "shadow_map_size",
+					CachedViews::FilterReach::SINGLE_VIEW) {}
 	void get_light_properties(PropertyList &r_list) const override;
 
 private:

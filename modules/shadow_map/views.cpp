@@ -61,7 +61,8 @@ void Views::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 			r_plan.skip_light_view(index, "the camera sees no receiver in it");
 		}
 	}
-	is_all_empty = std::all_of(is_empty.begin(), is_empty.end(), [](bool p_is) { return p_is; });
+	is_all_empty = std::all_of(
+			is_empty.begin(), is_empty.end(), [](bool p_is_view_empty) { return p_is_view_empty; });
 }
 
 // All passes are recorded here and not in the views' hooks: all points share one map, so the pass
@@ -94,7 +95,7 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 			}
 		}
 		if (!is_map_written) {
-			// No map has been drawn yet. It is bound although it is not read, so it must exist.
+			// No map has been drawn yet. It is bound although no texel is read, so it must exist.
 			add_depth_pass(r_graph, "empty map", p_inputs, views[0], {}, map, 0);
 			is_map_written = true;
 		}

@@ -4,8 +4,9 @@
 
 namespace gnomon {
 
-/// The mean of N hard shadow maps from N points of the light: the brute-force baseline. Converges
-/// to the exact mask with N; costs N times as much as a hard shadow map, every frame.
+/// The mean of N hard shadow maps from N points of the light, as a brute-force baseline. Converges
+/// to the exact mask as N and the map size grow. Costs N times as much as a hard shadow map, every
+/// frame.
 class Views : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;

@@ -16,9 +16,9 @@ void ShadowPcss::get_light_properties(PropertyList &r_list) const {
 }
 
 ShadowLimits ShadowPcss::get_limits(const PropertyValues & /*p_properties*/) const {
-	// For nearer casters the blocker search is wider than the shadows: see the sweep near_caster in
+	// A nearer caster makes the blocker search wider than its shadow, see the sweep near_caster in
 	// doc/stability.md.
-	return { .least_caster_distance_radii = 5 };
+	return { .min_caster_distance_radii = 5 };
 }
 
 void ShadowPcss::get_quality_settings(
@@ -33,7 +33,7 @@ void ShadowPcss::filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p
 	shader::ShadowPcssPush push = {};
 	push.empty_views = p_empty_views;
 	push.tap_count = static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("pcss_taps")));
-	push.disc_radius = p_inputs.light.get_disc_radius();
+	push.light_radius = p_inputs.light.get_disc_radius();
 	for (uint32_t view = 0; view < p_inputs.views.size(); ++view) {
 		push.nearest_w[view] = compute_nearest_w(p_inputs, view);
 	}

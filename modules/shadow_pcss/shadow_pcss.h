@@ -6,13 +6,13 @@ namespace gnomon {
 
 /// Percentage-closer soft shadows (Fernando 2005), as used in games: the mean blocker depth, from N
 /// taps of a depth map, gives the penumbra width, and N more taps over that width give the
-/// visibility. There is one depth map, so blockers behind other blockers are unknown. Noisy when N
-/// is small for the width.
+/// visibility. A depth map has only the nearest surface, so blockers behind others are missed. The
+/// result is noisy when N is small for the width.
 class ShadowPcss : public DepthMapTechnique {
 public:
 	ShadowPcss() :
 			DepthMapTechnique("shadow_pcss/resolve.comp", "pcss_map_size",
-					CachedViews::Reads::ACROSS_VIEWS) {}
+					CachedViews::FilterReach::ADJACENT_VIEWS) {}
 	ShadowLimits get_limits(const PropertyValues &p_properties) const override;
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_quality_settings(

@@ -9,9 +9,9 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t VERTICES_PER_HALF = 6;
-// Fins nearer to the light than this fraction of the farthest distance are clamped to it, so that
-// inner depths, which are divided by K, stay far above the smallest float.
-constexpr float NEAREST_PER_FARTHEST = 1e-6f;
+// Distances of fins from the light are clamped to at least this fraction of the farthest distance.
+// Otherwise inner depths, which are divided by inner_divisor (K), could underflow in float32.
+constexpr float MIN_DISTANCE_FRACTION = 1e-6f;
 
 struct FinDraw {
 	const GpuTopology *gpu = nullptr;
@@ -20,7 +20,7 @@ struct FinDraw {
 };
 
 std::vector<FinDraw> build_draws(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
-		const SilhouetteCasters &p_casters, TopologyPart p_parts) {
+		const SilhouetteCasters &p_casters, TopologyBuffer p_buffers) {
 	std::vector<FinDraw> draws;
 	const LightView &view = p_inputs.views[p_view_index];
 	for (uint32_t index : p_inputs.casters[p_view_index].instances) {
@@ -29,12 +29,12 @@ std::vector<FinDraw> build_draws(const ShadowTechnique::Inputs &p_inputs, uint32
 			continue;
 		}
 		FinDraw draw;
-		draw.gpu =
-				&p_inputs.meshes.get_topology(p_inputs.scene.instances[index].caster_mesh, p_parts);
+		draw.gpu = &p_inputs.meshes.get_topology(
+				p_inputs.scene.instances[index].caster_mesh, p_buffers);
 		draw.draw_index = static_cast<uint32_t>(caster - p_casters.casters.data());
 		const glm::dmat4 &world_from_node = p_inputs.scene.instances[index].world_from_node;
 		draw.push.view_from_node = glm::mat4(view.view_from_world * world_from_node);
-		draw.push.light_node = caster->light_node;
+		draw.push.light_position_node = caster->light_position_node;
 		draw.push.first_in_list = caster->first_in_list;
 		draw.push.normal_sign =
 				compute_normal_sign(*caster->gpu->topology, p_inputs.scene.instances[index]);
@@ -102,7 +102,7 @@ shader::FinsViewConstants compute_fins_view_constants(const ShadowTechnique::Inp
 		farthest_m = std::max(farthest_m, view.compute_distance_range_m(instance).y);
 	}
 	farthest_m += std::max(p_settings.outer_width_m, p_settings.inner_width_m);
-	const float nearest_limit_m = static_cast<float>(farthest_m) * NEAREST_PER_FARTHEST;
+	const float nearest_limit_m = static_cast<float>(farthest_m) * MIN_DISTANCE_FRACTION;
 	shader::FinsViewConstants constants = {};
 	constants.half_extent = view.half_extent;
 	constants.depth_scale = view.is_orthographic ? 1.0f / (view.far_m - view.near_m) : view.near_m;
@@ -125,7 +125,7 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 	const RGBuffer constants = r_graph.upload_constants("fins view",
 			compute_fins_view_constants(p_inputs, p_view_index, p_settings), BufferUsage::UNIFORM);
 	const RGTexture layer_1 = p_targets.layer_1;
-	// When layer 2 was not peeled, layer 1 is bound instead, and not read.
+	// When layer 2 was not peeled, layer 1 fills its binding and is not read from it.
 	const RGTexture layer_2 = p_targets.layer_2 ? p_targets.layer_2 : layer_1;
 	PassBuilder pass = r_graph.add_pass(text("fins view ", p_view_index));
 	pass.reads(constants, Access::UNIFORM_READ)
@@ -133,9 +133,9 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			.reads(layer_2, Access::SHADER_READ_FRAGMENT)
 			.color(p_targets.color, LoadOp::CLEAR, glm::vec4(0.0f), p_view_index)
 			.depth(p_targets.penumbra_depth, LoadOp::CLEAR, 0.0f, p_view_index);
-	const TopologyPart parts = TopologyPart::POSITIONS | TopologyPart::NORMALS |
-			(is_geometry_shader ? TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY
-								: TopologyPart::EDGES);
+	const TopologyBuffer parts = TopologyBuffer::POSITIONS | TopologyBuffer::NORMALS |
+			(is_geometry_shader ? TopologyBuffer::FACE_FLAGS | TopologyBuffer::ADJACENCY
+								: TopologyBuffer::EDGES);
 	const std::vector<FinDraw> draws = build_draws(p_inputs, p_view_index, p_casters, parts);
 	if (draws.empty() || !p_settings.has_fins()) {
 		pass.execute([](PassContext &) {}); // only clears the attachments

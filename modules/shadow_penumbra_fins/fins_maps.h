@@ -13,20 +13,24 @@ namespace gnomon {
 /// texture array with one array layer per light view.
 class FinsMaps {
 public:
-	/// Creates the textures that are needed and missing, and frees the others. Returns false when
-	/// the textures are new and hold nothing from earlier frames.
+	/// Recreates all textures unless they match the parameters already. Returns true when they
+	/// match and hold the content of earlier frames. p_light: the light's name, for the textures'
+	/// names. p_size_px: texels of one view. p_has_fins: whether penumbra maps are needed.
 	bool prepare(RenderingDevice &p_device, const std::string &p_light, glm::uvec2 p_size_px,
 			uint32_t p_view_count, uint32_t p_layer_count, bool p_has_fins);
+	/// Frees the textures.
 	void reset();
 
-	/// This frame's handles, imported on first use.
+	/// Imports the textures into this frame's graph, unless that was done already.
 	void import(RenderGraph &r_graph);
 	bool is_imported() const { return !frame_layers.empty(); }
+	/// Drops this frame's handles.
 	void forget_frame();
 	const std::vector<RGTexture> &get_layers() const { return frame_layers; }
-	/// layer_2 is empty when it was not peeled.
+	/// Returns this frame's handles; layer_2 is null when it was not peeled.
 	FinTargets get_targets() const;
-	/// The third depth layer. When it was not peeled: the first, only to fill the binding.
+	/// Returns the third depth layer. When it was not peeled, returns the first one, which then
+	/// only fills the binding.
 	RGTexture get_layer_3() const;
 
 private:

@@ -9,8 +9,8 @@ namespace gnomon {
 
 namespace {
 
-// Derived beta, as a fraction of S.
-constexpr float DERIVED_BETA_PER_SCENE_SIZE = 0.25f;
+// Beta, as a fraction of the scene size S, when the property is -1.
+constexpr float DEFAULT_BETA_PER_SCENE_SIZE = 0.25f;
 // From this number of triangles in a view on, one pass is faster than three peels on a software
 // driver: at 7,692 triangles three peels took 3.6 times as long as a shadow map and one pass 4.6
 // times, at 30,012 4.1 and 3.3 times (doc/benchmarks.md). Not measured on a GPU.
@@ -96,7 +96,7 @@ FinsSettings read_fins_settings(
 		const float beta_m = static_cast<float>(std::get<double>(properties.at(p_id + "_beta")));
 		settings.beta_m = beta_m >= 0
 				? beta_m
-				: DERIVED_BETA_PER_SCENE_SIZE * static_cast<float>(p_inputs.scene.scene_size_m);
+				: DEFAULT_BETA_PER_SCENE_SIZE * static_cast<float>(p_inputs.scene.scene_size_m);
 		settings.layer_count = static_cast<uint32_t>(read_int(properties, p_id + "_layers"));
 		const std::string &peeling = read_choice(p_inputs.settings, "peeling");
 		if (peeling != "auto") {
@@ -106,7 +106,7 @@ FinsSettings read_fins_settings(
 	return settings;
 }
 
-bool FinsSettings::gives_maps_of(const FinsSettings &p_other) const {
+bool FinsSettings::gives_same_maps(const FinsSettings &p_other) const {
 	return outer_width_m == p_other.outer_width_m && inner_width_m == p_other.inner_width_m &&
 			beta_m == p_other.beta_m && map_size_px == p_other.map_size_px &&
 			layer_count == p_other.layer_count && curve == p_other.curve &&

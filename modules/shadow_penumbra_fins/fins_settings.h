@@ -18,35 +18,38 @@ enum class FinMethod { GEOMETRY_SHADER, COMPUTE };
 struct FinsSettings {
 	float outer_width_m = 0; // r of Sun et al. 2010
 	float inner_width_m = 0; // t
-	float beta_m = 0;
+	float beta_m = 0;		 // inner fins farther than this behind layer 1 are discarded
 	uint32_t map_size_px = 1024;
-	uint32_t layer_count = 1; // as requested; 1 without an inner half
+	uint32_t layer_count = 1; // 1..3; without an inner half 1
 	uint32_t curve = FINS_CURVE_SINE;
 	bool has_inner_half = true;		// false: the technique has outer fins only
 	std::optional<Peeling> peeling; // none: whichever is faster, see choose_peeling
 	FinMethod method = FinMethod::COMPUTE;
 
 	bool has_fins() const { return outer_width_m > 0 || inner_width_m > 0; }
-	/// True when both settings give the same maps, bit for bit, whatever the method.
-	bool gives_maps_of(const FinsSettings &p_other) const;
+	/// True when both settings give the same maps, bit for bit. `method` and `peeling` do not
+	/// matter.
+	bool gives_same_maps(const FinsSettings &p_other) const;
 };
 
-/// Adds the properties of a technique of this module. Their names begin with p_id.
+/// Adds the light properties of a technique of this module. Their names begin with p_id.
+/// p_has_inner_half: false for the technique with outer fins only.
 void add_fins_properties(const std::string &p_id, bool p_has_inner_half, PropertyList &r_list);
 
-/// Adds the technique's settings.
+/// Adds the settings that apply to all lights: "method" and, with inner fins, "peeling".
 void add_fins_settings(bool p_has_inner_half, PropertyList &r_list);
 
-/// Reads only the widths and the map size, on which the light's views depend.
+/// Reads only the widths and the map size: the light's views depend on no other setting.
 FinsSettings read_fins_view_settings(const std::string &p_id, bool p_has_inner_half,
 		const LightSnapshot &p_light, const PropertyValues &p_properties);
 
-/// Reads all settings, with the method chosen for this device.
+/// Reads all settings and chooses the method for this device.
 FinsSettings read_fins_settings(
 		const std::string &p_id, bool p_has_inner_half, const ShadowTechnique::Inputs &p_inputs);
 
-/// Chooses how to peel one view. ONE_PASS needs stores in fragment shaders, and layers that fit
-/// into one storage buffer; without these, PASSES is returned even when ONE_PASS is requested.
+/// Chooses how to peel one view. ONE_PASS needs stores in fragment shaders, copies from buffers to
+/// textures, more than one layer, and layers that fit into one storage buffer. Otherwise PASSES is
+/// returned even when ONE_PASS is requested.
 Peeling choose_peeling(const FinsSettings &p_settings, const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index);
 

@@ -10,7 +10,8 @@ namespace gnomon {
 
 namespace {
 
-/// A word that a peel sets when it draws any fragment: the predicate of the next peel.
+/// Creates and clears a 32-bit flag. One peel sets it when it writes a fragment, and the next peel
+/// is executed only if it is set.
 RGBuffer add_found_flag(RenderGraph &r_graph, uint32_t p_view_index) {
 	const RGBuffer flag = r_graph.create_buffer({ "layer found", sizeof(uint32_t),
 			BufferUsage::STORAGE | BufferUsage::CONDITIONAL | BufferUsage::COPY_TARGET });
@@ -22,9 +23,9 @@ RGBuffer add_found_flag(RenderGraph &r_graph, uint32_t p_view_index) {
 	return flag;
 }
 
-/// False when a caster is closed: then its back faces fill the second layer. Only if true do the
-/// peels use the flag, since it costs time: the second peel of a ground and a sphere (5,132
-/// triangles, 800 x 800) took 7.0 ms instead of 4.6 on a software driver.
+/// Returns false when a caster is closed, since its back faces then fill the second layer. Peels
+/// use the flag only when this returns true, since it costs time: the second peel of a ground and a
+/// sphere (5,132 triangles, 800 x 800) took 7.0 ms instead of 4.6 on a software driver.
 bool may_layer_2_be_empty(const ShadowTechnique::Inputs &p_inputs, const CasterList &p_casters) {
 	return std::none_of(
 			p_casters.instances.begin(), p_casters.instances.end(), [&](uint32_t p_index) {
@@ -43,11 +44,11 @@ bool is_layer_3_conditional(const ShadowTechnique::Inputs &p_inputs, uint32_t p_
 
 namespace {
 
-/// How one peel uses the flag.
+/// How one peel uses the flag of add_found_flag.
 enum class FlagUse { NONE, WRITES, READS };
 
 void add_peel(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
-		const std::string &p_name, RGTexture p_nearer, RGTexture p_layer, FlagUse p_use,
+		const std::string &p_name, RGTexture p_previous_layer, RGTexture p_layer, FlagUse p_use,
 		RGBuffer p_found) {
 	RasterPipelineDesc desc = make_caster_pipeline_desc(p_inputs.device);
 	desc.name = "peel";
@@ -55,7 +56,7 @@ void add_peel(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, uin
 													: "shadow_penumbra_fins/peel.frag";
 	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
 	PassBuilder pass = r_graph.add_pass(p_name);
-	pass.reads(p_nearer, Access::SHADER_READ_FRAGMENT)
+	pass.reads(p_previous_layer, Access::SHADER_READ_FRAGMENT)
 			.depth(p_layer, LoadOp::CLEAR, 0.0f, p_view_index);
 	if (p_use == FlagUse::WRITES) {
 		pass.writes(p_found, Access::SHADER_WRITE_FRAGMENT, PassBuilder::Content::UPDATE);
@@ -66,7 +67,8 @@ void add_peel(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, uin
 						 draws = build_caster_draws(p_inputs, p_inputs.views[p_view_index],
 								 p_inputs.casters[p_view_index])](PassContext &p_context) {
 		CommandList &commands = p_context.commands;
-		std::vector<Binding> bindings = { { PEEL_BINDING_NEARER, p_context.get(p_nearer) } };
+		std::vector<Binding> bindings = { { PEEL_BINDING_PREVIOUS_LAYER,
+				p_context.get(p_previous_layer) } };
 		bindings[0].layer = p_view_index;
 		if (p_use == FlagUse::WRITES) {
 			bindings.emplace_back(PEEL_BINDING_FOUND, p_context.get(p_found));
@@ -100,7 +102,7 @@ void add_peels(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, ui
 	}
 }
 
-void add_one_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+void add_one_pass_peeling(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index, std::span<const RGTexture> p_layers, RGBuffer &r_texels) {
 	const LightView &view = p_inputs.views[p_view_index];
 	const uint32_t texel_count = view.size_px.x * view.size_px.y;
@@ -159,7 +161,7 @@ void add_layer_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 	GNOMON_ASSERT(!p_layers.empty() && p_layers.size() <= FINS_MAX_LAYERS, p_layers.size(),
 			" depth layers");
 	if (p_peeling == Peeling::ONE_PASS && p_layers.size() > 1) {
-		add_one_pass(r_graph, p_inputs, p_view_index, p_layers, r_texels);
+		add_one_pass_peeling(r_graph, p_inputs, p_view_index, p_layers, r_texels);
 	} else {
 		add_peels(r_graph, p_inputs, p_view_index, p_layers);
 	}

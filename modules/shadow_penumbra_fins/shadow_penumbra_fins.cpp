@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t BORDER_PX = 2; // bilinear lookups, and the 3 x 3 texels of an undecided pixel
+constexpr uint32_t BORDER_PX = 2; // for bilinear lookups and search_neighbourhood's 3 x 3 texels
 
 } // namespace
 
@@ -18,9 +18,9 @@ ShadowLimits ShadowPenumbraFins::get_limits(const PropertyValues & /*p_propertie
 	// Wider fins overlap, and a texel holds only one fin: see the sweep fin_width in
 	// doc/stability.md.
 	if (!has_inner_half) {
-		return { .most_outer_width_sizes = 0.075 };
+		return { .max_outer_width_sizes = 0.075 };
 	}
-	return { .most_outer_width_sizes = 0.15, .most_inner_width_sizes = 0.15 };
+	return { .max_outer_width_sizes = 0.15, .max_inner_width_sizes = 0.15 };
 }
 
 void ShadowPenumbraFins::get_light_properties(PropertyList &r_list) const {
@@ -52,7 +52,7 @@ void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const Lig
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const FinsSettings view_settings =
 			read_fins_view_settings(id, has_inner_half, p_light, p_properties);
-	// Inner fins are behind their own casters: only outer fins extend beyond them.
+	// Inner fins are inside their casters' outlines, so only outer fins enlarge the views.
 	r_views = build_light_views(
 			p_light, p_scene, view_settings.map_size_px, BORDER_PX, view_settings.outer_width_m);
 }
@@ -72,10 +72,10 @@ void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 }
 
 void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	views.begin(p_inputs, CachedViews::Reads::OWN_VIEW);
-	bool has_content = !views.may_forget();
+	views.begin(p_inputs, CachedViews::FilterReach::SINGLE_VIEW);
+	bool has_content = !views.may_free_maps();
 	if (views.is_all_empty()) {
-		if (views.may_forget()) {
+		if (views.may_free_maps()) {
 			maps.reset();
 		}
 		maps.forget_frame();
@@ -83,7 +83,7 @@ void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_pla
 		has_content = maps.prepare(p_inputs.device, p_inputs.light.name, p_inputs.views[0].size_px,
 				static_cast<uint32_t>(p_inputs.views.size()), settings.layer_count, draws_fins);
 	}
-	views.plan(p_inputs, r_plan, has_content && settings.gives_maps_of(drawn_settings));
+	views.plan(p_inputs, r_plan, has_content && settings.gives_same_maps(drawn_settings));
 	drawn_settings = settings;
 }
 
@@ -115,7 +115,7 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 						  is_layer_3_conditional(p_inputs, p_view_index);
 			  });
 	if (conditional_count > 0) {
-		r_plan.run(text("layer 3 only if layer 2 holds anything, views: ", conditional_count));
+		r_plan.run(text("layer 3 only if layer 2 is not empty, views: ", conditional_count));
 	}
 	if (!draws_fins) {
 		r_plan.skip("fins", "r and t are 0: a plain shadow map");
@@ -136,9 +136,9 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 		r_plan.skip(text("fins at ", zero_normal_count, " vertices"),
 				"the normals of their faces cancel");
 	}
-	if (fin_casters.flat_instance_count > 0) {
-		r_plan.skip(text("fins of ", fin_casters.flat_instance_count, " instances"),
-				"a scale of theirs is 0");
+	if (fin_casters.collapsed_instance_count > 0) {
+		r_plan.skip(text("fins of ", fin_casters.collapsed_instance_count, " instances"),
+				"their transform collapses them to a line or a point");
 	}
 }
 

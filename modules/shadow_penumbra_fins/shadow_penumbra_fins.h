@@ -7,11 +7,13 @@ namespace gnomon {
 
 /// Approximate soft shadows of Sun, Lü, Liu, Wu 2010: three depth layers from the light, and fins
 /// that are extruded from each silhouette edge along the vertex normals, r outwards and t inwards,
-/// and rasterised into a penumbra map that each receiver looks up once. With Halves::OUTER the
-/// method to which the paper compares (Lü et al. 2009): one depth layer, only outer fins.
+/// and rasterised into a penumbra map that each receiver looks up. Halves::OUTER selects the
+/// method with which the paper compares its own (Lü et al. 2009): one depth layer and outer fins
+/// only.
 ///
 /// Spaces: fins are built in the light view's space (metres, float32); depths are compared as the
-/// view stores them (reversed, float32); the receiver is compared on its own plane at the texel.
+/// view stores them (reversed, float32); for each texel, the receiver's depth is that of its
+/// tangent plane there.
 class ShadowPenumbraFins : public ShadowTechnique {
 public:
 	enum class Halves { OUTER, OUTER_AND_INNER };
@@ -39,26 +41,28 @@ public:
 private:
 	void plan_views(const Inputs &p_inputs, TechniquePlan &r_plan);
 	void plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan);
-	/// Depths that debug views of layers show black and white: the distance of the farthest caster
-	/// and a third of it; orthographic: the whole range.
+	/// Returns the stored depths that debug views of layers show as black and as white: those at
+	/// the distance of the farthest caster (plus a fin's width) of the first view that is not
+	/// empty, and at a third of it; orthographic: 0 and 1.
 	glm::vec2 compute_layer_range(const Inputs &p_inputs) const;
-	/// Adds a pass of resolve.comp, hard.comp or cases.comp. Returns one texel per pixel.
+	/// Adds a pass of p_shader ("resolve", "hard" or "cases"). Returns its output texture, with one
+	/// texel per pixel of the image.
 	RGTexture add_resolve_pass(
 			RenderGraph &r_graph, const Inputs &p_inputs, const std::string &p_shader);
 
 	const bool has_inner_half;
 	const std::string id;
 	FinsMaps maps;
-	OwnedSampler sampler; // linear
-	FinsSettings drawn_settings;
+	OwnedSampler sampler;		 // linear
+	FinsSettings drawn_settings; // with which the cached maps were drawn
 	CachedViews views;
 
-	// This frame.
+	// State of the current frame.
 	FinsSettings settings;
 	bool draws_fins = false;
 	SilhouetteCasters fin_casters;
 	SilhouetteLists edge_lists;
-	RGBuffer layer_texels; // see add_layer_passes
+	RGBuffer layer_texels; // r_texels of add_layer_passes
 	RGTexture cases;
 	glm::vec2 layer_range = glm::vec2(0.0f, 1.0f); // depths that the debug views show
 };

@@ -11,12 +11,14 @@ namespace gnomon {
 
 namespace {
 
-const uint32_t ON_PLANE = 1; // in the stencil: of the plane, and not dark yet
+const uint32_t ON_PLANE = 1; // stencil value of the plane's pixels that are not in shadow yet
 
-const float SAME_PLANE = 1e-5f; // of S: a pixel so near to the plane is in it
-const float SAME_PLANE_PER_DISTANCE = 2e-6f;
+// Maximum distance of a pixel's surface from the plane: a fraction of S plus a fraction of the
+// distance from the camera.
+const float PLANE_TOLERANCE = 1e-5f;
+const float PLANE_TOLERANCE_PER_DISTANCE = 2e-6f;
 
-/// What the shaders read of the host's surfaces.
+/// Declares what a pass with plane.frag reads: camera constants, surfaces and receivers.
 void read_gbuffer(PassBuilder &r_pass, const ShadowTechnique::Inputs &p_inputs) {
 	r_pass.reads(p_inputs.frame, Access::UNIFORM_READ)
 			.reads(p_inputs.depth, Access::SHADER_READ_FRAGMENT)
@@ -24,14 +26,14 @@ void read_gbuffer(PassBuilder &r_pass, const ShadowTechnique::Inputs &p_inputs) 
 			.reads(p_inputs.receivers, Access::SHADER_READ_FRAGMENT);
 }
 
-/// The plane through moved receivers.
+/// Moves the plane towards the light by the receivers' offset.
 glm::dvec4 move_plane(const ShadowTechnique::Inputs &p_inputs, const glm::dvec4 &p_plane) {
 	return p_plane - glm::dvec4(0, 0, 0, RECEIVER_OFFSET * p_inputs.scene.scene_size_m);
 }
 
 struct PlanarDraw {
 	const GpuMesh *mesh = nullptr;
-	shader::PlanarPush push;
+	shader::FlattenPush push;
 };
 
 std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
@@ -58,8 +60,8 @@ std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		draw.mesh = &p_inputs.meshes.get(instance.caster_mesh);
 		draw.push.clip_from_node = glm::mat4(clip_from_relative * relative_from_node);
 		draw.push.plane_node = glm::vec4(glm::transpose(relative_from_node) * p_plane);
-		// Beyond the light nothing is hidden; a sun has no beyond.
-		draw.push.greatest_height_m = is_point ? static_cast<float>(light_height) : 1e30f;
+		// Points higher than the light hide nothing. No point is higher than a sun.
+		draw.push.max_height_m = is_point ? static_cast<float>(light_height) : 1e30f;
 		draws.push_back(draw);
 	}
 	return draws;
@@ -91,29 +93,29 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 		const ReceiverPlane &p_plane, uint32_t p_plane_index,
 		const std::vector<uint32_t> &p_casters, const PlanarTargets &p_targets) {
 	const glm::dvec4 plane(p_plane.normal, p_plane.offset_m);
-	RasterPipelineDesc seen_desc = make_screen_desc("plane", "shadow_planar/plane.frag");
-	seen_desc.color_formats.clear();
-	seen_desc.stencil.reference = ON_PLANE;
-	seen_desc.stencil.front.pass = seen_desc.stencil.back.pass = StencilOp::REPLACE;
-	const PipelineRID seen_pipeline = p_inputs.device.get_raster_pipeline(seen_desc);
-	shader::PlanePush seen_push = {};
-	seen_push.plane = glm::vec4(plane);
-	seen_push.tolerance_m = SAME_PLANE * static_cast<float>(p_inputs.scene.scene_size_m);
-	seen_push.tolerance_per_distance = SAME_PLANE_PER_DISTANCE;
+	RasterPipelineDesc mark_desc = make_screen_desc("plane", "shadow_planar/plane.frag");
+	mark_desc.color_formats.clear();
+	mark_desc.stencil.reference = ON_PLANE;
+	mark_desc.stencil.front.pass = mark_desc.stencil.back.pass = StencilOp::REPLACE;
+	const PipelineRID mark_pipeline = p_inputs.device.get_raster_pipeline(mark_desc);
+	shader::PlanePush mark_push = {};
+	mark_push.plane = glm::vec4(plane);
+	mark_push.tolerance_m = PLANE_TOLERANCE * static_cast<float>(p_inputs.scene.scene_size_m);
+	mark_push.tolerance_per_distance = PLANE_TOLERANCE_PER_DISTANCE;
 	const RGBuffer frame = p_inputs.frame;
 	const RGTexture depth = p_inputs.depth;
 	const RGTexture normal = p_inputs.geometric_normal;
 	const RGTexture receivers = p_inputs.receivers;
-	PassBuilder seen = r_graph.add_pass(text("plane ", p_plane_index));
-	read_gbuffer(seen, p_inputs);
-	seen.depth(p_targets.stencil, LoadOp::CLEAR, 0.0f).execute([=](PassContext &p_context) {
+	PassBuilder mark_pass = r_graph.add_pass(text("plane ", p_plane_index));
+	read_gbuffer(mark_pass, p_inputs);
+	mark_pass.depth(p_targets.stencil, LoadOp::CLEAR, 0.0f).execute([=](PassContext &p_context) {
 		CommandList &commands = p_context.commands;
-		commands.bind_pipeline(seen_pipeline);
+		commands.bind_pipeline(mark_pipeline);
 		commands.bind_resources({ { PLANAR_BINDING_FRAME, p_context.get(frame) },
 				{ PLANAR_BINDING_DEPTH, p_context.get(depth) },
 				{ PLANAR_BINDING_NORMAL, p_context.get(normal) },
 				{ PLANAR_BINDING_RECEIVERS, p_context.get(receivers) } });
-		commands.push_constants(seen_push);
+		commands.push_constants(mark_push);
 		commands.draw(3);
 	});
 
@@ -125,7 +127,7 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 	desc.vertex_strides_bytes = { sizeof(glm::vec3) };
 	desc.color_formats = { Format::R16_SFLOAT };
 	desc.has_stencil = true;
-	// What is dark once is not drawn again.
+	// The first caster that covers a pixel clears its stencil, so that it is not drawn again.
 	desc.stencil.front = { CompareOp::EQUAL, StencilOp::KEEP, StencilOp::KEEP, StencilOp::ZERO };
 	desc.stencil.back = desc.stencil.front;
 	desc.stencil.reference = ON_PLANE;

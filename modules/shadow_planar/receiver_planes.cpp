@@ -7,15 +7,21 @@ namespace gnomon {
 
 namespace {
 
-const double LEAST_AREA_SHARE = 0.05;
-const size_t MOST_PLANES = 16;
-// A mesh of more orientations than this is curved, whatever it is declared to be.
-const size_t MOST_GROUPS = 64;
-const double SAME_NORMAL = 1e-6; // 1 less the cosine
-const double SAME_OFFSET = 1e-5; // of S
-const double GRAZING = 1e-6; // a height in parts of S, or a cosine: a lower light lights nothing
+const double MIN_AREA_FRACTION = 0.05; // minimum area of a plane as a fraction of the lit area
+const size_t MAX_PLANE_COUNT = 16;
+// Maximum number of planes per instance. A mesh with more is taken as curved: faces in other planes
+// get none.
+const size_t MAX_PLANES_PER_INSTANCE = 64;
+const double MAX_NORMAL_DEVIATION =
+		1e-6; // maximum of 1 - cosine between normals of faces in one plane
+const double MAX_OFFSET_DIFFERENCE =
+		1e-5; // maximum difference of their offsets, as a fraction of S
+// Minimum height of the light above a plane that it lights, as a fraction of S. Directional:
+// minimum cosine of its angle to the normal.
+const double MIN_LIGHT_HEIGHT = 1e-6;
 
-/// A face's plane, its normal towards the light where the mesh has two sides.
+/// Computes a face's plane. The normal of a double-sided face points towards the light. p_corners:
+/// three vertex indices.
 ReceiverPlane make_plane(const InstanceSnapshot &p_instance, const Mesh &p_mesh,
 		const LightSnapshot &p_light, const CameraSnapshot &p_camera, const uint32_t *p_corners) {
 	const auto get_corner = [&](int p_corner) {
@@ -44,11 +50,12 @@ ReceiverPlane make_plane(const InstanceSnapshot &p_instance, const Mesh &p_mesh,
 bool is_lit(
 		const ReceiverPlane &p_plane, const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
 	const bool is_directional = p_light.type == LightType::DIRECTIONAL;
-	const double least = GRAZING * (is_directional ? 1.0 : p_scene.scene_size_m);
-	return p_plane.area_m2 > 0 && compute_light_height(p_plane, p_light, p_scene.camera) > least;
+	const double min_height = MIN_LIGHT_HEIGHT * (is_directional ? 1.0 : p_scene.scene_size_m);
+	return p_plane.area_m2 > 0 &&
+			compute_light_height(p_plane, p_light, p_scene.camera) > min_height;
 }
 
-/// The instance's lit planes; none where it is curved.
+/// Groups the instance's light-facing faces by plane. Adds their area to r_lit_area_m2.
 std::vector<ReceiverPlane> group_faces(const InstanceSnapshot &p_instance,
 		const LightSnapshot &p_light, const SceneSnapshot &p_scene, double &r_lit_area_m2) {
 	std::vector<ReceiverPlane> groups;
@@ -63,13 +70,13 @@ std::vector<ReceiverPlane> group_faces(const InstanceSnapshot &p_instance,
 		r_lit_area_m2 += face.area_m2;
 		const auto same =
 				std::find_if(groups.begin(), groups.end(), [&](const ReceiverPlane &p_group) {
-					return glm::dot(p_group.normal, face.normal) > 1 - SAME_NORMAL &&
+					return glm::dot(p_group.normal, face.normal) > 1 - MAX_NORMAL_DEVIATION &&
 							std::abs(p_group.offset_m - face.offset_m) <
-							SAME_OFFSET * p_scene.scene_size_m;
+							MAX_OFFSET_DIFFERENCE * p_scene.scene_size_m;
 				});
 		if (same != groups.end()) {
 			same->area_m2 += face.area_m2;
-		} else if (groups.size() < MOST_GROUPS) {
+		} else if (groups.size() < MAX_PLANES_PER_INSTANCE) {
 			groups.push_back(face);
 		}
 	}
@@ -97,20 +104,19 @@ ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSna
 		double lit_area_m2 = 0;
 		const size_t count_before = result.planes.size();
 		for (ReceiverPlane &plane : group_faces(instance, p_light, p_scene, lit_area_m2)) {
-			if (plane.area_m2 >= LEAST_AREA_SHARE * lit_area_m2) {
-				plane.instance_index = index;
+			if (plane.area_m2 >= MIN_AREA_FRACTION * lit_area_m2) {
 				result.planes.push_back(plane);
 			}
 		}
-		result.unfit_count += lit_area_m2 > 0 && result.planes.size() == count_before ? 1 : 0;
+		result.curved_count += lit_area_m2 > 0 && result.planes.size() == count_before ? 1 : 0;
 	}
 	std::stable_sort(result.planes.begin(), result.planes.end(),
 			[](const ReceiverPlane &p_left, const ReceiverPlane &p_right) {
 				return p_left.area_m2 > p_right.area_m2;
 			});
-	if (result.planes.size() > MOST_PLANES) {
-		result.skipped_count = static_cast<uint32_t>(result.planes.size() - MOST_PLANES);
-		result.planes.resize(MOST_PLANES);
+	if (result.planes.size() > MAX_PLANE_COUNT) {
+		result.skipped_count = static_cast<uint32_t>(result.planes.size() - MAX_PLANE_COUNT);
+		result.planes.resize(MAX_PLANE_COUNT);
 	}
 	return result;
 }

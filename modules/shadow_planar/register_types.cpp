@@ -9,7 +9,7 @@ void initialize_shadow_planar_module(ModuleLevel p_level) {
 	if (p_level != ModuleLevel::FEATURES) {
 		return;
 	}
-	ShadowTechniqueInfo info = { "planar", "Planar shadows, on declared planes alone", "Blinn 1988",
+	ShadowTechniqueInfo info = { "planar", "Planar shadows, on declared planes only", "Blinn 1988",
 		"#637939", [] { return std::make_unique<ShadowPlanar>(); } };
 	info.needs_planar_receivers = true;
 	ShadowRegistry::add(std::move(info));

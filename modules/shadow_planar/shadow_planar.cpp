@@ -25,11 +25,11 @@ void ShadowPlanar::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	}
 	if (other_count > 0) {
 		r_plan.skip(text("shadows on ", other_count, " other meshes"),
-				"planar shadows fall on declared planes alone");
+				"planar shadows fall on declared planes only");
 	}
-	if (receivers.unfit_count > 0) {
+	if (receivers.curved_count > 0) {
 		r_plan.skip(
-				text("shadows on ", receivers.unfit_count, " declared meshes"), "they are curved");
+				text("shadows on ", receivers.curved_count, " declared meshes"), "they are curved");
 	}
 	if (receivers.skipped_count > 0) {
 		r_plan.skip(text("shadows on ", receivers.skipped_count, " small planes"),

@@ -5,12 +5,12 @@
 
 namespace gnomon {
 
-/// The oldest trick: casters are flattened onto the planes that the scene declares, along the rays
-/// of the light's centre (Blinn 1988), and drawn there. Exact on those planes, hard, and nowhere
-/// else: what is not declared to be flat has no shadow on it.
+/// Planar shadows: casters are projected along the rays from the light's centre onto the planes
+/// that the scene declares, and drawn there (Blinn 1988). Hard shadows, exact on those planes.
+/// Surfaces that are not declared planar receive no shadow.
 ///
-/// Spaces: the projection is composed in double, relative to the camera; drawn in its clip space.
-/// Planes are moved by 5e-5 S towards the light, as receivers are.
+/// The projection is composed in double precision, camera-relative, and ends in the camera's clip
+/// space. Planes are moved by RECEIVER_OFFSET * S towards the light, as receivers are.
 class ShadowPlanar : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;
@@ -21,9 +21,9 @@ public:
 	std::vector<std::string> get_shader_files() const override;
 
 private:
-	// This frame.
+	// Of this frame.
 	ReceiverPlanes receivers;
-	std::vector<uint32_t> casters; // instances
+	std::vector<uint32_t> casters; // instance indices
 };
 
 } // namespace gnomon

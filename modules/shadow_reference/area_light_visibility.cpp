@@ -19,9 +19,10 @@ namespace {
 
 constexpr float MAX_RADIUS = 1e18f; // Embree drops coordinates beyond 1.8e18
 constexpr uint32_t MAX_SAMPLE_COUNT = 65536;
-constexpr uint32_t TILE_SIZE_PX = 8; // neighbours share the tree's nodes in the cache
-constexpr float PENUMBRA_MINIMUM = 0.002f;
-constexpr float PENUMBRA_MAXIMUM = 0.998f;
+constexpr uint32_t TILE_SIZE_PX = 8; // neighbouring pixels share BVH nodes in the CPU cache
+// Pixels with a visibility between these are penumbra pixels.
+constexpr float MIN_PENUMBRA_VISIBILITY = 0.002f;
+constexpr float MAX_PENUMBRA_VISIBILITY = 0.998f;
 
 void check_light(const AreaLight &p_light) {
 	if (!(p_light.disc_radius >= 0.0f && p_light.disc_radius <= MAX_RADIUS)) {
@@ -49,8 +50,9 @@ void check_options(const VisibilityOptions &p_options) {
 	}
 }
 
-/// The sum of what is left of the rays of one half of a pixel's samples.
-glm::dvec3 sum_visible(const CasterScene &p_scene, const DiscView &p_view,
+/// Returns the sum of the transmittances of the rays of one half of a pixel's samples. p_hash:
+/// selects the scramble of the samples.
+glm::dvec3 sum_transmittances(const CasterScene &p_scene, const DiscView &p_view,
 		const DiscSamples &p_samples, uint64_t p_hash) {
 	const uint32_t scramble_u = static_cast<uint32_t>(p_hash);
 	const uint32_t scramble_v = static_cast<uint32_t>(p_hash >> 32);
@@ -67,16 +69,16 @@ glm::dvec3 sum_visible(const CasterScene &p_scene, const DiscView &p_view,
 			set_ray(rays, i, p_view.origin, p_view.compute_ray(packet.x[i], packet.y[i]),
 					p_view.end);
 		}
-		glm::vec3 left[DiscSamples::PACKET_SIZE];
-		p_scene.trace(valid, rays, left);
+		glm::vec3 transmittances[DiscSamples::PACKET_SIZE];
+		p_scene.trace(valid, rays, transmittances);
 		for (uint32_t i = 0; i < lane_count; ++i) {
-			sum += glm::dvec3(left[i]);
+			sum += glm::dvec3(transmittances[i]);
 		}
 	}
 	return sum;
 }
 
-/// What all threads share while one image is made.
+/// State that all threads share while one image is computed.
 struct Job {
 	const CasterScene &scene;
 	std::span<const ReceiverPoint> points;
@@ -87,9 +89,9 @@ struct Job {
 	DiscSamples second_half;
 	bool has_second_half;
 	std::vector<float> &visibility;
-	std::vector<glm::vec3> &colors; // empty: all are alike
-	uint32_t spread_sample_count;
-	std::vector<float> half_error; // (A - B) sqrt(a b) / (a + b), see VisibilityResult
+	std::vector<glm::vec3> &colors; // empty without translucent casters
+	uint32_t spread_sample_count;	// also for a light without size, which else needs one sample
+	std::vector<float> half_error;	// per pixel, see compute_half_error
 	std::atomic<uint64_t> ray_count = 0;
 	std::atomic<uint32_t> next_tile = 0;
 	std::atomic<uint32_t> done_tile_count = 0;
@@ -111,7 +113,8 @@ void store_visibility(Job &r_job, uint32_t p_pixel, const glm::dvec3 &p_visibili
 	r_job.visibility[p_pixel] = compute_mask_luminance(r_job.colors[p_pixel]);
 }
 
-/// Of the means of two halves of a pixel's rays: |A - B| sqrt(a b) / (a + b).
+/// Returns the error estimated from the two halves of a pixel's rays: (A - B) sqrt(a b) / (a + b),
+/// where A and B are their means and a and b their counts. 0 when a half has no rays.
 float compute_half_error(const glm::dvec3 &p_first_sum, double p_first_count,
 		const glm::dvec3 &p_second_sum, double p_second_count) {
 	if (p_first_count == 0 || p_second_count == 0) {
@@ -124,8 +127,9 @@ float compute_half_error(const glm::dvec3 &p_first_sum, double p_first_count,
 					std::sqrt(p_first_count * p_second_count) / (p_first_count + p_second_count));
 }
 
-/// The receiver sees what the surface about it sees. Returns the number of rays; 0: none of them
-/// began on the body, which is far smaller than the spread.
+/// Stores the mean visibility of the surface around the receiver, where light enters that leaves at
+/// the receiver. Returns the number of rays that count. 0: none started where the light can reach
+/// the body, because the body is far smaller than the spread radius; nothing is stored.
 uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint64_t p_hash) {
 	const ReceiverPoint &point = r_job.points[p_pixel];
 	const SpreadMean mean = r_job.options.spread->compute(
@@ -133,18 +137,18 @@ uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint
 	const double count = mean.counts[0] + mean.counts[1];
 	if (count > 0) {
 		store_visibility(r_job, p_pixel, mean.compute_mean());
-		r_job.half_error[p_pixel] = compute_half_error(
-				mean.visible_counts[0], mean.counts[0], mean.visible_counts[1], mean.counts[1]);
+		r_job.half_error[p_pixel] = compute_half_error(mean.transmittance_sums[0], mean.counts[0],
+				mean.transmittance_sums[1], mean.counts[1]);
 	}
 	return static_cast<uint64_t>(count);
 }
 
-/// Returns the number of rays.
+/// Stores the visibility at the receiver itself. Returns the number of rays.
 uint64_t trace_plain_pixel(Job &r_job, uint32_t p_pixel, const DiscView &p_view, uint64_t p_hash) {
 	const glm::dvec3 first =
-			sum_visible(r_job.scene, p_view, r_job.first_half, mix_bits(p_hash ^ 1));
+			sum_transmittances(r_job.scene, p_view, r_job.first_half, mix_bits(p_hash ^ 1));
 	const glm::dvec3 second = r_job.has_second_half
-			? sum_visible(r_job.scene, p_view, r_job.second_half, mix_bits(p_hash ^ 2))
+			? sum_transmittances(r_job.scene, p_view, r_job.second_half, mix_bits(p_hash ^ 2))
 			: glm::dvec3(0.0);
 	store_visibility(r_job, p_pixel, (first + second) / double(r_job.options.sample_count));
 	if (r_job.has_second_half) {
@@ -154,7 +158,7 @@ uint64_t trace_plain_pixel(Job &r_job, uint32_t p_pixel, const DiscView &p_view,
 	return r_job.options.sample_count;
 }
 
-/// Returns the number of rays.
+/// Stores the visibility of one pixel. Returns the number of rays.
 uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
 	const ReceiverPoint &point = r_job.points[p_pixel];
 	if (!point.is_receiver) {
@@ -163,10 +167,10 @@ uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
 	const float offset_m = RECEIVER_OFFSET * r_job.options.scene_size_m;
 	const uint64_t hash = mix_bits(mix_bits(r_job.options.seed) ^ p_pixel);
 	DiscView view;
-	float known = 0.0f;
-	if (!find_disc_view(
-				r_job.light, point.position, point.geometric_normal, offset_m, view, known)) {
-		store_visibility(r_job, p_pixel, glm::dvec3(known));
+	float constant_visibility = 0.0f;
+	if (!find_disc_view(r_job.light, point.position, point.geometric_normal, offset_m, view,
+				constant_visibility)) {
+		store_visibility(r_job, p_pixel, glm::dvec3(constant_visibility));
 		return 0;
 	}
 	uint64_t ray_count = 0;
@@ -176,6 +180,7 @@ uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
 	return ray_count > 0 ? ray_count : trace_plain_pixel(r_job, p_pixel, view, hash);
 }
 
+/// Runs on every thread: traces tiles until all are taken or the job stops.
 void trace_tiles(Job &r_job, const std::function<void(float)> &p_progress) {
 	const uint32_t tile_count = r_job.get_tile_count();
 	while (!r_job.should_stop()) {
@@ -191,7 +196,7 @@ void trace_tiles(Job &r_job, const std::function<void(float)> &p_progress) {
 		for (uint32_t y = begin.y; y < end.y; ++y) {
 			for (uint32_t x = begin.x; x < end.x; ++x) {
 				if (r_job.should_stop()) {
-					return; // the tile does not count as done
+					return; // the tile is not counted in done_tile_count
 				}
 				ray_count += trace_pixel(r_job, y * r_job.size_px.x + x);
 			}
@@ -204,12 +209,12 @@ void trace_tiles(Job &r_job, const std::function<void(float)> &p_progress) {
 	}
 }
 
-/// Serial, so that the sum does not depend on the threads.
+/// Runs serially, so that the rounding of the sum does not depend on the threads.
 void compute_standard_error(const Job &p_job, VisibilityResult &r_result) {
 	double square_sum = 0;
 	for (size_t i = 0; i < r_result.visibility.size(); ++i) {
-		if (r_result.visibility[i] > PENUMBRA_MINIMUM &&
-				r_result.visibility[i] < PENUMBRA_MAXIMUM) {
+		if (r_result.visibility[i] > MIN_PENUMBRA_VISIBILITY &&
+				r_result.visibility[i] < MAX_PENUMBRA_VISIBILITY) {
 			++r_result.penumbra_pixel_count;
 			square_sum += static_cast<double>(p_job.half_error[i]) * p_job.half_error[i];
 		}
@@ -237,7 +242,7 @@ VisibilityResult CasterScene::compute(std::span<const ReceiverPoint> p_points,
 	if (is_colored()) {
 		result.colors.assign(p_points.size(), glm::vec3(0.0f));
 	}
-	// All samples of a point light are one.
+	// All samples of a point light are the same, so one suffices.
 	const uint32_t sample_count = p_light.disc_radius == 0.0f ? 1 : p_options.sample_count;
 	VisibilityOptions options = p_options;
 	options.sample_count = sample_count;

@@ -15,26 +15,29 @@ namespace gnomon {
 
 class SpreadVisibility;
 
-/// One pixel.
+/// The surface point at one pixel, in metres, in the space of the triangles.
 struct ReceiverPoint {
 	glm::vec3 position = glm::vec3(0.0f);
-	/// Unit, on the side that is seen. Zero moves the start nowhere.
+	/// Unit normal on the side that the camera sees. When it is zero, rays start at the position
+	/// itself.
 	glm::vec3 geometric_normal = glm::vec3(0.0f);
-	bool is_receiver = false; // see LightShadow::receivers; otherwise v = 0 and no ray
-	/// Above 0: light that leaves here entered about here, see VisibilityOptions::spread.
+	bool is_receiver = false; // false: visibility 0, no rays; see LightShadow::receivers
+	/// Above 0: light that leaves here entered the surface around here (subsurface scattering). The
+	/// result of SurfaceSpread::compute_radius_m; see VisibilityOptions::spread.
 	float spread_radius_m = 0.0f;
 };
 
 struct VisibilityOptions {
-	float scene_size_m = 1.0f;	  // S; rays start 5e-5 S off the surface
+	float scene_size_m = 1.0f;	  // S; rays start RECEIVER_OFFSET (5e-5) S off the surface
 	uint32_t sample_count = 1024; // rays per pixel, 1..65536
 	uint64_t seed = 0;
 	uint32_t thread_count = 0; // 0 = one per core; the result does not depend on it
-	/// Called with 0..1 now and then, from the calling thread only. May throw: compute() then
-	/// stops.
+	/// Called from time to time with the completed fraction, 0..1, on the calling thread only. If
+	/// it throws, compute() stops and rethrows.
 	std::function<void(float)> progress;
 	const std::atomic<bool> *is_cancelled = nullptr; // may be set from any thread
-	/// For receivers with a spread radius. Null: they see the light as all others do.
+	/// Computes the visibility of receivers with a spread radius. Null: these are treated like all
+	/// others.
 	const SpreadVisibility *spread = nullptr;
 };
 

@@ -33,33 +33,33 @@ CasterScene::CasterScene(std::span<const glm::vec3> p_positions,
 		transmittances.push_back(body.transmittance);
 	}
 	if (!bodies.empty()) {
-		translucent.emplace(EmbreeScene::make_crossed(bodies));
+		translucent.emplace(EmbreeScene::make_recording_scene(bodies));
 	}
 }
 
-void CasterScene::trace(const int *p_valid, RTCRay8 &r_rays, glm::vec3 *r_left) const {
-	alignas(32) RTCRay8 again = r_rays;
+void CasterScene::trace(const int *p_valid, RTCRay8 &r_rays, glm::vec3 *r_transmitted) const {
+	alignas(32) RTCRay8 translucent_rays = r_rays;
 	find_occluded_8(opaque.get(), p_valid, r_rays);
 	alignas(32) int lit[LANE_COUNT];
 	for (uint32_t i = 0; i < LANE_COUNT; ++i) {
 		lit[i] = p_valid[i] != 0 && r_rays.tfar[i] >= 0.0f ? -1 : 0;
-		r_left[i] = glm::vec3(lit[i] != 0 ? 1.0f : 0.0f);
-		again.id[i] = i;
+		r_transmitted[i] = glm::vec3(lit[i] != 0 ? 1.0f : 0.0f);
+		translucent_rays.id[i] = i;
 	}
 	if (translucent) {
 		thread_local Crossings crossings;
 		for (std::vector<uint32_t> &bodies : crossings) {
 			bodies.clear();
 		}
-		find_crossings_8(translucent->get(), lit, again, crossings);
+		find_crossings_8(translucent->get(), lit, translucent_rays, crossings);
 		for (uint32_t i = 0; i < LANE_COUNT; ++i) {
-			// In the bodies' order, so that rounding does not depend on the way through the tree.
+			// In a fixed order, so that rounding does not depend on how the BVH was traversed.
 			std::sort(crossings[i].begin(), crossings[i].end());
-			glm::vec3 left(1.0f);
+			glm::vec3 transmitted(1.0f);
 			for (const uint32_t body : crossings[i]) {
-				left *= transmittances[body];
+				transmitted *= transmittances[body];
 			}
-			r_left[i] *= left;
+			r_transmitted[i] *= transmitted;
 		}
 	}
 }
@@ -71,9 +71,9 @@ glm::vec3 CasterScene::trace(const glm::vec3 &p_origin, const glm::vec3 &p_ray, 
 	alignas(32) RTCRay8 rays = {};
 	set_ray(rays, 0, p_origin, p_ray, p_end);
 	alignas(32) const int valid[LANE_COUNT] = { -1 };
-	glm::vec3 left[LANE_COUNT];
-	trace(valid, rays, left);
-	return left[0];
+	glm::vec3 transmitted[LANE_COUNT];
+	trace(valid, rays, transmitted);
+	return transmitted[0];
 }
 
 } // namespace gnomon

@@ -19,7 +19,7 @@ def get_hosts():
 
 
 def _find_embree(env):
-    """The newest major version whose header the compiler finds, or 0."""
+    """Return the newest major version of Embree whose header the compiler finds, or 0."""
     for version in (4, 3):
         command = shlex.split(env["CXX"]) + ["-E", "-x", "c++", "-"]
         source = "#include <embree%d/rtcore.h>\n" % version

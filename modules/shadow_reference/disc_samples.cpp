@@ -40,6 +40,7 @@ uint32_t scramble_nested(uint32_t p_value, uint32_t p_seed) {
 	return reverse_bits(value);
 }
 
+/// Inserts a 0 before each bit, for Morton codes.
 uint64_t spread_bits(uint32_t p_value) {
 	uint64_t value = p_value;
 	value = (value | (value << 16)) & 0x0000ffff0000ffffu;
@@ -49,12 +50,14 @@ uint64_t spread_bits(uint32_t p_value) {
 	return (value | (value << 1)) & 0x5555555555555555u;
 }
 
-/// The middle of the fraction's 24-bit cell, as -1..1 exclusive.
+/// Converts a 32-bit fraction to the middle of its 24-bit cell, scaled to -1..1. Above 0 the middle
+/// is rounded to a border of the cell, so 0 and 1 can occur.
 float to_signed_unit(uint32_t p_fraction) {
 	return (static_cast<float>(p_fraction >> 8) + 0.5f) * 0x1p-23f - 1.0f;
 }
 
-/// sin and cos of (pi/4) q for |q| <= 1 to 1e-7, without a call: these loops run once per ray.
+/// Computes the sine and cosine of (pi/4) p_q for |p_q| <= 1, with an error of 1e-7. Polynomials
+/// instead of library calls, because this runs once per ray.
 void compute_sine_cosine(float p_q, float &r_sine, float &r_cosine) {
 	const float t = p_q * 0.785398163f;
 	const float t2 = t * t;
@@ -92,13 +95,14 @@ void DiscSamples::compute_packet(
 	const uint32_t *u = &coordinates_u[static_cast<size_t>(p_packet) * PACKET_SIZE];
 	const uint32_t *v = &coordinates_v[static_cast<size_t>(p_packet) * PACKET_SIZE];
 	for (uint32_t i = 0; i < PACKET_SIZE; ++i) {
-		const float a = to_signed_unit(u[i] ^ p_scramble_u); // never 0: the middle of a cell
+		const float a = to_signed_unit(u[i] ^ p_scramble_u);
 		const float b = to_signed_unit(v[i] ^ p_scramble_v);
 		const bool is_wide = std::abs(a) > std::abs(b);
 		const float radius = is_wide ? a : b;
 		float sine = 0;
 		float cosine = 0;
-		compute_sine_cosine((is_wide ? b : a) / radius, sine, cosine);
+		// Both coordinates are 0 in the centre of the disc.
+		compute_sine_cosine(radius != 0 ? (is_wide ? b : a) / radius : 0.0f, sine, cosine);
 		r_packet.x[i] = radius * (is_wide ? cosine : sine);
 		r_packet.y[i] = radius * (is_wide ? sine : cosine);
 	}

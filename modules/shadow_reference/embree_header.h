@@ -1,6 +1,6 @@
 #pragma once
 
-// Embree 3 and 4 differ in folder and in how a query is described; nothing else here sees which.
+// Hides the differences between Embree 3 and 4: the include folder and the arguments of queries.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -14,8 +14,8 @@
 
 namespace gnomon {
 
-/// Sets tfar of each ray with valid = -1 to -infinity when anything is hit between tnear and tfar.
-/// The rays of one call start at one point and keep close together.
+/// Sets tfar of each ray with valid = -1 to -infinity when it hits a triangle between tnear and
+/// tfar. The rays of one call should be coherent: start at one point, with similar directions.
 inline void find_occluded_8(RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays) {
 #if RTC_VERSION_MAJOR >= 4
 	RTCOccludedArguments arguments = {};
@@ -43,7 +43,7 @@ inline void find_occluded_1(RTCScene p_scene, RTCRay &r_ray) {
 #endif
 }
 
-/// Sets tfar and the hit; its geomID stays as it is when nothing is hit.
+/// Sets tfar and the hit to the nearest hit. Without one, r_query.hit.geomID is not changed.
 inline void find_nearest_1(RTCScene p_scene, RTCRayHit &r_query) {
 #if RTC_VERSION_MAJOR >= 4
 	RTCIntersectArguments arguments = {};
@@ -56,35 +56,38 @@ inline void find_nearest_1(RTCScene p_scene, RTCRayHit &r_query) {
 #endif
 }
 
-/// The geometries that each ray of eight meets, by its id; each once.
+/// For each ray of eight, indexed by its id: the geometries that it meets, each listed once.
 using Crossings = std::array<std::vector<uint32_t>, 8>;
 
+/// Query context that passes the crossings to record_crossing.
 struct CrossingContext {
 #if RTC_VERSION_MAJOR >= 4
-	RTCRayQueryContext base; // first, as the filter gets its address
+	RTCRayQueryContext base; // must be first: the filter function gets its address
 #else
 	RTCIntersectContext base;
 #endif
 	Crossings *crossings;
 };
 
-/// A geometry's filter for find_crossings_8: no hit counts, each is noted.
+/// Filter function of geometries for find_crossings_8: records the geometry of each hit and rejects
+/// the hit, so that the ray continues.
 inline void record_crossing(const RTCFilterFunctionNArguments *p_arguments) {
 	Crossings &crossings = *reinterpret_cast<CrossingContext *>(p_arguments->context)->crossings;
 	for (unsigned int i = 0; i < p_arguments->N; ++i) {
 		if (p_arguments->valid[i] != 0) {
-			std::vector<uint32_t> &met = crossings[RTCRayN_id(p_arguments->ray, p_arguments->N, i)];
+			std::vector<uint32_t> &geometries =
+					crossings[RTCRayN_id(p_arguments->ray, p_arguments->N, i)];
 			const uint32_t geometry = RTCHitN_geomID(p_arguments->hit, p_arguments->N, i);
-			if (std::find(met.begin(), met.end(), geometry) == met.end()) {
-				met.push_back(geometry);
+			if (std::find(geometries.begin(), geometries.end(), geometry) == geometries.end()) {
+				geometries.push_back(geometry);
 			}
 			p_arguments->valid[i] = 0;
 		}
 	}
 }
 
-/// Adds all geometries with record_crossing that the rays meet between tnear and tfar. Rays of any
-/// start.
+/// Adds to r_crossings all geometries with record_crossing that the rays meet between tnear and
+/// tfar. The id of each ray is its index in r_crossings. Rays may start anywhere.
 inline void find_crossings_8(
 		RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays, Crossings &r_crossings) {
 	CrossingContext context = {};

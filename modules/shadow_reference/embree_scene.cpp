@@ -26,7 +26,8 @@ RTCRay make_ray(const glm::vec3 &p_origin, const glm::vec3 &p_direction, float p
 	return ray;
 }
 
-/// Embree leaves the space of a triangle that is not finite to us.
+/// Returns the indices without triangles that have a corner that is not finite: Embree leaves it to
+/// the caller to skip them. An index out of range is a programming error.
 std::vector<uint32_t> keep_finite(
 		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
 	GNOMON_ASSERT(p_triangle_indices.size() % 3 == 0, p_triangle_indices.size(), " indices");
@@ -47,12 +48,12 @@ std::vector<uint32_t> keep_finite(
 	return finite_indices;
 }
 
-/// A geometry's filter: hits in the holes do not count.
+/// Filter function of cut-out geometries: rejects hits in holes.
 void test_alpha(const RTCFilterFunctionNArguments *p_arguments) {
 	const auto &body = *static_cast<const CutOutTriangles *>(p_arguments->geometryUserPtr);
 	for (unsigned int i = 0; i < p_arguments->N; ++i) {
 		if (p_arguments->valid[i] != 0 &&
-				!body.is_there(RTCHitN_primID(p_arguments->hit, p_arguments->N, i),
+				!body.is_hit(RTCHitN_primID(p_arguments->hit, p_arguments->N, i),
 						RTCHitN_u(p_arguments->hit, p_arguments->N, i),
 						RTCHitN_v(p_arguments->hit, p_arguments->N, i))) {
 			p_arguments->valid[i] = 0;
@@ -60,19 +61,20 @@ void test_alpha(const RTCFilterFunctionNArguments *p_arguments) {
 	}
 }
 
-/// One for all, as long as there is a scene: each has threads and memory of its own.
+/// Returns the Embree device that all scenes share, because each device has threads and memory of
+/// its own. It exists as long as a scene does. Throws an Error when Embree cannot create it.
 std::shared_ptr<RTCDeviceTy> acquire_device() {
 	static std::mutex mutex;
 	static std::weak_ptr<RTCDeviceTy> shared;
 	const std::lock_guard<std::mutex> lock(mutex);
 	std::shared_ptr<RTCDeviceTy> device = shared.lock();
 	if (!device) {
-		RTCDevice made = rtcNewDevice(nullptr);
-		if (made == nullptr) {
+		RTCDevice created = rtcNewDevice(nullptr);
+		if (created == nullptr) {
 			fail("Reference: Embree cannot begin (error ",
 					static_cast<int>(rtcGetDeviceError(nullptr)), "). Free memory.");
 		}
-		device.reset(made, &rtcReleaseDevice);
+		device.reset(created, &rtcReleaseDevice);
 		shared = device;
 	}
 	return device;
@@ -80,7 +82,7 @@ std::shared_ptr<RTCDeviceTy> acquire_device() {
 
 } // namespace
 
-bool CutOutTriangles::is_there(uint32_t p_triangle, float p_u, float p_v) const {
+bool CutOutTriangles::is_hit(uint32_t p_triangle, float p_u, float p_v) const {
 	const uint32_t *corners = &triangles.indices[3 * size_t(p_triangle)];
 	const float weights[] = { 1.0f - p_u - p_v, p_u, p_v };
 	glm::dvec2 uv(0.0);
@@ -99,26 +101,26 @@ EmbreeScene::EmbreeScene() : device(acquire_device()), scene(rtcNewScene(device.
 
 EmbreeScene::EmbreeScene(std::span<const glm::vec3> p_positions,
 		std::span<const uint32_t> p_triangle_indices, std::span<const CutOutTriangles> p_cut_out) :
-		EmbreeScene() { // from here on the destructor runs, whatever throws
-	add(p_positions, p_triangle_indices, Hits::COUNT);
+		EmbreeScene() { // after this, the destructor runs even if the body throws
+	add(p_positions, p_triangle_indices, HitMode::OCCLUDE);
 	for (const CutOutTriangles &body : p_cut_out) {
-		auto held = std::make_unique<CutOutTriangles>(body);
-		held->triangles.indices = keep_finite(body.triangles.positions, body.triangles.indices);
-		held->test.image = held->image.get();
-		cut_out.push_back(std::move(held));
-		add(cut_out.back()->triangles.positions, cut_out.back()->triangles.indices, Hits::COUNT,
-				cut_out.back().get());
+		auto owned = std::make_unique<CutOutTriangles>(body);
+		owned->triangles.indices = keep_finite(body.triangles.positions, body.triangles.indices);
+		owned->test.image = owned->image.get();
+		cut_out.push_back(std::move(owned));
+		add(cut_out.back()->triangles.positions, cut_out.back()->triangles.indices,
+				HitMode::OCCLUDE, cut_out.back().get());
 	}
 	finish();
 }
 
-EmbreeScene EmbreeScene::make_crossed(std::span<const Triangles *const> p_geometries) {
-	EmbreeScene made;
+EmbreeScene EmbreeScene::make_recording_scene(std::span<const Triangles *const> p_geometries) {
+	EmbreeScene created;
 	for (const Triangles *triangles : p_geometries) {
-		made.add(triangles->positions, triangles->indices, Hits::RECORD);
+		created.add(triangles->positions, triangles->indices, HitMode::RECORD);
 	}
-	made.finish();
-	return made;
+	created.finish();
+	return created;
 }
 
 EmbreeScene::EmbreeScene(EmbreeScene &&p_other) noexcept :
@@ -161,9 +163,9 @@ bool EmbreeScene::is_occluded(
 	return ray.tfar < 0.0f;
 }
 
-/// Every call takes the next geometry's number, also where no triangle is left.
+/// Adds one geometry, even without finite triangles: geometry ids count the calls.
 void EmbreeScene::add(std::span<const glm::vec3> p_positions,
-		std::span<const uint32_t> p_triangle_indices, Hits p_hits,
+		std::span<const uint32_t> p_triangle_indices, HitMode p_hit_mode,
 		const CutOutTriangles *p_cut_out) {
 	const std::vector<uint32_t> finite_indices = keep_finite(p_positions, p_triangle_indices);
 	RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -180,7 +182,7 @@ void EmbreeScene::add(std::span<const glm::vec3> p_positions,
 					finite_indices.begin(), finite_indices.end(), static_cast<uint32_t *>(indices));
 		}
 	}
-	if (p_hits == Hits::RECORD) {
+	if (p_hit_mode == HitMode::RECORD) {
 		rtcSetGeometryOccludedFilterFunction(geometry, &record_crossing);
 	}
 	if (p_cut_out != nullptr) {

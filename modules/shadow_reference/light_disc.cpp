@@ -10,11 +10,13 @@ namespace gnomon {
 
 namespace {
 
-/// Rays to a disc at a finite distance end here, so that a lamp's own surface at the disc does not
-/// hide it. Many float roundings, far below a sample's share.
+/// Rays to a disc at a finite distance end at this fraction of the distance, so that a lamp's own
+/// surface at the disc does not hide it. The gap is many float roundings wide, but too small to
+/// change the visibility noticeably.
 constexpr float RAY_END = 1.0f - 1e-5f;
 
-/// Unit vector; scaled first, because squares of long or short vectors leave float's range.
+/// Returns the unit vector. Scales first, because squares of long or short vectors leave float's
+/// range.
 glm::vec3 normalize_safely(const glm::vec3 &p_vector) {
 	const float largest =
 			std::max({ std::abs(p_vector.x), std::abs(p_vector.y), std::abs(p_vector.z) });
@@ -38,7 +40,7 @@ void find_basis(const glm::vec3 &p_normal, glm::vec3 &r_x, glm::vec3 &r_y) {
 bool AreaLight::reaches(const glm::vec3 &p_position, const glm::vec3 &p_normal) const {
 	const glm::vec3 to_light = is_directional ? -direction : position - p_position;
 	const float distance_m = glm::length(to_light);
-	if (!(glm::dot(p_normal, to_light) > LIGHT_LEAST_COSINE * distance_m)) {
+	if (!(glm::dot(p_normal, to_light) > LIGHT_MIN_COSINE * distance_m)) {
 		return false;
 	}
 	if (is_directional) {

@@ -16,7 +16,7 @@ struct EntryHeader {
 	uint32_t padding = 0;
 };
 
-/// std::memcpy may not get the null that an empty vector has.
+/// Like std::memcpy, which must not get the null pointer of an empty vector.
 void copy_bytes(void *r_target, const void *p_source, size_t p_count) {
 	if (p_count > 0) {
 		std::memcpy(r_target, p_source, p_count);

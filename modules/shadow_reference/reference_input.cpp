@@ -43,7 +43,7 @@ std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_
 	std::vector<ReceiverPoint> points(p_surfaces.size());
 	for (size_t pixel = 0; pixel < points.size(); ++pixel) {
 		const SurfacePoint &surface = p_surfaces[pixel];
-		if (surface.is_there && p_is_receiver(pixel)) {
+		if (surface.is_valid && p_is_receiver(pixel)) {
 			points[pixel] = { surface.position, surface.geometric_normal, true,
 				p_spread != nullptr
 						? p_spread->compute_radius_m(surface.material, surface.pixel_size_m)
@@ -79,7 +79,8 @@ std::vector<Triangles> collect_spread_bodies(
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		const SurfaceMaterial material = { instance.material->scatter,
 			instance.material->scatter_distance_m };
-		if (p_spread != nullptr && p_spread->compute_radius_m(material, 1.0f) > 0.0f) {
+		constexpr float ANY_PIXEL_SIZE_M = 1.0f; // it does not decide whether the radius is 0
+		if (p_spread != nullptr && p_spread->compute_radius_m(material, ANY_PIXEL_SIZE_M) > 0.0f) {
 			add_triangles(p_scene, instance, bodies.emplace_back());
 		}
 	}

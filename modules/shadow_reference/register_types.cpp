@@ -14,8 +14,8 @@ void initialize_shadow_reference_module(ModuleLevel p_level) {
 		"Area integral over the light's disc, Embree rays", "#17becf",
 		[] { return std::make_unique<ShadowReference>(); } };
 	info.is_reference = true;
-	info.make_reference_source = [](ReferenceQuestion p_question) {
-		return std::make_unique<ShadowReferenceSource>(std::move(p_question));
+	info.make_reference_source = [](ReferenceRequest p_request) {
+		return std::make_unique<ShadowReferenceSource>(std::move(p_request));
 	};
 	ShadowRegistry::add(std::move(info));
 }

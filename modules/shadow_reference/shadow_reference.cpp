@@ -16,8 +16,8 @@ namespace gnomon {
 
 namespace {
 
-// Counts up when the definition of the reference or the tracer changes: older cache entries are
-// then not found.
+// Increase it when the definition of the reference or the tracer changes, so that older cache
+// entries are not found.
 constexpr uint64_t REFERENCE_VERSION = 1;
 
 template <typename T> uint64_t add_to_hash(std::span<const T> p_values, uint64_t p_hash) {

@@ -8,18 +8,17 @@
 
 namespace gnomon {
 
-/// The reference in parallel with the frames. The tree over the casters is built by the first trace
-/// and cached.
+/// Computes the reference in parallel with the frames. The first trace builds the bounding volume
+/// hierarchy of the casters, later ones reuse it.
 class ShadowReferenceSource : public ReferenceSource {
 public:
-	explicit ShadowReferenceSource(ReferenceQuestion p_question) :
-			question(std::move(p_question)) {}
+	explicit ShadowReferenceSource(ReferenceRequest p_request) : request(std::move(p_request)) {}
 
-	ReferenceAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
+	ReferenceResult trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
 			const std::function<void(float)> &p_progress) override;
 
 private:
-	ReferenceQuestion question;
+	ReferenceRequest request;
 	std::vector<ReceiverPoint> points;
 	std::optional<CasterScene> tracer;
 	std::optional<SpreadVisibility> spread_visibility;

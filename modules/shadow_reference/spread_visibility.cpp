@@ -10,14 +10,15 @@ namespace gnomon {
 namespace {
 
 constexpr float TWO_PI = 6.283185307f;
-constexpr float BODY_REACH = 20.0f; // in start offsets: a receiver is that near to its body
+// Maximum distance of a receiver from its body, as a multiple of p_offset_m.
+constexpr float BODY_REACH = 20.0f;
 
-/// Points of the four-dimensional unit cube, even for every count: Roberts' generalised golden
-/// ratio, an additive sequence whose steps are powers of the root of x^5 = x + 1, begun anywhere.
-/// 32-bit fractions, so that thousands of steps lose nothing.
-class EvenPoints {
+/// A low-discrepancy sequence in the four-dimensional unit cube, even for every count: Roberts' R
+/// sequence (generalised golden ratio). It is additive, with a random start and the inverse powers
+/// of the root of x^5 = x + 1 as steps. 32-bit fractions lose no precision over thousands of steps.
+class RobertsSequence {
 public:
-	explicit EvenPoints(uint64_t p_hash) {
+	explicit RobertsSequence(uint64_t p_hash) {
 		for (uint32_t axis = 0; axis < 4; ++axis) {
 			coordinates[axis] = static_cast<uint32_t>(mix_bits(p_hash + axis) >> 32);
 		}
@@ -28,7 +29,7 @@ public:
 			coordinates[axis] += STEPS[axis];
 		}
 	}
-	/// In 0..1, without 1.
+	/// Returns a coordinate in 0..1, exclusive of 1.
 	float get(uint32_t p_axis) const {
 		return static_cast<float>(coordinates[p_axis] >> 8) * 0x1p-24f;
 	}
@@ -47,7 +48,7 @@ SpreadVisibility::SpreadVisibility(
 	}
 }
 
-/// The body on which the receiver is; null: none is as near.
+/// Returns the body on which the receiver is, or null when none is within p_reach_m of it.
 const EmbreeScene *SpreadVisibility::find_body(
 		const ReceiverPoint &p_receiver, float p_reach_m) const {
 	const EmbreeScene *nearest = nullptr;
@@ -55,7 +56,7 @@ const EmbreeScene *SpreadVisibility::find_body(
 	const glm::vec3 start = p_receiver.position + p_reach_m * p_receiver.geometric_normal;
 	for (const EmbreeScene &body : bodies) {
 		const SurfaceHit hit = body.find_nearest(start, -p_receiver.geometric_normal, nearest_m);
-		if (hit.is_there) {
+		if (hit.is_hit) {
 			nearest_m = hit.distance;
 			nearest = &body;
 		}
@@ -65,18 +66,18 @@ const EmbreeScene *SpreadVisibility::find_body(
 
 std::optional<SpreadVisibility::Point> SpreadVisibility::find_point(const EmbreeScene &p_body,
 		const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m) {
-	// Both ways begin a little before the plane, so that a flat body is not missed.
+	// Both rays start slightly on the other side of the plane, so that a flat body is not missed.
 	const glm::vec3 up = p_receiver.geometric_normal;
 	const float reach_m = p_receiver.spread_radius_m + p_offset_m;
 	const SurfaceHit below = p_body.find_nearest(p_on_plane + p_offset_m * up, -up, reach_m);
 	const SurfaceHit above = p_body.find_nearest(
-			p_on_plane - p_offset_m * up, up, below.is_there ? below.distance : reach_m);
-	const SurfaceHit &hit = above.is_there ? above : below;
+			p_on_plane - p_offset_m * up, up, below.is_hit ? below.distance : reach_m);
+	const SurfaceHit &hit = above.is_hit ? above : below;
 	const float facing = glm::dot(hit.normal, up);
-	if (!hit.is_there || facing == 0.0f) {
+	if (!hit.is_hit || facing == 0.0f) {
 		return std::nullopt;
 	}
-	const float height_m = (hit.distance - p_offset_m) * (above.is_there ? 1.0f : -1.0f);
+	const float height_m = (hit.distance - p_offset_m) * (above.is_hit ? 1.0f : -1.0f);
 	return Point{ p_on_plane + height_m * up, facing > 0.0f ? hit.normal : -hit.normal };
 }
 
@@ -89,7 +90,7 @@ SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLig
 	glm::vec3 axis_y;
 	find_basis(p_receiver.geometric_normal, axis_x, axis_y);
 	for (uint32_t half = 0; half < 2; ++half) {
-		EvenPoints points(mix_bits(p_hash ^ (half + 1)));
+		RobertsSequence points(mix_bits(p_hash ^ (half + 1)));
 		for (uint32_t i = half; i < p_sample_count; i += 2) {
 			points.step();
 			const float distance_m =
@@ -97,6 +98,7 @@ SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLig
 			const float angle_rad = TWO_PI * points.get(1);
 			const glm::vec3 on_plane = p_receiver.position +
 					distance_m * (std::cos(angle_rad) * axis_x + std::sin(angle_rad) * axis_y);
+			// Without a body the point stays on the plane.
 			std::optional<Point> point = Point{ on_plane, p_receiver.geometric_normal };
 			if (body != nullptr) {
 				point = find_point(*body, p_receiver, on_plane, p_offset_m);
@@ -106,18 +108,19 @@ SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLig
 			}
 			mean.counts[half] += 1;
 			DiscView view;
-			float known = 0.0f;
+			float constant_visibility = 0.0f;
 			glm::vec3 visibility(0.0f);
-			if (find_disc_view(p_light, point->position, point->normal, p_offset_m, view, known)) {
+			if (find_disc_view(p_light, point->position, point->normal, p_offset_m, view,
+						constant_visibility)) {
 				const float radius = std::sqrt(points.get(2));
-				const float turn_rad = TWO_PI * points.get(3);
-				const glm::vec3 ray =
-						view.compute_ray(radius * std::cos(turn_rad), radius * std::sin(turn_rad));
+				const float disc_angle_rad = TWO_PI * points.get(3);
+				const glm::vec3 ray = view.compute_ray(
+						radius * std::cos(disc_angle_rad), radius * std::sin(disc_angle_rad));
 				visibility = p_casters.trace(view.origin, ray, view.end);
 			} else {
-				visibility = glm::vec3(known);
+				visibility = glm::vec3(constant_visibility);
 			}
-			mean.visible_counts[half] += glm::dvec3(visibility);
+			mean.transmittance_sums[half] += glm::dvec3(visibility);
 		}
 	}
 	return mean;

@@ -11,29 +11,33 @@
 
 namespace gnomon {
 
-/// Means over rays of one receiver, in two halves that were drawn independently.
+/// Sums over the rays of one receiver, in two halves that were sampled independently.
 struct SpreadMean {
-	glm::dvec3 visible_counts[2] = { glm::dvec3(0.0), glm::dvec3(0.0) }; // one for each colour
-	double counts[2] = { 0, 0 }; // of rays that started where the light reaches the body
+	/// Per half, the sum of the rays' RGB transmittances.
+	glm::dvec3 transmittance_sums[2] = { glm::dvec3(0.0), glm::dvec3(0.0) };
+	/// Per half, the number of rays that started where the light can reach the body.
+	double counts[2] = { 0, 0 };
 
+	/// Not defined when both counts are 0.
 	glm::dvec3 compute_mean() const {
-		return (visible_counts[0] + visible_counts[1]) / (counts[0] + counts[1]);
+		return (transmittance_sums[0] + transmittance_sums[1]) / (counts[0] + counts[1]);
 	}
 };
 
-/// The exact mask of translucent receivers: the light's visibility, averaged over the points where
-/// light enters that leaves at the receiver. A point at a distance on the receiver's tangent plane
-/// represents the nearest one of the same body along the receiver's normal, up or down by that
-/// radius at most; a flat body is therefore exactly the semi-infinite slab that the dipole is made
-/// for. Points that the light cannot reach, or where there is no such surface, do not count.
+/// Computes the exact mask of translucent receivers: the light's visibility, averaged over the
+/// points where light enters that leaves at the receiver. These points are sampled on the
+/// receiver's tangent plane and moved along its normal, up or down by at most the spread radius, to
+/// the nearest surface of the same body. A flat body is therefore exactly the semi-infinite slab
+/// for which the dipole model is made. Points that the light cannot reach, or without such a
+/// surface, do not count. A receiver without a body nearby uses the points on its tangent plane.
 class SpreadVisibility {
 public:
 	/// p_spread must outlive it.
 	SpreadVisibility(std::span<const Triangles> p_bodies, const SurfaceSpread &p_spread);
 
-	/// p_receiver: with a unit normal and a spread radius above 0, from which light leaves that
-	/// entered about it. p_sample_count rays in all; p_offset_m: how far they start off the
-	/// surface. May be called from several threads.
+	/// p_receiver: with a unit normal and a spread radius above 0. p_offset_m: how far off the
+	/// surface rays start. p_sample_count: samples of both halves together, including those that do
+	/// not count. p_hash: seed of the samples. May be called from several threads.
 	SpreadMean compute(const CasterScene &p_casters, const AreaLight &p_light,
 			const ReceiverPoint &p_receiver, float p_offset_m, uint32_t p_sample_count,
 			uint64_t p_hash) const;
@@ -44,6 +48,8 @@ private:
 		glm::vec3 normal;
 	};
 	const EmbreeScene *find_body(const ReceiverPoint &p_receiver, float p_reach_m) const;
+	/// Moves a point of the receiver's tangent plane along its normal to the body's surface.
+	/// Returns nothing when that is farther than the spread radius.
 	static std::optional<Point> find_point(const EmbreeScene &p_body,
 			const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m);
 

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-// One line declares a property for the inspector, the scene file, --set and the docs.
+// Declares the properties that a light gets: for the inspector, the scene file, --set and the docs.
 void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
 	r_list.add({ "template_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
 			"Width and height of the map drawn from the light.", "px", "Template" });
@@ -16,7 +16,7 @@ void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
 			"How dark a hidden point is: 0 = as if lit, 1 = no light.", "", "Template" });
 }
 
-// Which cameras are at the light: the casters of each are culled to it.
+// Returns the views to render from the light. The casters of each view are culled to it.
 void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const auto size_px =
@@ -24,12 +24,13 @@ void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const LightSc
 	r_views = build_light_views(p_light, p_scene, size_px, 1);
 }
 
-// Before anything is recorded: declare what this frame does not need. The template needs all of it.
+// Called before any pass is recorded, to skip what this frame does not need. The template skips
+// nothing.
 void ShadowTemplate::plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {
 	map = {};
 }
 
-// Once per view: draw what the light sees.
+// Called once per view: draws the depth of the casters that the light sees.
 void ShadowTemplate::at_light_view(
 		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
 	if (!map) {
@@ -41,7 +42,7 @@ void ShadowTemplate::at_light_view(
 			p_inputs.views[p_view_index], p_inputs.casters[p_view_index], map, p_view_index);
 }
 
-// Once per frame: answer for every pixel.
+// Called once per frame: computes the visibility of every pixel.
 RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "template resolve", "shadow_template/resolve.comp", {} });

@@ -4,8 +4,8 @@
 
 namespace gnomon {
 
-/// Draws depth from the light and compares each receiver with one texel. doc/add_a_technique.md
-/// walks through it.
+/// A minimal technique to copy: draws depth from the light and compares each receiver with one
+/// texel (hard shadows). doc/add_a_technique.md explains it step by step.
 class ShadowTemplate : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;

@@ -14,7 +14,7 @@ uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCa
 		const InstanceSnapshot &instance = p_inputs.scene.instances[caster.instance_index];
 		key = compute_value_hash(instance.caster_mesh->id, key);
 		key = compute_value_hash(instance.get_pose_hash(), key);
-		key = compute_value_hash(caster.light_node, key);
+		key = compute_value_hash(caster.light_position_node, key);
 		key = compute_value_hash(caster.vertices_per_edge, key);
 	}
 	return key;
@@ -26,14 +26,14 @@ void CachedEdges::plan(const ShadowTechnique::Inputs &p_inputs, const Silhouette
 		bool p_are_all_drawn, TechniquePlan &r_plan) {
 	last_key = key;
 	key = 0;
-	is_cached = is_still = false;
+	is_cached = is_unchanged = false;
 	if (p_casters.casters.empty()) {
 		return reset();
 	}
 	if (p_inputs.may_skip && p_inputs.may_reuse && p_are_all_drawn) {
 		key = compute_key(p_inputs, p_casters);
 		is_cached = key == cached_key;
-		is_still = key == last_key;
+		is_unchanged = key == last_key;
 	}
 	const std::string pass = text("find edges, casters: ", p_casters.casters.size());
 	if (is_cached) {
@@ -56,7 +56,7 @@ SilhouetteLists CachedEdges::add_passes(RenderGraph &r_graph,
 		return { r_graph.import_buffer(list.get()), r_graph.import_buffer(draws.get()) };
 	}
 	reset();
-	if (!is_still) {
+	if (!is_unchanged) {
 		return add_silhouette_passes(r_graph, p_inputs.device, p_casters, p_predicates);
 	}
 	const std::string light = " of " + p_inputs.light.name;

@@ -9,12 +9,13 @@ namespace gnomon {
 /// they use transient memory of the frame.
 class CachedEdges {
 public:
-	/// Reports in the plan whether edges are found this frame. p_are_all_drawn: false when
-	/// predicates on the GPU select the casters, so that the lists may be incomplete.
+	/// Decides whether this frame searches edges or reuses cached ones, and reports that in the
+	/// plan. p_are_all_drawn: false when predicates on the GPU select the casters; the lists may
+	/// then be incomplete and are not cached.
 	void plan(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters,
 			bool p_are_all_drawn, TechniquePlan &r_plan);
-	/// Returns the lists of the casters that were planned, at least one. Without a call of plan
-	/// nothing is cached.
+	/// Returns the edge lists of p_casters, which must not be empty and must be the casters that
+	/// were passed to plan. If plan was not called, the edges are searched and not cached.
 	SilhouetteLists add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates);
 
@@ -26,10 +27,10 @@ private:
 	uint64_t cached_key = 0; // key of the buffers' content; 0: nothing
 	uint64_t last_key = 0;	 // key of the last frame
 
-	// This frame.
-	uint64_t key = 0; // 0: nothing may be cached
-	bool is_cached = false;
-	bool is_still = false;
+	// State of the current frame.
+	uint64_t key = 0;		   // 0: nothing may be cached
+	bool is_cached = false;	   // the buffers hold the edges of `key`
+	bool is_unchanged = false; // `key` is the same as in the last frame
 };
 
 } // namespace gnomon

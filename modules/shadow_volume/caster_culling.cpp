@@ -15,12 +15,13 @@ namespace gnomon {
 
 namespace {
 
-const size_t LEAST_CASTERS = 64;
-const double LEAST_HIDDEN_SHARE = 0.1;
-const uint64_t REST_FRAMES = 60;
+const size_t MIN_CASTER_COUNT = 64;		// with Mode::AUTO
+const double MIN_HIDDEN_FRACTION = 0.1; // fraction of casters; below it, AUTO pauses
+const uint64_t PAUSE_FRAMES = 60;		// length of the pause
 const size_t HEADER_BYTES = CULLING_HEADER_WORDS * sizeof(uint32_t);
 
-/// Rounds up to a power of two, so that a few casters more or less do not resize the buffers.
+/// Size of the buffer of predicates. The number of casters is rounded up to a power of two, so that
+/// a few casters more or less do not resize the buffer.
 size_t compute_words_bytes(size_t p_caster_count) {
 	return HEADER_BYTES + std::bit_ceil(p_caster_count) * sizeof(uint32_t);
 }
@@ -57,13 +58,13 @@ shader::CullingConstants make_constants(
 
 } // namespace
 
-std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_inputs, Wish p_wish,
+std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_inputs, Mode p_mode,
 		const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) {
 	++frame;
-	tested.reset();
+	tested_instances.reset();
 	map = {};
-	collect();
-	if (p_wish == Wish::OFF || !p_inputs.may_skip || p_inputs.views.empty() ||
+	process_readback();
+	if (p_mode == Mode::OFF || !p_inputs.may_skip || p_inputs.views.empty() ||
 			p_inputs.views.size() > CULLING_MAX_VIEWS) {
 		return p_instances;
 	}
@@ -71,34 +72,35 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 		r_plan.skip("occlusion culling", p_reason);
 		return p_instances;
 	};
-	if (p_wish == Wish::AUTO && p_instances.size() < LEAST_CASTERS) {
+	if (p_mode == Mode::AUTO && p_instances.size() < MIN_CASTER_COUNT) {
 		return skip("few casters");
 	}
 	const uint64_t last_key = std::exchange(key, compute_key(p_inputs, p_instances));
-	const bool has_same_casters =
-			p_inputs.may_reuse && known && known->is_hidden.size() == p_instances.size();
-	if (!p_inputs.wants_debug_views && has_same_casters && known->key == key) {
+	const bool has_same_count = p_inputs.may_reuse && last_result &&
+			last_result->is_hidden.size() == p_instances.size();
+	if (!p_inputs.wants_debug_views && has_same_count && last_result->key == key) {
 		return cull_hidden(p_instances, r_plan);
 	}
-	if (p_wish == Wish::AUTO && frame < rests_until_frame) {
-		return skip("hardly a caster was hidden lately");
+	if (p_mode == Mode::AUTO && frame < paused_until_frame) {
+		return skip("few casters were hidden in recent frames");
 	}
 	if (!p_inputs.device.get_features().conditional_rendering && key != last_key) {
-		return skip("what moves needs conditional rendering, which this device lacks");
+		return skip("if the light or a caster moves, this needs conditional rendering, which this "
+					"device lacks");
 	}
 	occluders = choose_occluders(
-			p_inputs, p_instances, has_same_casters ? known->is_hidden : std::vector<bool>());
+			p_inputs, p_instances, has_same_count ? last_result->is_hidden : std::vector<bool>());
 	if (occluders.empty()) {
 		return skip("no caster is large enough to hide another");
 	}
-	tested = std::make_shared<const std::vector<uint32_t>>(p_instances);
+	tested_instances = std::make_shared<const std::vector<uint32_t>>(p_instances);
 	return p_instances;
 }
 
 void CasterCulling::report(TechniquePlan &r_plan) const {
-	if (tested) {
-		r_plan.run(text(
-				"occlusion culling, casters: ", tested->size(), ", occluders: ", occluders.size()));
+	if (tested_instances) {
+		r_plan.run(text("occlusion culling, casters: ", tested_instances->size(),
+				", occluders: ", occluders.size()));
 	}
 }
 
@@ -106,7 +108,7 @@ std::vector<uint32_t> CasterCulling::cull_hidden(
 		const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) const {
 	std::vector<uint32_t> seen;
 	for (size_t i = 0; i < p_instances.size(); ++i) {
-		if (!known->is_hidden[i]) {
+		if (!last_result->is_hidden[i]) {
 			seen.push_back(p_instances[i]);
 		}
 	}
@@ -119,14 +121,14 @@ std::vector<uint32_t> CasterCulling::cull_hidden(
 
 DrawPredicates CasterCulling::add_passes(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
-	if (!tested) {
+	if (!tested_instances) {
 		return {};
 	}
 	const OccluderMap drawn = add_occluder_passes(r_graph, p_inputs, occluders);
 	map = drawn.depth;
 	const RGBuffer bounds = drawn.bounds;
 	std::vector<Bounds> boxes_world;
-	for (const uint32_t index : *tested) {
+	for (const uint32_t index : *tested_instances) {
 		boxes_world.push_back(p_inputs.scene.instances[index].bounds_world);
 	}
 	const glm::dvec3 origin_world(glm::inverse(p_inputs.views[0].view_from_world)[3]);
@@ -139,7 +141,7 @@ DrawPredicates CasterCulling::add_passes(
 	const RGBuffer boxes = r_graph.upload(
 			"culling boxes", BufferUsage::STORAGE, bytes_of(std::span(culling_boxes.boxes)));
 	const RGBuffer words =
-			r_graph.create_buffer({ "seen casters", compute_words_bytes(tested->size()),
+			r_graph.create_buffer({ "seen casters", compute_words_bytes(tested_instances->size()),
 					BufferUsage::STORAGE | BufferUsage::COPY_SOURCE | BufferUsage::CONDITIONAL });
 	add_fill_pass(r_graph, p_inputs.device, "all casters are seen", words, 1);
 	const PipelineRID pipeline =
@@ -159,7 +161,7 @@ DrawPredicates CasterCulling::add_passes(
 				commands.dispatch({ count, 1, 1 });
 			});
 	add_readback(r_graph, words);
-	return decides_draws(p_inputs) ? DrawPredicates{ words, HEADER_BYTES, tested }
+	return decides_draws(p_inputs) ? DrawPredicates{ words, HEADER_BYTES, tested_instances }
 								   : DrawPredicates{};
 }
 
@@ -171,13 +173,14 @@ void CasterCulling::get_debug_views(std::vector<ShadowTechnique::DebugView> &r_v
 }
 
 void CasterCulling::add_readback(RenderGraph &r_graph, RGBuffer p_words) {
-	const auto receive = [newest = newest, key = key, caster_count = tested->size()](
+	const auto receive = [latest_readback = latest_readback, key = key,
+								 caster_count = tested_instances->size()](
 								 std::span<const uint8_t> p_bytes) {
 		std::vector<uint32_t> words(CULLING_HEADER_WORDS + caster_count);
 		std::memcpy(words.data(), p_bytes.data(), words.size() * sizeof(uint32_t));
 		const uint64_t found_key = words[0] | uint64_t(words[1]) << 32;
 		if (found_key == key) {
-			*newest = { key, { words.begin() + CULLING_HEADER_WORDS, words.end() } };
+			*latest_readback = { key, { words.begin() + CULLING_HEADER_WORDS, words.end() } };
 		}
 	};
 	r_graph.add_pass("read seen casters")
@@ -188,19 +191,19 @@ void CasterCulling::add_readback(RenderGraph &r_graph, RGBuffer p_words) {
 			});
 }
 
-void CasterCulling::collect() {
-	if (!*newest) {
+void CasterCulling::process_readback() {
+	if (!*latest_readback) {
 		return;
 	}
-	const Result result = *std::exchange(*newest, std::nullopt);
-	known = { result.key, {} };
+	const Readback result = *std::exchange(*latest_readback, std::nullopt);
+	last_result = { result.key, {} };
 	size_t hidden_count = 0;
 	for (const uint32_t word : result.words) {
-		known->is_hidden.push_back(word == 0);
+		last_result->is_hidden.push_back(word == 0);
 		hidden_count += word == 0 ? 1 : 0;
 	}
-	if (hidden_count < LEAST_HIDDEN_SHARE * static_cast<double>(result.words.size())) {
-		rests_until_frame = frame + REST_FRAMES;
+	if (hidden_count < MIN_HIDDEN_FRACTION * static_cast<double>(result.words.size())) {
+		paused_until_frame = frame + PAUSE_FRAMES;
 	}
 }
 

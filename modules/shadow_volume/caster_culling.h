@@ -24,50 +24,59 @@ namespace gnomon {
 /// occluders, and this frame's predicates decide on the GPU.
 class CasterCulling {
 public:
-	enum class Wish { AUTO, ON, OFF };
+	/// The setting "culling". AUTO culls where it probably saves time, see plan.
+	enum class Mode { AUTO, ON, OFF };
 
-	/// Returns those of p_instances (ascending) that are not known to be hidden. AUTO culls from 64
-	/// casters on, and pauses for 60 frames when less than a tenth was hidden.
-	std::vector<uint32_t> plan(const ShadowTechnique::Inputs &p_inputs, Wish p_wish,
+	/// Returns p_instances (ascending) without the hidden ones, if an earlier result is still
+	/// valid. Otherwise decides whether add_passes tests them in this frame, and returns all. AUTO
+	/// culls from 64 casters on, and pauses for 60 frames after a result in which less than a tenth
+	/// of the casters was hidden.
+	std::vector<uint32_t> plan(const ShadowTechnique::Inputs &p_inputs, Mode p_mode,
 			const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan);
 	/// Reports in the plan what add_passes will do. Call it only when add_passes will be called.
 	void report(TechniquePlan &r_plan) const;
 	/// Valid after plan. True when the predicates of add_passes will decide which casters are
 	/// drawn.
 	bool decides_draws(const ShadowTechnique::Inputs &p_inputs) const {
-		return tested && p_inputs.device.get_features().conditional_rendering;
+		return tested_instances && p_inputs.device.get_features().conditional_rendering;
 	}
-	/// Adds passes that test the casters this frame, when plan decided so. Without conditional
-	/// rendering their result is only used in later frames.
+	/// Adds passes that test the casters this frame, when plan decided so, and returns the
+	/// predicates of their draws. Without conditional rendering there are none, and only later
+	/// frames use the result.
 	DrawPredicates add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);
-	/// Valid after add_passes: the map of the occluders, when they were drawn.
+	/// Valid after add_passes: adds the depth map of the occluders, when they were drawn.
 	void get_debug_views(std::vector<ShadowTechnique::DebugView> &r_views) const;
 
 private:
 	/// Predicate words that were read back from the GPU.
-	struct Result {
+	struct Readback {
 		uint64_t key = 0;
 		std::vector<uint32_t> words; // per caster, 0 = hidden
 	};
-	struct Known {
+	/// The last result, as plan uses it.
+	struct CullingResult {
 		uint64_t key = 0;			 // hash of the views and casters
 		std::vector<bool> is_hidden; // per caster, in the order of plan's p_instances
 	};
 
-	void collect();
+	/// Takes over the latest readback, if there is one.
+	void process_readback();
+	/// Returns p_instances without hidden casters, and reports their number in the plan.
 	std::vector<uint32_t> cull_hidden(
 			const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) const;
 	void add_readback(RenderGraph &r_graph, RGBuffer p_words);
 
-	/// Result since the last plan; shared with readbacks that may outlive this object.
-	std::shared_ptr<std::optional<Result>> newest = std::make_shared<std::optional<Result>>();
-	std::optional<Known> known;
-	uint64_t frame = 0;
-	uint64_t rests_until_frame = 0;
+	/// Latest readback since the last plan. Shared with pending readbacks, which may outlive this
+	/// object.
+	std::shared_ptr<std::optional<Readback>> latest_readback =
+			std::make_shared<std::optional<Readback>>();
+	std::optional<CullingResult> last_result;
+	uint64_t frame = 0;				 // number of calls of plan
+	uint64_t paused_until_frame = 0; // AUTO does not test casters before this frame
 
-	// This frame.
+	// State of the current frame.
 	uint64_t key = 0;
-	std::shared_ptr<const std::vector<uint32_t>> tested;
+	std::shared_ptr<const std::vector<uint32_t>> tested_instances; // instances; null: no test
 	std::vector<uint32_t> occluders;
 	RGTexture map;
 };

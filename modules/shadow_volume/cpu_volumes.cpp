@@ -19,7 +19,8 @@ struct VolumeBuilder {
 		add_corner(p_b, p_is_far);
 		add_corner(p_c, p_is_far);
 	}
-	/// Adds a side from the edge to infinity; the light-facing surface winds p_from -> p_to.
+	/// Adds a side from the edge to infinity. The winding of the light-facing surface runs from
+	/// p_from to p_to.
 	void add_side(uint32_t p_from, uint32_t p_to) {
 		add_corner(p_from, false);
 		add_corner(p_from, true);
@@ -33,12 +34,12 @@ struct VolumeBuilder {
 } // namespace
 
 std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
-		const glm::dvec4 &p_light_node, const VolumeShape &p_shape) {
+		const glm::dvec4 &p_light_position_node, const VolumeShape &p_shape) {
 	VolumeBuilder builder{ p_topology, {} };
-	if (!std::isfinite(glm::dot(p_light_node, glm::dvec4(1.0)))) {
+	if (!std::isfinite(glm::dot(p_light_position_node, glm::dvec4(1.0)))) {
 		return {};
 	}
-	const Silhouette silhouette = build_silhouette(p_topology, p_light_node);
+	const Silhouette silhouette = build_silhouette(p_topology, p_light_position_node);
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
 		const bool is_facing = silhouette.is_facing[face] != 0;
 		const bool is_solid = p_topology.get_part(face).is_solid();
@@ -55,9 +56,10 @@ std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
 	}
 	for (const SilhouetteEdge &edge : silhouette.edges) {
 		const MeshPart &part = p_topology.get_part(p_topology.edges[edge.edge_index].face0);
-		// A closed part that is robust gets both sides at each edge.
-		const uint32_t times = part.is_closed && includes(p_shape.robust, part.is_solid()) ? 2 : 1;
-		for (uint32_t i = 0; i < edge.weight * times; ++i) {
+		// In a closed, robust part both faces of an edge have volumes, so the edge has two sides.
+		const uint32_t side_count =
+				part.is_closed && includes(p_shape.robust, part.is_solid()) ? 2 : 1;
+		for (uint32_t i = 0; i < edge.weight * side_count; ++i) {
 			builder.add_side(edge.from, edge.to);
 		}
 	}

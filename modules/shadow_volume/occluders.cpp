@@ -15,13 +15,14 @@ namespace gnomon {
 
 namespace {
 
-const size_t MOST_OCCLUDERS = 128;
-const uint32_t MOST_TRIANGLES = 16384;
-const uint32_t MOST_TRIANGLES_OF_ONE = 4096;
-const double LEAST_SIZE_PX = 8.0; // the borders alone are 3 texels wide
-const double ROUNDING = 4e-7;	  // relative error of a matrix-vector product in float32
-const double MOST_ROUNDING_PER_DISTANCE = 1e-3;
-const double LEAST_DISTANCE_PER_NEAR = 10.0;
+const size_t MAX_OCCLUDER_COUNT = 128;
+const uint32_t MAX_TRIANGLE_COUNT = 16384; // of all occluders together
+const uint32_t MAX_TRIANGLES_PER_OCCLUDER = 4096;
+const double MIN_SIZE_PX = 8.0; // a smaller occluder consists of edges, drawn 3 texels wide
+const double ROUNDING = 4e-7;	// relative error of a matrix-vector product in float32
+const double MAX_ROUNDING_PER_DISTANCE = 1e-3; // as MIN_GAP of cull.comp
+// Occluders nearer to the light than this many near distances count as being that far away.
+const double MIN_DISTANCE_PER_NEAR = 10.0;
 const uint32_t VERTICES_PER_EDGE = 6;
 const uint32_t CORNERS_PER_FACE = 3;
 
@@ -38,8 +39,8 @@ double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p
 }
 
 /// Vertices far from the node's origin lose their low bits in float32, while boxes are computed in
-/// double. The shift of an occluder by rounding must be small compared with the gap of cull.comp,
-/// or the occluder could hide a caster that is in front of it.
+/// double. Rounding must not shift an occluder by more than the gap of cull.comp (MIN_GAP), or the
+/// occluder could hide a caster that is in front of it.
 bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot &p_instance) {
 	const Bounds &box = p_instance.caster_bounds_node;
 	const double reach = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum)));
@@ -52,9 +53,9 @@ bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot 
 	if (!view.is_orthographic) {
 		distance_m =
 				std::max(p_instance.bounds_world.compute_distance(p_inputs.light.position_world),
-						LEAST_DISTANCE_PER_NEAR * view.near_m);
+						MIN_DISTANCE_PER_NEAR * view.near_m);
 	}
-	return reach * scale * ROUNDING <= MOST_ROUNDING_PER_DISTANCE * distance_m;
+	return reach * scale * ROUNDING <= MAX_ROUNDING_PER_DISTANCE * distance_m;
 }
 
 /// One occluder in one view.
@@ -75,12 +76,13 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		OccluderDraw draw;
 		draw.begin_m = p_view.compute_distance_range_m(instance).x;
 		draw.gpu = &p_inputs.meshes.get_topology(instance.caster_mesh,
-				TopologyPart::POSITIONS | TopologyPart::EDGES | TopologyPart::TRIANGLES);
+				TopologyBuffer::POSITIONS | TopologyBuffer::EDGES | TopologyBuffer::TRIANGLES);
 		draw.push.clip_from_node = p_view.compute_clip_from_node(instance.world_from_node);
 		draw.push.near_m = p_view.is_orthographic ? 0.0f : p_view.near_m;
-		draw.push.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
-		// A caster without edges or an inside has no volume and hides nothing.
-		if (draw.gpu->edge_count > 0 && is_light_node_usable(draw.push.light_node)) {
+		draw.push.light_position_node =
+				compute_light_position_node(p_inputs.light, instance.world_from_node);
+		// A caster without edges, or collapsed to a line or point, has no volume and hides nothing.
+		if (draw.gpu->edge_count > 0 && is_light_position_finite(draw.push.light_position_node)) {
 			draws.push_back(draw);
 		}
 	}
@@ -91,19 +93,19 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 	return draws;
 }
 
-/// The stencil identifies occluders by numbers from 1 to this one, used cyclically, since each
+/// The stencil identifies occluders by numbers from 1 to NUMBER_COUNT, used cyclically, since each
 /// number needs its own pipeline. On a software driver 128 boxes in one map take 4.0 ms with 8
 /// numbers, 3.8 with 16, 4.6 with 4, and 3.3 with a dynamic stencil reference; 16 numbers make the
 /// first frame 90 ms longer.
 constexpr size_t NUMBER_COUNT = 8;
 
 struct OccluderPipelines {
-	std::array<PipelineRID, NUMBER_COUNT> faces; // index 0: number 1
+	std::array<PipelineRID, NUMBER_COUNT> faces; // index 0: stencil number 1
 	std::array<PipelineRID, NUMBER_COUNT> edges;
-	PipelineRID forget; // all numbers
+	PipelineRID clear_numbers; // resets the stencil to 0, which is no number
 };
 
-/// p_count: number of occluders.
+/// Returns the pipelines for p_count occluders; those of unused numbers are not created.
 OccluderPipelines get_pipelines(RenderingDevice &p_device, size_t p_count) {
 	RasterPipelineDesc desc;
 	desc.name = "occluders";
@@ -132,20 +134,21 @@ OccluderPipelines get_pipelines(RenderingDevice &p_device, size_t p_count) {
 		desc = make_screen_desc("occluders' numbers", "");
 		desc.color_formats.clear();
 		desc.stencil.front.pass = desc.stencil.back.pass = StencilOp::ZERO;
-		pipelines.forget = p_device.get_raster_pipeline(desc);
+		pipelines.clear_numbers = p_device.get_raster_pipeline(desc);
 	}
 	return pipelines;
 }
 
-/// Draws, per occluder, its faces and then its edges: texels that an edge crosses are corrected
-/// before the next occluder is drawn. The stencil test limits this to the occluder's own texels.
+/// Draws the faces of each occluder and then its edges, which correct the texels that they cross
+/// before the next occluder is drawn. The stencil test limits the correction to the occluder's own
+/// texels.
 void record_draws(CommandList &r_commands, const OccluderPipelines &p_pipelines,
 		const std::vector<OccluderDraw> &p_draws) {
 	for (size_t index = 0; index < p_draws.size(); ++index) {
 		const OccluderDraw &draw = p_draws[index];
 		const size_t number_index = index % NUMBER_COUNT;
 		if (index > 0 && number_index == 0) {
-			r_commands.bind_pipeline(p_pipelines.forget);
+			r_commands.bind_pipeline(p_pipelines.clear_numbers);
 			r_commands.draw(3);
 		}
 		r_commands.bind_pipeline(p_pipelines.faces[number_index]);
@@ -161,6 +164,7 @@ void record_draws(CommandList &r_commands, const OccluderPipelines &p_pipelines,
 	}
 }
 
+/// Adds passes that build the depth pyramids of all views, see bounds.comp. Returns their buffer.
 RGBuffer add_level_passes(
 		RenderGraph &r_graph, RenderingDevice &p_device, RGTexture p_map, uint32_t p_view_count) {
 	const RGBuffer bounds = r_graph.create_buffer(
@@ -204,8 +208,8 @@ std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
 	for (size_t i = 0; i < p_instances.size(); ++i) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[p_instances[i]];
 		const double size_px = estimate_size_px(p_inputs, instance.bounds_world);
-		if (size_px >= LEAST_SIZE_PX &&
-				instance.caster_mesh->get_triangle_count() <= MOST_TRIANGLES_OF_ONE &&
+		if (size_px >= MIN_SIZE_PX &&
+				instance.caster_mesh->get_triangle_count() <= MAX_TRIANGLES_PER_OCCLUDER &&
 				is_precise(p_inputs, instance)) {
 			candidates.push_back(
 					{ p_instances[i], !p_was_hidden.empty() && p_was_hidden[i], size_px });
@@ -221,7 +225,7 @@ std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
 	for (const Candidate &candidate : candidates) {
 		const uint32_t count = p_inputs.scene.instances[candidate.instance_index]
 									   .caster_mesh->get_triangle_count();
-		if (triangle_count + count <= MOST_TRIANGLES && occluders.size() < MOST_OCCLUDERS) {
+		if (triangle_count + count <= MAX_TRIANGLE_COUNT && occluders.size() < MAX_OCCLUDER_COUNT) {
 			triangle_count += count;
 			occluders.push_back(candidate.instance_index);
 		}

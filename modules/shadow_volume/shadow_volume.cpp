@@ -41,16 +41,17 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	report(casters.geometry_shader_count, "volumes made by a geometry shader");
 	edges.plan(p_inputs, list_compute_casters(p_inputs, casters), !culling.decides_draws(p_inputs),
 			r_plan);
-	if (casters.spared_caps_count > 0) {
-		r_plan.skip(text("far caps of ", casters.spared_caps_count, " casters"),
+	if (casters.skipped_caps_count > 0) {
+		r_plan.skip(text("far caps of ", casters.skipped_caps_count, " casters"),
 				"z-pass is safe: the camera's near plane is outside their volumes");
 	}
-	if (casters.unseen_count > 0) {
-		r_plan.skip(text("volumes of ", casters.unseen_count, " casters"),
+	if (casters.offscreen_count > 0) {
+		r_plan.skip(text("volumes of ", casters.offscreen_count, " casters"),
 				"their shadows are outside the image");
 	}
-	if (casters.flat_count > 0) {
-		r_plan.skip(text("volumes of ", casters.flat_count, " casters"), "a scale of theirs is 0");
+	if (casters.collapsed_count > 0) {
+		r_plan.skip(text("volumes of ", casters.collapsed_count, " casters"),
+				"their transform collapses them to a line or a point");
 	}
 	if (casters.group_count > 1) {
 		r_plan.run(text("groups that the stencil can count: ", casters.group_count));

@@ -8,11 +8,12 @@ namespace gnomon {
 
 /// Pixel-exact hard shadows: stencil shadow volumes, extruded from each caster's silhouette away
 /// from the light's centre to infinity (GPU Gems 3, chapter 11; DOOM 3). A pixel is in shadow when
-/// the volumes entered minus the volumes left are not 0. They are counted in front of the receiver
+/// its view ray does not enter and leave as many volumes. They are counted in front of the receiver
 /// (z-pass), or behind it where the camera may be inside a shadow volume (z-fail, with caps).
 ///
 /// Spaces: silhouettes in node space, float32 (on the CPU in double); volumes in the camera's clip
-/// space; depths reversed, float32, compared with the receiver moved off its surface by 5e-5 S.
+/// space; depths reversed, float32, compared with the receiver moved off its surface (by about
+/// RECEIVER_OFFSET = 5e-5 times the scene size S, see receivers.frag).
 class ShadowVolume : public ShadowTechnique {
 public:
 	enum class Silhouettes { GPU, CPU };
@@ -36,7 +37,7 @@ private:
 	CasterCulling culling;
 	CachedEdges edges;
 
-	// This frame.
+	// State of the current frame.
 	VolumeSettings settings;
 	VolumeCasters casters;
 };

@@ -10,7 +10,7 @@ namespace {
 
 const size_t CORNER_COUNT = 8;
 const double MARGIN_PX = 1.0; // for the rasteriser's rounding
-// Boxes are grown by these fractions of the near distance and of their own diagonal.
+// may_shade_near_plane grows boxes by these fractions of the near distance and of their diagonal.
 const double MARGIN_PER_NEAR = 1e-3;
 const double MARGIN_PER_BOX = 1e-5;
 
@@ -40,8 +40,8 @@ struct Projection {
 	const LightView &camera;
 	glm::dvec2 minimum = glm::dvec2(1e300);
 	glm::dvec2 maximum = glm::dvec2(-1e300);
-	double least_depth = 1.0;
-	double greatest_depth = 0.0;
+	double min_depth = 1.0;
+	double max_depth = 0.0;
 
 	/// Adds a point in homogeneous view space, with z >= near w and w >= 0.
 	void add(const glm::dvec4 &p_point) {
@@ -54,8 +54,8 @@ struct Projection {
 			maximum[axis] = std::max(maximum[axis], ndc);
 		}
 		const double depth = p_point.z > 0 ? camera.near_m * p_point.w / p_point.z : 1.0;
-		least_depth = std::min(least_depth, depth);
-		greatest_depth = std::max(greatest_depth, depth);
+		min_depth = std::min(min_depth, depth);
+		max_depth = std::max(max_depth, depth);
 	}
 };
 
@@ -72,15 +72,15 @@ VolumeArea make_area(const Projection &p_projection, glm::uvec2 p_size_px) {
 	area.offset_px = glm::uvec2(begin);
 	area.size_px = glm::uvec2(end - begin);
 	const double tolerance = 1e-5; // relative error of the stored float and its interpolation
-	area.least_depth = static_cast<float>(p_projection.least_depth * (1 - tolerance));
-	area.greatest_depth =
-			static_cast<float>(std::min(p_projection.greatest_depth * (1 + tolerance), 1.0));
+	area.min_depth = static_cast<float>(p_projection.min_depth * (1 - tolerance));
+	area.max_depth = static_cast<float>(std::min(p_projection.max_depth * (1 + tolerance), 1.0));
 	return area;
 }
 
-/// Distance from the light at which the volume ends behind each of the box's corners, as a multiple
-/// of the corner's distance: at least 1; infinity: unbounded.
-double compute_reach(const Bounds &p_box_world, const LightSnapshot &p_light) {
+/// Returns the factor by which the distance of each of the box's corners from the light is
+/// multiplied to get the end of its extrusion, which is at or beyond the light's range. 1 or more;
+/// infinity without a range, or for a light very near to the box. p_light is not directional.
+double compute_extrusion_factor(const Bounds &p_box_world, const LightSnapshot &p_light) {
 	const double nearest_m = p_box_world.compute_distance(p_light.position_world);
 	return p_light.range_m > 0 && nearest_m > 1e-3 * p_box_world.get_diagonal()
 			? std::max(p_light.range_m / nearest_m, 1.0)
@@ -104,17 +104,20 @@ VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p
 	if (is_point && p_box_world.compute_distance(p_light.position_world) <= 0) {
 		return whole;
 	}
-	const double reach = is_point ? compute_reach(p_box_world, p_light) : INFINITY;
+	const double extrusion_factor =
+			is_point ? compute_extrusion_factor(p_box_world, p_light) : INFINITY;
 	std::array<glm::dvec4, 2 * CORNER_COUNT> points;
 	const Corners corners = compute_corners_view(p_box_world, p_camera);
 	for (size_t i = 0; i < CORNER_COUNT; ++i) {
 		const glm::dvec3 ray = corners[i] * light.w - glm::dvec3(light);
 		points[i] = glm::dvec4(corners[i], 1.0);
-		points[CORNER_COUNT + i] = std::isinf(reach)
+		points[CORNER_COUNT + i] = std::isinf(extrusion_factor)
 				? glm::dvec4(ray, 0.0)
-				: glm::dvec4(glm::dvec3(light) + ray * reach, 1.0);
+				: glm::dvec4(glm::dvec3(light) + ray * extrusion_factor, 1.0);
 	}
 	Projection projection{ p_camera };
+	// Distance behind the near plane of a point in homogeneous view space, times its w; negative
+	// before the plane.
 	const auto get_height = [&](const glm::dvec4 &p_point) {
 		return p_point.z - p_camera.near_m * p_point.w;
 	};
@@ -126,8 +129,8 @@ VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p
 		for (size_t j = 0; j < i; ++j) { // all pairs of points: includes the hull's edges
 			const double other = get_height(points[j]);
 			if ((height < 0) != (other < 0)) {
-				const double share = height / (height - other);
-				projection.add(points[i] + (points[j] - points[i]) * share);
+				const double fraction = height / (height - other);
+				projection.add(points[i] + (points[j] - points[i]) * fraction);
 			}
 		}
 	}
@@ -164,7 +167,7 @@ bool may_shade_near_plane(
 		glm::dvec3 normal = glm::cross(along, glm::dvec3(light) - corner * light.w);
 		const double inside = glm::dot(normal, centre - corner);
 		if (std::abs(inside) <= 1e-9 * glm::length(normal) * near_m) {
-			continue; // the light is in the near plane: no inside
+			continue; // the light is in the near plane: the plane has no inner side
 		}
 		normal *= inside > 0 ? 1.0 : -1.0;
 		if (are_all_behind(corners, normal, -glm::dot(normal, corner))) {
@@ -174,16 +177,16 @@ bool may_shade_near_plane(
 	// Axis-aligned bounds of the light and the rectangle: the space between cannot exceed them.
 	if (light.w != 0) {
 		for (int axis = 0; axis < 3; ++axis) {
-			double least = light[axis];
-			double greatest = light[axis];
+			double lower = light[axis];
+			double upper = light[axis];
 			for (const glm::dvec3 &corner : rectangle) {
-				least = std::min(least, corner[axis]);
-				greatest = std::max(greatest, corner[axis]);
+				lower = std::min(lower, corner[axis]);
+				upper = std::max(upper, corner[axis]);
 			}
 			glm::dvec3 direction(0.0);
 			direction[axis] = 1.0;
-			if (are_all_behind(corners, direction, -least) ||
-					are_all_behind(corners, -direction, greatest)) {
+			if (are_all_behind(corners, direction, -lower) ||
+					are_all_behind(corners, -direction, upper)) {
 				return false;
 			}
 		}

@@ -17,15 +17,16 @@ namespace {
 
 const uint32_t STENCIL_MAXIMUM = 255;
 const uint32_t TRIANGLES_PER_LAYER = 8; // a box has 12 and one layer
-const uint32_t MOST_LAYERS = 32;
+const uint32_t MAX_LAYERS = 32;
 // For fewer triangles, compute shaders cost more per caster than they save (doc/benchmarks.md).
-const uint32_t MOST_FACES_FOR_GEOMETRY_SHADER = 4096;
-const double BOX_GROWTH = 1e-3; // fraction of the box's size: a light within is treated as inside
+const uint32_t MAX_FACES_FOR_GEOMETRY_SHADER = 4096;
+// Boxes are grown by this fraction of their diagonal before testing whether the light is inside.
+const double BOX_GROWTH = 1e-3;
 
-/// Cached for each mesh.
+/// Properties of a mesh, cached per mesh.
 struct MeshSolids {
-	uint32_t layer_count = 0;
-	VolumeFaces robust = VolumeFaces::NONE; // seen from outside
+	uint32_t layer_count = 0;				// see estimate_layers
+	VolumeFaces robust = VolumeFaces::NONE; // while the light is outside the mesh's box
 };
 
 MeshSolids find_solids(const MeshTopology &p_topology) {
@@ -39,7 +40,7 @@ MeshSolids find_solids(const MeshTopology &p_topology) {
 	return solids;
 }
 
-bool is_light_within(const InstanceSnapshot &p_instance, const LightSnapshot &p_light) {
+bool is_light_inside(const InstanceSnapshot &p_instance, const LightSnapshot &p_light) {
 	if (p_light.type == LightType::DIRECTIONAL) {
 		return false;
 	}
@@ -55,8 +56,9 @@ class GroupSplitter {
 public:
 	explicit GroupSplitter(glm::uvec2 p_size_px) : size_px(p_size_px) {}
 
-	uint32_t place(const VolumeArea &p_area, uint32_t p_layer_count) {
-		if (compute_greatest(p_area) + p_layer_count > STENCIL_MAXIMUM) {
+	/// Adds a volume and returns its group. p_layer_count: how much it adds to the stencil at most.
+	uint32_t assign_group(const VolumeArea &p_area, uint32_t p_layer_count) {
+		if (find_max_layers(p_area) + p_layer_count > STENCIL_MAXIMUM) {
 			layers.fill(0);
 			++group;
 		}
@@ -65,26 +67,27 @@ public:
 	}
 
 private:
-	static const uint32_t SIDE = 16;
+	static const uint32_t TILES_PER_SIDE = 16;
 
 	template <typename Function> void for_each_tile(const VolumeArea &p_area, Function p_function) {
-		const glm::uvec2 begin = p_area.offset_px * SIDE / size_px;
+		const glm::uvec2 begin = p_area.offset_px * TILES_PER_SIDE / size_px;
 		const glm::uvec2 end =
-				(p_area.offset_px + p_area.size_px - 1u) * SIDE / size_px; // inclusive
+				(p_area.offset_px + p_area.size_px - 1u) * TILES_PER_SIDE / size_px; // inclusive
 		for (uint32_t y = begin.y; y <= end.y; ++y) {
 			for (uint32_t x = begin.x; x <= end.x; ++x) {
-				p_function(layers[y * SIDE + x]);
+				p_function(layers[y * TILES_PER_SIDE + x]);
 			}
 		}
 	}
-	uint32_t compute_greatest(const VolumeArea &p_area) {
-		uint32_t greatest = 0;
-		for_each_tile(p_area, [&](uint32_t p_layers) { greatest = std::max(greatest, p_layers); });
-		return greatest;
+	uint32_t find_max_layers(const VolumeArea &p_area) {
+		uint32_t max_layers = 0;
+		for_each_tile(
+				p_area, [&](uint32_t p_layers) { max_layers = std::max(max_layers, p_layers); });
+		return max_layers;
 	}
 
 	glm::uvec2 size_px;
-	std::array<uint32_t, SIDE *SIDE> layers = {};
+	std::array<uint32_t, TILES_PER_SIDE *TILES_PER_SIDE> layers = {};
 	uint32_t group = 0;
 };
 
@@ -94,12 +97,12 @@ uint32_t estimate_layers(const MeshTopology &p_topology) {
 	const uint32_t convex_count = count_convex_parts(p_topology);
 	const uint32_t layers =
 			convex_count > 0 ? convex_count : p_topology.get_face_count() / TRIANGLES_PER_LAYER;
-	return std::clamp(layers, 1u, MOST_LAYERS);
+	return std::clamp(layers, 1u, MAX_LAYERS);
 }
 
 LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs) {
 	CameraSnapshot camera = p_inputs.scene.camera;
-	camera.position_world[VOLUMES_MOVED_AXIS] +=
+	camera.position_world[VOLUMES_OFFSET_AXIS] +=
 			double(RECEIVER_OFFSET) * p_inputs.scene.scene_size_m;
 	return make_camera_view(camera, p_inputs.size_px);
 }
@@ -115,19 +118,20 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		VolumeCaster caster;
 		caster.instance_index = index;
-		caster.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
-		if (!is_light_node_usable(caster.light_node)) {
-			++result.flat_count;
+		caster.light_position_node =
+				compute_light_position_node(p_inputs.light, instance.world_from_node);
+		if (!is_light_position_finite(caster.light_position_node)) {
+			++result.collapsed_count;
 			continue;
 		}
-		caster.gpu = &p_inputs.meshes.get_topology(instance.caster_mesh, TopologyPart::NONE);
+		caster.gpu = &p_inputs.meshes.get_topology(instance.caster_mesh, TopologyBuffer::NONE);
 		if (caster.gpu->edge_count == 0) {
 			continue;
 		}
 		caster.area = compute_volume_area(
 				instance.bounds_world, p_inputs.light, camera, p_inputs.size_px);
 		if (p_inputs.may_skip && caster.area.is_empty()) {
-			++result.unseen_count;
+			++result.offscreen_count;
 			continue;
 		}
 		if (!p_settings.has_scissor) {
@@ -138,24 +142,26 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const MeshSolids &solids = p_inputs.meshes.get_derived<MeshSolids>(
 				instance.caster_mesh, [&] { return find_solids(topology); });
 		caster.shape.robust =
-				p_settings.is_always_robust || is_light_within(instance, p_inputs.light)
+				p_settings.is_always_robust || is_light_inside(instance, p_inputs.light)
 				? VolumeFaces::ALL
 				: solids.robust;
-		caster.count = p_settings.count.value_or(!p_inputs.may_skip ||
+		caster.stencil_method = p_settings.stencil_method.value_or(!p_inputs.may_skip ||
 								may_shade_near_plane(instance.bounds_world, p_inputs.light, camera)
-						? VolumeCount::Z_FAIL
-						: VolumeCount::Z_PASS);
-		caster.shape.has_far_cap = caster.count == VolumeCount::Z_FAIL;
+						? StencilMethod::Z_FAIL
+						: StencilMethod::Z_PASS);
+		caster.shape.has_far_cap = caster.stencil_method == StencilMethod::Z_FAIL;
 		// A robust volume counts every solid twice.
 		const bool is_robust = caster.shape.robust != VolumeFaces::NONE;
-		caster.group = groups.place(caster.area, (is_robust ? 2 : 1) * solids.layer_count);
-		caster.maker = p_settings.maker.value_or(p_inputs.device.get_features().geometry_shader &&
-								topology.get_face_count() <= MOST_FACES_FOR_GEOMETRY_SHADER
-						? VolumeMaker::GEOMETRY_SHADER
-						: VolumeMaker::COMPUTE);
-		result.geometry_shader_count += caster.maker == VolumeMaker::GEOMETRY_SHADER ? 1 : 0;
+		caster.group = groups.assign_group(caster.area, (is_robust ? 2 : 1) * solids.layer_count);
+		caster.extruder =
+				p_settings.extruder.value_or(p_inputs.device.get_features().geometry_shader &&
+										topology.get_face_count() <= MAX_FACES_FOR_GEOMETRY_SHADER
+								? VolumeExtruder::GEOMETRY_SHADER
+								: VolumeExtruder::COMPUTE);
+		result.geometry_shader_count += caster.extruder == VolumeExtruder::GEOMETRY_SHADER ? 1 : 0;
 		result.z_fail_count += caster.shape.has_far_cap ? 1 : 0;
-		result.spared_caps_count += !p_settings.count && !caster.shape.has_far_cap ? 1 : 0;
+		result.skipped_caps_count +=
+				!p_settings.stencil_method && !caster.shape.has_far_cap ? 1 : 0;
 		result.robust_count += is_robust ? 1 : 0;
 		result.group_count = caster.group + 1;
 		result.casters.push_back(caster);

@@ -25,14 +25,14 @@ struct VolumeDraw {
 	PipelineRID caps_pipeline; // only without a geometry shader
 	shader::VolumePush push;
 	uint32_t cap_vertex_count = 0;
-	uint32_t draw_index = 0; // into the lists' indirect draws
+	uint32_t draw_index = 0; // index of the indirect draw in SilhouetteLists::draws
 	RGBuffer corners;		 // vertices of a volume built on the CPU
 	uint32_t corner_count = 0;
 };
 
-StencilTest make_count_test(VolumeCount p_count) {
+StencilTest make_stencil_test(StencilMethod p_method) {
 	StencilTest test;
-	if (p_count == VolumeCount::Z_PASS) {
+	if (p_method == StencilMethod::Z_PASS) {
 		test.front.pass = StencilOp::INCREMENT_WRAP;
 		test.back.pass = StencilOp::DECREMENT_WRAP;
 	} else {
@@ -42,25 +42,25 @@ StencilTest make_count_test(VolumeCount p_count) {
 	return test;
 }
 
-/// p_what: "geometry shader", "sides", "caps" or "corners".
-RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::string &p_what) {
+/// p_variant: "geometry shader"; "sides" or "caps" for listed edges; "corners" for CPU volumes.
+RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::string &p_variant) {
 	RasterPipelineDesc desc;
-	desc.name = text("volumes, ", p_what);
+	desc.name = text("volumes, ", p_variant);
 	desc.constants = { { VOLUMES_CONSTANT_ROBUST_FACES, uint32_t(p_caster.shape.robust) },
 		{ VOLUMES_CONSTANT_HAS_FAR_CAP, p_caster.shape.has_far_cap ? 1u : 0u } };
 	desc.has_stencil = true;
-	desc.stencil = make_count_test(p_caster.count);
+	desc.stencil = make_stencil_test(p_caster.stencil_method);
 	desc.winding = p_caster.is_mirrored ? Winding::MIRRORED : Winding::NORMAL;
 	desc.writes_depth = false;
 	desc.depth_compare = CompareOp::GREATER; // reversed: nearer
-	if (p_what == "geometry shader") {
+	if (p_variant == "geometry shader") {
 		desc.vertex_shader = "shadow_volume/volumes.vert";
 		desc.geometry_shader = "shadow_volume/volumes.geom";
 		desc.topology = Topology::TRIANGLES_WITH_ADJACENCY;
 	} else {
-		desc.vertex_shader = text("shadow_volume/", p_what, ".vert");
+		desc.vertex_shader = text("shadow_volume/", p_variant, ".vert");
 	}
-	if (p_what == "geometry shader" || p_what == "corners") {
+	if (p_variant == "geometry shader" || p_variant == "corners") {
 		desc.attributes = { { 0, 0, Format::R32_SFLOAT, 4, 0 } };
 		desc.vertex_strides_bytes = { sizeof(glm::vec4) };
 	}
@@ -68,8 +68,8 @@ RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::str
 }
 
 PipelineRID get_pipeline(const ShadowTechnique::Inputs &p_inputs, const VolumeSettings &p_settings,
-		const VolumeCaster &p_caster, const std::string &p_what) {
-	RasterPipelineDesc desc = make_volume_desc(p_caster, p_what);
+		const VolumeCaster &p_caster, const std::string &p_variant) {
+	RasterPipelineDesc desc = make_volume_desc(p_caster, p_variant);
 	desc.has_depth_bounds = p_settings.has_scissor && p_inputs.device.get_features().depth_bounds;
 	return p_inputs.device.get_raster_pipeline(desc);
 }
@@ -84,15 +84,17 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 		VolumeDraw draw;
 		draw.caster = &caster;
 		draw.push.clip_from_node = camera.compute_clip_from_node(instance.world_from_node);
-		draw.push.light_node = caster.light_node;
-		if (caster.maker == VolumeMaker::GEOMETRY_SHADER) {
+		draw.push.light_position_node = caster.light_position_node;
+		if (caster.extruder == VolumeExtruder::GEOMETRY_SHADER) {
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "geometry shader");
+			// Uploads what record_draw binds.
 			p_inputs.meshes.get_topology(instance.caster_mesh,
-					TopologyPart::POSITIONS | TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY);
-		} else if (caster.maker == VolumeMaker::CPU) {
+					TopologyBuffer::POSITIONS | TopologyBuffer::FACE_FLAGS |
+							TopologyBuffer::ADJACENCY);
+		} else if (caster.extruder == VolumeExtruder::CPU) {
 			const auto topology = get_topology(instance.get_posed_caster_mesh());
-			const std::vector<glm::vec4> corners =
-					build_cpu_volume(*topology, glm::dvec4(caster.light_node), caster.shape);
+			const std::vector<glm::vec4> corners = build_cpu_volume(
+					*topology, glm::dvec4(caster.light_position_node), caster.shape);
 			if (corners.empty()) {
 				continue;
 			}
@@ -109,9 +111,10 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 			draw.cap_vertex_count =
 					cap_count * CORNERS_PER_CAP * caster.gpu->topology->get_face_count();
 			draw.caps_pipeline = get_pipeline(p_inputs, p_settings, caster, "caps");
+			// Uploads what record_draw binds.
 			p_inputs.meshes.get_topology(instance.caster_mesh,
-					TopologyPart::POSITIONS | TopologyPart::EDGES | TopologyPart::TRIANGLES |
-							TopologyPart::FACE_FLAGS);
+					TopologyBuffer::POSITIONS | TopologyBuffer::EDGES | TopologyBuffer::TRIANGLES |
+							TopologyBuffer::FACE_FLAGS);
 		}
 		draws.push_back(draw);
 	}
@@ -123,7 +126,7 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const Silhoue
 	const VolumeCaster &caster = *p_draw.caster;
 	const GpuTopology &gpu = *caster.gpu;
 	commands.bind_pipeline(p_draw.pipeline);
-	if (caster.maker == VolumeMaker::GEOMETRY_SHADER) {
+	if (caster.extruder == VolumeExtruder::GEOMETRY_SHADER) {
 		const BufferRID vertices[] = { gpu.positions.get() };
 		commands.bind_vertex_buffers(vertices);
 		commands.bind_index_buffer(gpu.adjacency_indices.get());
@@ -132,7 +135,7 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const Silhoue
 		commands.draw_indexed(gpu.adjacency_index_count);
 		return;
 	}
-	if (caster.maker == VolumeMaker::CPU) {
+	if (caster.extruder == VolumeExtruder::CPU) {
 		const BufferRID vertices[] = { r_context.get(p_draw.corners) };
 		commands.bind_vertex_buffers(vertices);
 		commands.push_constants(p_draw.push);
@@ -153,6 +156,7 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const Silhoue
 	commands.draw(p_draw.cap_vertex_count);
 }
 
+/// Adds a pass that writes shadow into the mask where the stencil is not 0.
 void add_hidden_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeTargets &p_targets, const std::string &p_name) {
 	RasterPipelineDesc desc = make_screen_desc("hidden", "shadow_volume/hidden.frag");
@@ -177,14 +181,17 @@ SilhouetteCasters list_compute_casters(
 	std::vector<uint32_t> instances;
 	std::vector<uint32_t> vertices_per_edge;
 	for (const VolumeCaster &caster : p_casters.casters) {
-		if (caster.maker == VolumeMaker::COMPUTE) {
+		if (caster.extruder == VolumeExtruder::COMPUTE) {
 			instances.push_back(caster.instance_index);
+			// Robust volumes extrude a side for each of an edge's two faces, see sides.vert.
 			vertices_per_edge.push_back(
 					VOLUMES_VERTICES_PER_SIDE * (caster.shape.robust != VolumeFaces::NONE ? 2 : 1));
 		}
 	}
 	SilhouetteCasters listed =
 			build_silhouette_casters(p_inputs, instances, VOLUMES_VERTICES_PER_SIDE);
+	// build_volume_casters skipped all casters that build_silhouette_casters would skip, so the
+	// indices agree.
 	for (size_t i = 0; i < listed.casters.size(); ++i) {
 		listed.casters[i].vertices_per_edge = vertices_per_edge[i];
 	}
@@ -260,7 +267,7 @@ void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_in
 				const VolumeArea &area = draw.caster->area;
 				p_context.commands.set_scissor(area.offset_px, area.size_px);
 				if (has_bounds) {
-					p_context.commands.set_depth_bounds(area.least_depth, area.greatest_depth);
+					p_context.commands.set_depth_bounds(area.min_depth, area.max_depth);
 				}
 				p_predicates.record(p_context, draw.caster->instance_index,
 						[&] { record_draw(p_context, draw, lists); });

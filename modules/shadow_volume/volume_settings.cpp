@@ -47,29 +47,30 @@ void add_removed_volume_properties(const std::string &p_id, PropertyList &r_list
 VolumeSettings read_volume_settings(bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs) {
 	const PropertyValues &values = p_inputs.settings;
 	VolumeSettings settings;
-	const std::string &count = read_choice(values, "method");
-	if (count != "auto") {
-		settings.count = count == "z_pass" ? VolumeCount::Z_PASS : VolumeCount::Z_FAIL;
+	const std::string &stencil_method = read_choice(values, "method");
+	if (stencil_method != "auto") {
+		settings.stencil_method =
+				stencil_method == "z_pass" ? StencilMethod::Z_PASS : StencilMethod::Z_FAIL;
 	}
 	settings.is_always_robust = read_choice(values, "robust") == "always";
 	settings.has_scissor = std::get<bool>(values.at("scissor")) && p_inputs.may_skip;
 	if (p_is_on_cpu) {
-		settings.maker = VolumeMaker::CPU;
+		settings.extruder = VolumeExtruder::CPU;
 	} else {
 		const std::string &extrusion = read_choice(values, "extrusion");
 		if (extrusion == "geometry_shader" && p_inputs.device.get_features().geometry_shader) {
-			settings.maker = VolumeMaker::GEOMETRY_SHADER;
+			settings.extruder = VolumeExtruder::GEOMETRY_SHADER;
 		} else if (extrusion != "auto") {
-			settings.maker = VolumeMaker::COMPUTE;
+			settings.extruder = VolumeExtruder::COMPUTE;
 		}
 		const std::string &culling = read_choice(values, "culling");
 		// With z-pass for all casters, volumes that contain the camera are counted wrong, hidden
 		// casters' too: culling these would change the image.
-		const bool may_be_wrong = settings.count == VolumeCount::Z_PASS;
-		settings.culling = may_be_wrong ? CasterCulling::Wish::OFF
-				: culling == "on"		? CasterCulling::Wish::ON
-				: culling == "off"		? CasterCulling::Wish::OFF
-										: CasterCulling::Wish::AUTO;
+		const bool may_be_wrong = settings.stencil_method == StencilMethod::Z_PASS;
+		settings.culling = may_be_wrong ? CasterCulling::Mode::OFF
+				: culling == "on"		? CasterCulling::Mode::ON
+				: culling == "off"		? CasterCulling::Mode::OFF
+										: CasterCulling::Mode::AUTO;
 	}
 	return settings;
 }

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-void CachedViews::begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads) {
+void CachedViews::begin(const ShadowTechnique::Inputs &p_inputs, FilterReach p_filter_reach) {
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
 	GNOMON_ASSERT(view_count > 0 && view_count <= 32, view_count, " light views");
 	empty_views = 0;
@@ -12,7 +12,7 @@ void CachedViews::begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads) 
 	for (uint32_t index = 0; index < view_count; ++index) {
 		if (p_inputs.may_skip && p_inputs.casters[index].instances.empty()) {
 			empty_views |= 1u << index;
-		} else if (p_inputs.may_skip && p_reads == Reads::OWN_VIEW &&
+		} else if (p_inputs.may_skip && p_filter_reach == FilterReach::SINGLE_VIEW &&
 				!p_inputs.casters[index].has_receivers) {
 			empty_views |= 1u << index;
 			unseen_views |= 1u << index;

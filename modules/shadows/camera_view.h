@@ -6,14 +6,15 @@
 
 namespace gnomon {
 
-/// The camera as a view, for culling against its four sides and its back. Ignores the subpixel
-/// shift (CameraSnapshot::shift).
+/// Builds a view from the camera, for culling against the four sides of its frustum and the plane
+/// z = 0. Ignores the subpixel shift (CameraSnapshot::shift).
 LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px);
 
-/// The camera's subpixel shift as a clip-space matrix; w is the distance along the view.
+/// Clip-space matrix that applies the camera's subpixel shift (CameraSnapshot::shift). It expects w
+/// to be the distance along the view, as a perspective projection makes it.
 glm::dmat4 compute_shift(const CameraSnapshot &p_camera);
 
-/// The camera as the shaders read it.
+/// Fills the camera constants that the shaders read. p_size_px: size of the image.
 shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 
 /// Camera-relative position of a pixel's centre in metres, from its reversed depth (above 0): the

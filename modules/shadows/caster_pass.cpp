@@ -63,7 +63,7 @@ std::vector<uint32_t> collect_casters(
 
 std::vector<LightView> build_listing_views(
 		const LightSnapshot &p_light, const LightScene &p_scene) {
-	const uint32_t size_px = 64;
+	const uint32_t size_px = 64; // any size will do: nothing is drawn into these views
 	const uint32_t border_px = 1;
 	return build_light_views(p_light, p_scene, size_px, border_px);
 }

@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-/// The data of a mesh at rest that deform.comp reads.
+/// Joint influences and morph targets of a mesh at rest, as deform.comp reads them.
 struct GpuRig {
 	OwnedBuffer influences;
 	OwnedBuffer targets;
@@ -31,7 +31,7 @@ GpuRig upload_rig(RenderingDevice &p_device, const Mesh &p_mesh) {
 	for (size_t i = 0; i < rig.joints.size(); ++i) {
 		influences.emplace_back(rig.joints[i], glm::floatBitsToUint(rig.weights[i]));
 	}
-	influences.resize(std::max<size_t>(influences.size(), 1)); // no buffer is empty
+	influences.resize(std::max<size_t>(influences.size(), 1)); // buffers must not be empty
 	gpu.influences = upload(p_device, p_mesh.name + " joints", influences);
 	std::vector<glm::vec3> values;
 	for (const MorphTarget &target : rig.targets) {
@@ -48,22 +48,22 @@ GpuRig upload_rig(RenderingDevice &p_device, const Mesh &p_mesh) {
 
 /// Packs three matrix rows per joint, then the morph targets' weights.
 std::vector<glm::vec4> pack_pose(const MeshPose &p_pose) {
-	std::vector<glm::vec4> words;
+	std::vector<glm::vec4> pose_data;
 	for (const glm::dmat4 &joint : p_pose.get_joints()) {
 		const glm::mat4 rows(glm::transpose(joint));
-		words.insert(words.end(), { rows[0], rows[1], rows[2] });
+		pose_data.insert(pose_data.end(), { rows[0], rows[1], rows[2] });
 	}
 	for (size_t target = 0; target < p_pose.get_weights().size(); ++target) {
 		if (target % 4 == 0) {
-			words.emplace_back(0.0f);
+			pose_data.emplace_back(0.0f);
 		}
-		words.back()[int(target % 4)] = p_pose.get_weights()[target];
+		pose_data.back()[int(target % 4)] = p_pose.get_weights()[target];
 	}
-	words.resize(std::max<size_t>(words.size(), 1));
-	return words;
+	pose_data.resize(std::max<size_t>(pose_data.size(), 1));
+	return pose_data;
 }
 
-/// The data of a mesh that was cut out of another one.
+/// The points of a mesh that was cut out of another one, as deform_points.comp reads them.
 struct GpuPoints {
 	OwnedBuffer points;
 };
@@ -71,12 +71,12 @@ struct GpuPoints {
 GpuPoints upload_points(RenderingDevice &p_device, const Mesh &p_mesh) {
 	std::vector<shader::DeformPoint> points;
 	for (const TrianglePoint &point : p_mesh.source.points) {
-		points.push_back({ glm::uvec4(point.corners, 0), glm::vec4(point.shares, 0.0f) });
+		points.push_back({ glm::uvec4(point.corners, 0), glm::vec4(point.weights, 0.0f) });
 	}
 	return { upload(p_device, p_mesh.name + " points", points) };
 }
 
-/// The vertex that each welded vertex follows, and the faces that meet in it.
+/// For each welded vertex: one of the vertices that were welded into it, and its adjacent faces.
 struct GpuWeld {
 	OwnedBuffer vertices;
 	OwnedBuffer faces;
@@ -91,7 +91,8 @@ GpuWeld upload_weld(RenderingDevice &p_device, const Mesh &p_mesh, const MeshTop
 			vertices[welded] = static_cast<uint32_t>(vertex);
 		}
 	}
-	// Counting sort: where each vertex's faces begin, then the faces.
+	// Counting sort. The buffer has the index of each vertex's first face, one end index, then the
+	// faces.
 	std::vector<uint32_t> faces(welded_count + 1 + p_topology.triangles.size(), 0);
 	for (const uint32_t welded : p_topology.triangles) {
 		++faces[welded + 1];
@@ -131,16 +132,16 @@ DeformPass::DeformPass(MeshStore &r_store, const SceneSnapshot &p_scene, RenderG
 		if (!instance.pose || slots.contains(instance.mesh->slot_id)) {
 			continue;
 		}
-		store.get(instance.mesh);
-		const std::vector<glm::vec4> words = pack_pose(*instance.pose);
+		store.get(instance.mesh); // uploads it; count_moved looks it up in the store
+		const std::vector<glm::vec4> pose_data = pack_pose(*instance.pose);
 		slots[instance.mesh->slot_id] = { instance.pose, instance.mesh,
-			r_graph.upload("pose", BufferUsage::STORAGE, bytes_of(std::span(words))) };
+			r_graph.upload("pose", BufferUsage::STORAGE, bytes_of(std::span(pose_data))) };
 	}
 	if (!slots.empty()) {
 		const auto get_pipeline = [&](const char *p_shader) {
 			return store.device.get_compute_pipeline({ p_shader, p_shader, {} });
 		};
-		whole = get_pipeline("shadows/deform.comp");
+		rigged = get_pipeline("shadows/deform.comp");
 		tangents = get_pipeline("shadows/deform_tangents.comp");
 		points = get_pipeline("shadows/deform_points.comp");
 		welded = get_pipeline("shadows/deform_welded.comp");
@@ -158,7 +159,7 @@ uint32_t DeformPass::count_moved() const {
 std::vector<RGBuffer> DeformPass::list_inputs() const {
 	std::vector<RGBuffer> inputs;
 	for (const auto &[id, slot] : slots) {
-		inputs.push_back(slot.words);
+		inputs.push_back(slot.pose_data);
 	}
 	return inputs;
 }
@@ -169,7 +170,7 @@ const DeformPass::Slot *DeformPass::find_slot(const std::weak_ptr<const Mesh> &p
 	return found == slots.end() ? nullptr : &found->second;
 }
 
-void DeformPass::deform_whole(PassContext &p_context, const Slot &p_slot, GpuMesh &r_gpu) {
+void DeformPass::deform_rigged(PassContext &p_context, const Slot &p_slot, GpuMesh &r_gpu) {
 	const std::shared_ptr<const Mesh> &rest_mesh = p_slot.mesh->rest;
 	const MeshRig &rig = *rest_mesh->attributes.rig;
 	const GpuMesh &rest = store.get(rest_mesh);
@@ -181,24 +182,24 @@ void DeformPass::deform_whole(PassContext &p_context, const Slot &p_slot, GpuMes
 		static_cast<uint32_t>(std::min(rig.targets.size(), pose.get_weights().size())) };
 	const std::vector<Binding> common = { { DEFORM_BINDING_INFLUENCES, gpu_rig.influences.get() },
 		{ DEFORM_BINDING_TARGETS, gpu_rig.targets.get() },
-		{ DEFORM_BINDING_POSE, p_context.get(p_slot.words) } };
-	Work work = { whole, common, { r_gpu.positions.get(), r_gpu.normals.get() }, push };
+		{ DEFORM_BINDING_POSE, p_context.get(p_slot.pose_data) } };
+	Work work = { rigged, common, { r_gpu.positions.get(), r_gpu.normals.get() }, push };
 	work.bindings.emplace_back(DEFORM_BINDING_POSITIONS, rest.positions.get());
 	work.bindings.emplace_back(DEFORM_BINDING_NORMALS, rest.normals.get());
 	work.bindings.emplace_back(DEFORM_BINDING_RESULT, r_gpu.positions.get());
 	work.bindings.emplace_back(DEFORM_BINDING_NORMAL_RESULT, r_gpu.normals.get());
-	step.push_back(std::move(work));
+	pending.push_back(std::move(work));
 	if (r_gpu.tangents) {
-		Work turned = { tangents, common, { r_gpu.tangents.get() }, push };
-		turned.bindings.emplace_back(DEFORM_BINDING_POSITIONS, r_gpu.rest_tangents);
-		turned.bindings.emplace_back(DEFORM_BINDING_RESULT, r_gpu.tangents.get());
-		step.push_back(std::move(turned));
+		Work tangent_work = { tangents, common, { r_gpu.tangents.get() }, push };
+		tangent_work.bindings.emplace_back(DEFORM_BINDING_POSITIONS, r_gpu.rest_tangents);
+		tangent_work.bindings.emplace_back(DEFORM_BINDING_RESULT, r_gpu.tangents.get());
+		pending.push_back(std::move(tangent_work));
 	}
 }
 
 void DeformPass::deform_points(
 		const Slot &p_slot, const std::shared_ptr<const Mesh> &p_mesh, GpuMesh &r_gpu) {
-	step.push_back({ points,
+	pending.push_back({ points,
 			{ { MOVE_BINDING_POSITIONS, store.get(p_slot.mesh).positions.get() },
 					{ MOVE_BINDING_SOURCES, get_points(store, p_mesh).points.get() },
 					{ MOVE_BINDING_RESULT, r_gpu.positions.get() } },
@@ -207,7 +208,7 @@ void DeformPass::deform_points(
 }
 
 void DeformPass::deform_welded(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu) {
-	step.push_back({ welded,
+	pending.push_back({ welded,
 			{ { MOVE_BINDING_POSITIONS, store.get(p_mesh).positions.get() },
 					{ MOVE_BINDING_SOURCES, get_weld(store, p_mesh).vertices.get() },
 					{ MOVE_BINDING_RESULT, r_gpu.positions.get() } },
@@ -216,7 +217,7 @@ void DeformPass::deform_welded(const std::shared_ptr<const Mesh> &p_mesh, GpuTop
 }
 
 void DeformPass::deform_normals(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu) {
-	step.push_back({ normals,
+	pending.push_back({ normals,
 			{ { MOVE_BINDING_POSITIONS, r_gpu.positions.get() },
 					{ MOVE_BINDING_SOURCES, get_weld(store, p_mesh).faces.get() },
 					{ MOVE_BINDING_TRIANGLES, r_gpu.triangles.get() },
@@ -230,7 +231,7 @@ void DeformPass::run(CommandList &r_commands) {
 		Access::SHADER_READ_FRAGMENT, Access::SHADER_READ_COMPUTE, Access::COPY_READ };
 	std::vector<Barrier> before;
 	std::vector<Barrier> after;
-	for (const Work &work : step) {
+	for (const Work &work : pending) {
 		for (const BufferRID buffer : work.written) {
 			for (const Access reader : READERS) {
 				before.push_back({ buffer, {}, reader, Access::SHADER_WRITE_COMPUTE, {} });
@@ -239,14 +240,14 @@ void DeformPass::run(CommandList &r_commands) {
 		}
 	}
 	r_commands.barriers(before);
-	for (const Work &work : step) {
+	for (const Work &work : pending) {
 		r_commands.bind_pipeline(work.pipeline);
 		r_commands.bind_resources(work.bindings);
 		r_commands.push_constants(work.push);
 		r_commands.dispatch_items({ work.push.vertex_count, 1, 1 });
 	}
 	r_commands.barriers(after);
-	step.clear();
+	pending.clear();
 }
 
 void DeformPass::record(PassContext &p_context) {
@@ -274,7 +275,7 @@ void DeformPass::record(PassContext &p_context) {
 	}
 	for (const Item &item : meshes) {
 		if (item.mesh == item.slot->mesh) {
-			deform_whole(p_context, *item.slot, *item.gpu);
+			deform_rigged(p_context, *item.slot, *item.gpu);
 		}
 	}
 	run(p_context.commands);
@@ -297,6 +298,7 @@ void DeformPass::record(PassContext &p_context) {
 }
 
 void MeshStore::prepare_deform(const std::shared_ptr<const Mesh> &p_mesh, bool p_has_topology) {
+	// Each of these functions uploads the data on its first call.
 	if (p_has_topology) {
 		get_weld(*this, p_mesh);
 	}

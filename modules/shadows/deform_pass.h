@@ -9,15 +9,16 @@
 
 namespace gnomon {
 
-/// The work of MeshStore::add_deform_pass. It is determined while the pass is recorded, when every
-/// reader of vertices has requested its buffers. Three steps, each of which reads what the step
-/// before wrote: vertices of rigged meshes, vertices of meshes cut out of those, welded vertices.
+/// Implements MeshStore::add_deform_pass. Which buffers to deform is decided when the pass is
+/// recorded, because by then every reader of vertices has requested its buffers. Each of the
+/// following reads results of the previous ones, so barriers separate them: vertices of rigged
+/// meshes, vertices of meshes cut out of those, welded positions, welded normals.
 class DeformPass {
 public:
 	DeformPass(MeshStore &r_store, const SceneSnapshot &p_scene, RenderGraph &r_graph);
 
 	bool is_needed() const { return !slots.empty(); }
-	/// Number of instances whose vertices do not have the current pose yet.
+	/// Number of posed instances whose vertices do not have the current pose yet.
 	uint32_t count_moved() const;
 	/// The frame's buffers that the pass reads.
 	std::vector<RGBuffer> list_inputs() const;
@@ -26,10 +27,10 @@ public:
 private:
 	struct Slot {
 		std::shared_ptr<const MeshPose> pose;
-		std::shared_ptr<const Mesh> mesh; // the slot's whole mesh
-		RGBuffer words;					  // the joints' rows and the targets' weights
+		std::shared_ptr<const Mesh> mesh; // the rigged mesh, from which others may be cut out
+		RGBuffer pose_data;				  // three matrix rows per joint, then the morph weights
 	};
-	/// One dispatch and what it writes.
+	/// One dispatch and the buffers that it writes.
 	struct Work {
 		PipelineRID pipeline;
 		std::vector<Binding> bindings;
@@ -37,19 +38,22 @@ private:
 		shader::DeformPush push;
 	};
 
+	/// Returns the slot of a mesh, null when the mesh is not deformed in this frame.
 	const Slot *find_slot(const std::weak_ptr<const Mesh> &p_mesh) const;
-	void deform_whole(PassContext &p_context, const Slot &p_slot, GpuMesh &r_gpu);
+	// Each of the next four adds dispatches to `pending`: for a rigged mesh, a mesh cut out of one,
+	// welded positions, and welded normals.
+	void deform_rigged(PassContext &p_context, const Slot &p_slot, GpuMesh &r_gpu);
 	void deform_points(
 			const Slot &p_slot, const std::shared_ptr<const Mesh> &p_mesh, GpuMesh &r_gpu);
 	void deform_welded(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu);
 	void deform_normals(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu);
-	/// Records the dispatches in `step` and a barrier after them.
+	/// Records the dispatches in `pending`, with barriers before and after them, and empties it.
 	void run(CommandList &r_commands);
 
 	MeshStore &store;
-	std::map<uint64_t, Slot> slots; // by Mesh::slot_id
-	PipelineRID whole, tangents, points, welded, normals;
-	std::vector<Work> step;
+	std::map<uint64_t, Slot> slots;						   // by Mesh::slot_id
+	PipelineRID rigged, tangents, points, welded, normals; // of the deform*.comp shaders
+	std::vector<Work> pending;							   // for the next run()
 };
 
 } // namespace gnomon

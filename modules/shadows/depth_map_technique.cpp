@@ -25,14 +25,14 @@ void DepthMapTechnique::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		p_inputs.views[0].size_px, static_cast<uint32_t>(p_inputs.views.size()),
 		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true };
 	frame_map = {};
-	views.begin(p_inputs, reads);
-	if (views.may_forget()) {
-		map.reset(); // nothing reads it
+	views.begin(p_inputs, filter_reach);
+	if (views.may_free_maps()) {
+		map.reset(); // unused
 	}
 	has_content = bool(map) && map_desc == desc;
 	views.plan(p_inputs, r_plan, has_content);
 	if (!has_content && !views.is_all_empty()) {
-		map.reset(); // before the new one takes memory
+		map.reset(); // first, so that two maps never exist at once
 		map = OwnedTexture(p_inputs.device, p_inputs.device.create_texture(desc));
 		map_desc = desc;
 	}

@@ -8,9 +8,9 @@
 
 namespace gnomon {
 
-/// Words on the GPU, written in the same frame, that predicate the draws and dispatches of casters:
-/// they execute when the caster's word is not 0. Casters without a word always execute; by default
-/// none has one.
+/// Predicates for conditional rendering (VK_EXT_conditional_rendering): one 32-bit word per caster,
+/// written on the GPU in the same frame. The draws and dispatches of a caster execute only when its
+/// word is not 0. Casters without a word always execute. By default no caster has a word.
 struct DrawPredicates {
 	RGBuffer words; // with BufferUsage::CONDITIONAL
 	uint64_t first_offset_bytes = 0;

@@ -19,9 +19,11 @@ struct FramePlanEntry {
 /// pass is recorded. Skipping a pass never changes the image, bit for bit.
 class FramePlan {
 public:
-	/// Entries belong to this light until the next call; empty = the whole frame.
+	/// Sets the light of all entries that are added until the next call. Empty: the whole frame.
 	void set_light(const std::string &p_name) { light = p_name; }
+	/// Adds a pass that runs.
 	void run(const std::string &p_pass);
+	/// Adds a pass that is skipped. p_reason: why, as shown to the user.
 	void skip(const std::string &p_pass, const std::string &p_reason);
 
 	const std::vector<FramePlanEntry> &get_entries() const { return entries; }

@@ -36,10 +36,10 @@ std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topol
 		shader::TopologyEdge record = {};
 		record.a = edge.a;
 		record.b = edge.b;
-		record.opposite0 = p_topology.find_opposite(edge.face0, edge.a, edge.b);
+		record.opposite0 = p_topology.find_opposite_vertex(edge.face0, edge.a, edge.b);
 		record.opposite1 = edge.face1 == NO_FACE
 				? TOPOLOGY_NO_VERTEX
-				: p_topology.find_opposite(edge.face1, edge.a, edge.b) |
+				: p_topology.find_opposite_vertex(edge.face1, edge.a, edge.b) |
 						(edge.is_inconsistent ? TOPOLOGY_EDGE_INCONSISTENT : 0) |
 						(p_topology.get_part(edge.face0).is_solid() ? 0 : TOPOLOGY_EDGE_NOT_SOLID);
 		records.push_back(record);
@@ -73,14 +73,14 @@ GpuTopology::GpuTopology(const std::shared_ptr<const Mesh> &p_mesh) :
 	adjacency_index_count = static_cast<uint32_t>(topology->adjacency_indices.size());
 }
 
-void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
+void GpuTopology::upload(RenderingDevice &p_device, TopologyBuffer p_buffers) {
 	if (edge_count == 0) {
 		return;
 	}
 	const std::shared_ptr<const Mesh> named = mesh.lock();
-	const auto make = [&](TopologyPart p_part, auto &r_buffer, const char *p_what,
+	const auto make = [&](TopologyBuffer p_kind, auto &r_buffer, const char *p_what,
 							  BufferUsage p_usage, auto p_build) {
-		if (r_buffer || (uint32_t(p_parts) & uint32_t(p_part)) == 0) {
+		if (r_buffer || (uint32_t(p_buffers) & uint32_t(p_kind)) == 0) {
 			return;
 		}
 		const auto &values = p_build();
@@ -90,7 +90,7 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
 						{ text(named ? named->name : "mesh", " ", p_what), bytes.size(),
 								p_usage | BufferUsage::COPY_TARGET },
 						bytes));
-		pose_hash = 0; // buffers that have the pose already are deformed again
+		pose_hash = 0; // so that the deform pass also fills the new buffer
 	};
 	const auto widen = [](const std::vector<glm::vec3> &p_values, float p_w) {
 		std::vector<glm::vec4> wide;
@@ -101,17 +101,17 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
 	};
 	const MeshTopology &source = *topology;
 	const BufferUsage vertices = BufferUsage::VERTEX | BufferUsage::STORAGE;
-	make(TopologyPart::POSITIONS, positions, "welded positions", vertices,
+	make(TopologyBuffer::POSITIONS, positions, "welded positions", vertices,
 			[&] { return widen(source.welded_positions_node, 1.0f); });
-	make(TopologyPart::NORMALS, normals, "welded normals", vertices,
+	make(TopologyBuffer::NORMALS, normals, "welded normals", vertices,
 			[&] { return widen(source.normals_node, 0.0f); });
-	make(TopologyPart::EDGES, edges, "edges", BufferUsage::STORAGE,
+	make(TopologyBuffer::EDGES, edges, "edges", BufferUsage::STORAGE,
 			[&] { return build_edge_records(source); });
-	make(TopologyPart::TRIANGLES, triangles, "welded triangles", BufferUsage::STORAGE,
+	make(TopologyBuffer::TRIANGLES, triangles, "welded triangles", BufferUsage::STORAGE,
 			[&] { return source.triangles; });
-	make(TopologyPart::FACE_FLAGS, face_flags, "face flags", BufferUsage::STORAGE,
+	make(TopologyBuffer::FACE_FLAGS, face_flags, "face flags", BufferUsage::STORAGE,
 			[&] { return build_face_flags(source); });
-	make(TopologyPart::ADJACENCY, adjacency_indices, "adjacency", BufferUsage::INDEX,
+	make(TopologyBuffer::ADJACENCY, adjacency_indices, "adjacency", BufferUsage::INDEX,
 			[&] { return source.adjacency_indices; });
 }
 

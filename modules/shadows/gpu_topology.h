@@ -11,7 +11,7 @@
 namespace gnomon {
 
 /// The buffers of a mesh's topology that a technique reads on the GPU; bits, combined with |.
-enum class TopologyPart : uint32_t {
+enum class TopologyBuffer : uint32_t {
 	NONE = 0,
 	POSITIONS = 1,
 	NORMALS = 2,
@@ -20,21 +20,21 @@ enum class TopologyPart : uint32_t {
 	FACE_FLAGS = 16,
 	ADJACENCY = 32,
 };
-constexpr TopologyPart operator|(TopologyPart p_left, TopologyPart p_right) {
-	return TopologyPart(uint32_t(p_left) | uint32_t(p_right));
+constexpr TopologyBuffer operator|(TopologyBuffer p_left, TopologyBuffer p_right) {
+	return TopologyBuffer(uint32_t(p_left) | uint32_t(p_right));
 }
-constexpr TopologyPart operator&(TopologyPart p_left, TopologyPart p_right) {
-	return TopologyPart(uint32_t(p_left) & uint32_t(p_right));
+constexpr TopologyBuffer operator&(TopologyBuffer p_left, TopologyBuffer p_right) {
+	return TopologyBuffer(uint32_t(p_left) & uint32_t(p_right));
 }
-constexpr TopologyPart operator~(TopologyPart p_parts) {
-	return TopologyPart(~uint32_t(p_parts));
+constexpr TopologyBuffer operator~(TopologyBuffer p_buffers) {
+	return TopologyBuffer(~uint32_t(p_buffers));
 }
 
 /// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them, in node
 /// space. A buffer exists once it was requested, see MeshStore::get_topology.
 struct GpuTopology {
 	OwnedBuffer positions;			// VERTEX | STORAGE, vec4 per welded vertex, w = 1
-	OwnedBuffer normals;			// VERTEX | STORAGE, vec4; zero where the faces cancel
+	OwnedBuffer normals;			// VERTEX | STORAGE, vec4; zero where the face normals cancel
 	SharedBuffer edges;				// STORAGE, shader::TopologyEdge, see order_edges_by_face
 	SharedBuffer triangles;			// STORAGE, three welded vertices per face
 	SharedBuffer face_flags;		// STORAGE, one word per face, TOPOLOGY_FACE_*
@@ -45,10 +45,12 @@ struct GpuTopology {
 	std::shared_ptr<const MeshTopology> topology;
 	std::weak_ptr<const Mesh> mesh;
 
-	/// A mesh whose triangles are all degenerate has no edges, and never a buffer.
+	/// Creates no buffers yet. A mesh of which all triangles are degenerate has no edges and never
+	/// gets buffers.
 	explicit GpuTopology(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Uploads the parts that are not uploaded yet. New positions and normals are those at rest.
-	void upload(RenderingDevice &p_device, TopologyPart p_parts);
+	/// Uploads the requested buffers that do not exist yet. New positions and normals are those at
+	/// rest.
+	void upload(RenderingDevice &p_device, TopologyBuffer p_buffers);
 	/// Shares the buffers that a deformed mesh has in common with its mesh at rest.
 	void share(const GpuTopology &p_rest);
 };
@@ -58,8 +60,9 @@ struct GpuTopology {
 std::vector<uint32_t> order_edges_by_face(const MeshTopology &p_topology);
 /// The edges as the shaders read them, in the order of order_edges_by_face.
 std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topology);
-/// Flags per face: which of its edges (0: vertices 0 1, 1: 1 2, 2: 2 0) it owns, which have no
-/// other face, and whether its part is solid. An edge is owned by its face0.
+/// Flags per face (TOPOLOGY_FACE_*): which of its edges (edge i connects its corners i and i + 1)
+/// it owns, which have no other face, which are wound inconsistently, and whether the face's part
+/// of the mesh is not solid (MeshPart::is_solid). An edge is owned by its face0.
 std::vector<uint32_t> build_face_flags(const MeshTopology &p_topology);
 
 } // namespace gnomon

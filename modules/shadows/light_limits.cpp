@@ -12,10 +12,14 @@ namespace gnomon {
 
 namespace {
 
-const double MOST_SIZE_PER_CASTERS = 200; // receivers then move by 1 % of the casters' diagonal
-const double MOST_CASTERS_PER_SIZE = 5e3;
+// Maximum of S divided by the diagonal of the bounds of all casters but the largest. At this ratio
+// receivers are moved off their surfaces by 1 % of that diagonal.
+const double MAX_SIZE_PER_CASTERS = 200;
+// Maximum of the diagonal of the bounds of all casters divided by S. Above it, rounding causes
+// visible false shadows.
+const double MAX_CASTERS_PER_SIZE = 5e3;
 
-const char *const WHERE_TO_READ = "; doc/stability.md lists the limits of each technique.";
+const char *const LIMITS_DOC_HINT = "; doc/stability.md lists the limits of each technique.";
 
 /// True when the whole box is behind the light by more than the light's radius, where a spot does
 /// not shine.
@@ -61,49 +65,49 @@ const InstanceSnapshot *LightLimits::find_near_caster(
 	return found;
 }
 
-const std::vector<BrokenLimit> &LightLimits::find_broken(const SceneSnapshot &p_scene,
+const std::vector<ExceededLimit> &LightLimits::find_exceeded(const SceneSnapshot &p_scene,
 		const LightSnapshot &p_light, const std::string &p_technique_id,
 		const ShadowLimits &p_limits) {
-	broken.clear();
+	exceeded.clear();
 	const std::string light = text("Light \"", p_light.name, "\": ");
 	const std::string key = p_light.name + "/" + p_technique_id;
 	if (p_light.type != LightType::DIRECTIONAL && p_light.light_size_m > 0) {
-		const double radii = p_limits.least_caster_distance_radii;
+		const double radii = p_limits.min_caster_distance_radii;
 		if (const InstanceSnapshot *caster =
 						find_near_caster(p_scene, p_light, radii * p_light.light_size_m)) {
-			broken.push_back({ key + "/near_caster",
+			exceeded.push_back({ key + "/near_caster",
 					text(light, "caster \"", caster->node_name,
 							"\" comes nearer to its centre than ", radii,
 							" x light_size = ", format_number(radii * p_light.light_size_m),
 							" m, where the shadow of ", p_technique_id,
 							" is wrong. Lower light_size, move the light or the caster, or set "
 							"another shadow_technique",
-							WHERE_TO_READ) });
+							LIMITS_DOC_HINT) });
 		}
 	}
 	const bool is_directional = p_light.type == LightType::DIRECTIONAL;
 	const char *size_property = is_directional ? "light_angular_distance" : "light_size";
 	const auto check_width = [&](const char *p_property, double p_width_m, bool p_is_derived,
-									 double p_most_sizes) {
-		const double most_m = p_most_sizes * p_scene.scene_size_m;
-		if (p_width_m > most_m) {
-			broken.push_back({ key + "/" + p_property,
+									 double p_max_sizes) {
+		const double max_m = p_max_sizes * p_scene.scene_size_m;
+		if (p_width_m > max_m) {
+			exceeded.push_back({ key + "/" + p_property,
 					text(light, p_property, p_is_derived ? ", derived from " : "",
 							p_is_derived ? size_property : "", p_is_derived ? "," : "", " is ",
 							format_number(p_width_m), " m, and ", p_technique_id,
-							" is wrong above ", format_number(most_m), " m (", p_most_sizes,
+							" is wrong above ", format_number(max_m), " m (", p_max_sizes,
 							" of the scene's size). Lower ", p_is_derived ? size_property : "it",
-							", or set another shadow_technique", WHERE_TO_READ) });
+							", or set another shadow_technique", LIMITS_DOC_HINT) });
 		}
 	};
 	check_width("penumbra_outer_width", p_light.penumbra_outer_width_m,
-			p_light.is_outer_width_derived, p_limits.most_outer_width_sizes);
+			p_light.is_outer_width_derived, p_limits.max_outer_width_sizes);
 	check_width("penumbra_inner_width", p_light.penumbra_inner_width_m,
-			p_light.is_inner_width_derived, p_limits.most_inner_width_sizes);
-	return broken;
+			p_light.is_inner_width_derived, p_limits.max_inner_width_sizes);
+	return exceeded;
 }
 
-std::string describe_unfit_size(const SceneSnapshot &p_scene) {
+std::string describe_scene_size_problem(const SceneSnapshot &p_scene) {
 	const InstanceSnapshot *largest = nullptr;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		if (instance.casts_shadow &&
@@ -121,7 +125,7 @@ std::string describe_unfit_size(const SceneSnapshot &p_scene) {
 	}
 	const double size_m = p_scene.scene_size_m;
 	const double rest_m = rest.get_diagonal();
-	if (rest_m > 0 && size_m > MOST_SIZE_PER_CASTERS * rest_m) {
+	if (rest_m > 0 && size_m > MAX_SIZE_PER_CASTERS * rest_m) {
 		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
 				largest->node_name, "\" are within ", format_number(rest_m),
 				" m: their shadows begin ", format_number(double(RECEIVER_OFFSET) * size_m),
@@ -129,12 +133,12 @@ std::string describe_unfit_size(const SceneSnapshot &p_scene) {
 				format_number(rest_m), ".");
 	}
 	const double all_m = p_scene.compute_caster_bounds().get_diagonal();
-	if (all_m > MOST_CASTERS_PER_SIZE * size_m) {
+	if (all_m > MAX_CASTERS_PER_SIZE * size_m) {
 		return text("The scene's size is ", format_number(size_m),
 				" m, and its casters reach over ", format_number(all_m),
 				" m: rounding shows as false shadows. Set scene_size, in the "
 				"scene's extras, to at least ",
-				format_number(all_m / MOST_CASTERS_PER_SIZE), ".");
+				format_number(all_m / MAX_CASTERS_PER_SIZE), ".");
 	}
 	return {};
 }

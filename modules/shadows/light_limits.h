@@ -9,17 +9,17 @@
 namespace gnomon {
 
 /// A limit of a technique that a light exceeds.
-struct BrokenLimit {
-	std::string key;	 // the same for as long as the same limit is broken
+struct ExceededLimit {
+	std::string key;	 // identifies light, technique and limit
 	std::string warning; // light, value, range and what to do
 };
 
-/// Finds the limits that a light exceeds. A caster's triangles are searched again only when the
-/// caster, the light or the distance changed.
+/// Finds the limits that a light exceeds. Whether a caster is too near to the light is found by a
+/// search of its triangles, repeated only when the caster, the light or the distance changes.
 class LightLimits {
 public:
 	/// p_technique_id is used in the text. p_limits: ShadowTechnique::get_limits of that technique.
-	const std::vector<BrokenLimit> &find_broken(const SceneSnapshot &p_scene,
+	const std::vector<ExceededLimit> &find_exceeded(const SceneSnapshot &p_scene,
 			const LightSnapshot &p_light, const std::string &p_technique_id,
 			const ShadowLimits &p_limits);
 
@@ -32,16 +32,18 @@ private:
 		uint64_t hash = 0; // of the caster, the light and the distance
 		bool is_near = false;
 	};
+	/// Returns a caster with a triangle nearer to the light's centre than p_distance_m, or null.
+	/// For a spot light, casters entirely behind it are ignored.
 	const InstanceSnapshot *find_near_caster(
 			const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m);
 
 	std::vector<Search> searches; // of the last call
-	std::vector<BrokenLimit> broken;
+	std::vector<ExceededLimit> exceeded;
 	uint32_t search_count = 0;
 };
 
-/// Why the scene's size S does not fit its casters, and what to do; empty: it fits. All receivers
-/// are moved off their surfaces by the same fraction of S.
-std::string describe_unfit_size(const SceneSnapshot &p_scene);
+/// Returns why the scene size S is too large or too small for its casters, and what to do. Empty
+/// when S fits. It matters because receivers are moved off their surfaces by RECEIVER_OFFSET * S.
+std::string describe_scene_size_problem(const SceneSnapshot &p_scene);
 
 } // namespace gnomon

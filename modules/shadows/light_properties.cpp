@@ -11,9 +11,10 @@ namespace gnomon {
 
 namespace {
 
-const char TECHNIQUE[] = "shadow_technique";
+const char TECHNIQUE_PROPERTY[] = "shadow_technique";
 
-/// The techniques to choose from, the default first. An example is listed only when it is chosen.
+/// Makes shadow_technique an enum of the registered techniques, after the choice of the default. An
+/// example is listed only when it is chosen.
 PropertyInfo make_choice(const PropertyInfo &p_info, const std::string &p_chosen_id) {
 	PropertyInfo info = p_info;
 	if (ShadowRegistry::get_all().empty()) {
@@ -70,13 +71,13 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 	if (light == nullptr) {
 		return;
 	}
-	LightSnapshot chosen; // of which the id is read: the light's transform may be singular
+	LightSnapshot chosen; // only name and technique: the light's transform may be singular
 	chosen.name = light->name;
-	const auto stored = light->properties.find(TECHNIQUE);
+	const auto stored = light->properties.find(TECHNIQUE_PROPERTY);
 	if (stored != light->properties.end() && std::holds_alternative<std::string>(stored->second)) {
 		chosen.technique_id = std::get<std::string>(stored->second);
 	}
-	if (const PropertyInfo *info = r_list.find(TECHNIQUE)) {
+	if (const PropertyInfo *info = r_list.find(TECHNIQUE_PROPERTY)) {
 		r_list.replace(make_choice(*info, chosen.technique_id));
 	}
 	if (const ShadowTechniqueInfo *technique = choose_technique(chosen, {}).info) {
@@ -152,7 +153,7 @@ void add_moved_setting(const std::string &p_id, const std::string &p_name, Prope
 					"] of project.cfg, or --set technique.", p_id, ".NAME=value.") });
 }
 
-void check_own_properties(const std::string &p_id, const PropertyList &p_list) {
+void check_extension_properties(const std::string &p_id, const PropertyList &p_list) {
 	for (const PropertyInfo &property : p_list.get_properties()) {
 		GNOMON_ASSERT(property.name.rfind(p_id + "_", 0) == 0, "property ", property.name,
 				" must begin with ", p_id, "_");

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-// What techniques and mask filters add to the properties that every light has.
+// Light properties that techniques and mask filters declare, in addition to those of every light.
 
 namespace gnomon {
 
@@ -16,23 +16,23 @@ namespace gnomon {
 /// techniques, the properties of the light's technique, and those of all mask filters.
 void add_light_properties(const Node3D &p_node, PropertyList &r_list);
 
-/// The property with that name that some technique or filter declares, or null.
+/// Returns the property of that name that a technique or filter declares, or null.
 const PropertyInfo *find_added_light_property(std::string_view p_name);
-/// A property with that name that techniques or filters once declared and no longer read, or null.
+/// Returns the property of that name that techniques or filters no longer use, or null.
 const RemovedProperty *find_removed_light_property(std::string_view p_name);
 /// The names of all light properties that techniques and filters declare.
 std::vector<std::string> list_added_light_properties();
 
 /// The properties of one technique or filter that the light has, with defaults filled in. A stored
-/// value that is out of range is logged once per light and value, and its default is used; a
-/// removed property is logged once per file.
+/// value of the wrong type or out of range is logged once per light and value, and the default is
+/// used; removed properties are logged once per file.
 PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list);
 
-/// Declares the removed light property ID_NAME, which older files may hold: it is now the setting
-/// NAME of the technique.
+/// Declares that the light property p_id + "_" + p_name, which older files may have, was removed
+/// because it is now the setting p_name of the technique p_id.
 void add_moved_setting(const std::string &p_id, const std::string &p_name, PropertyList &r_list);
 
 /// Asserts that every name begins with the id and that every property has a tooltip.
-void check_own_properties(const std::string &p_id, const PropertyList &p_list);
+void check_extension_properties(const std::string &p_id, const PropertyList &p_list);
 
 } // namespace gnomon

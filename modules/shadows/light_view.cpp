@@ -10,8 +10,9 @@ namespace gnomon {
 
 namespace {
 
-// Beyond this cone half angle one perspective map distributes its texels badly: at 60 degrees a
-// texel in the corner is 4 times as large as in the centre. Six views of 90 degrees are better.
+// Beyond this cone half angle one perspective map distributes its texels badly: at 60 degrees from
+// the axis a texel covers a quarter of the angle that one in the centre covers. Six views of 90
+// degrees are better.
 constexpr float MAX_SINGLE_VIEW_RAD = 1.0471975512f;
 // Near plane as a fraction of S. Casters nearer than that are clamped to the near plane or clipped
 // there. Reversed float depth has enough precision: no error grows from far : near = 10 to 1e7
@@ -143,7 +144,8 @@ bool LightView::may_see(const InstanceSnapshot &p_instance) const {
 namespace {
 
 glm::dvec2 compute_range_m(const Bounds &p_box, const glm::dmat4 &p_view_from_box) {
-	glm::dvec2 range(p_view_from_box[3].z); // the third row determines which corners
+	// z is linear in each of the box's coordinates, so each axis adds its own minimum and maximum.
+	glm::dvec2 range(p_view_from_box[3].z);
 	for (int axis = 0; axis < 3; ++axis) {
 		const double low = p_view_from_box[axis].z * p_box.minimum[axis];
 		const double high = p_view_from_box[axis].z * p_box.maximum[axis];

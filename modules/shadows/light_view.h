@@ -33,11 +33,13 @@ struct LightView {
 	/// False only when the box, grown by caster_margin_m, is certainly outside the view's sides or
 	/// behind it.
 	bool may_see(const Bounds &p_bounds_world) const;
-	/// As above, but also tests the instance's oriented box, which is tighter when it is rotated.
+	/// As above, for bounds_world and also for the oriented box of the mesh that casts the
+	/// instance's shadow (caster_bounds_node), which is tighter when the instance is rotated.
 	bool may_see(const InstanceSnapshot &p_instance) const;
 	/// Minimum and maximum distance of the box along the view in metres, negative behind the view.
 	/// The box is not clipped to the view.
 	glm::dvec2 compute_distance_range_m(const Bounds &p_bounds_world) const;
+	/// As above, for the oriented box of the mesh that casts the instance's shadow.
 	glm::dvec2 compute_distance_range_m(const InstanceSnapshot &p_instance) const;
 	bool operator==(const LightView &) const = default;
 
@@ -59,10 +61,12 @@ struct LightScene {
 			LightScene(p_scene, p_scene.compute_caster_bounds()) {}
 };
 
-/// Views that together cover everything the light reaches: 1 for a spot with a half angle up to 60
-/// degrees and for a directional light (fitted to the casters), 6 for omni and wider spots
-/// (including views that the cone misses, so that a view's index is its axis). A perspective view
-/// has a border of p_border_px texels around the light's field, so that a filter of that radius
+/// Views that together contain everything that can cast a shadow of the light: 1 for a spot with a
+/// half angle up to 60 degrees and for a directional light, 6 for omni and wider spots (including
+/// views that the cone misses, so that a view's index is its axis). Views of spot and omni lights
+/// also contain all receivers that the light reaches. The view of a directional light is fitted to
+/// the casters: a receiver outside of it reads an empty texel of the map's border, so it is lit.
+/// Each view has a border of p_border_px texels around its content, so that a filter of that radius
 /// stays in the map. p_caster_margin_m: how far a technique extends the casters, in metres; a
 /// directional view contains the extended casters.
 std::vector<LightView> build_light_views(const LightSnapshot &p_light, const LightScene &p_scene,

@@ -111,7 +111,7 @@ MaskValues MaskReadback::get_values() const {
 	values.colors.resize(is_colored ? count : 0);
 	for (size_t index = 0; index < count; ++index) {
 		if (receiver_bytes[index] == 0) {
-			continue; // all 0
+			continue; // the values stay 0
 		}
 		values.receiver[index] = 1.0f;
 		switch (format) {

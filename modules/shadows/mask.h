@@ -13,7 +13,7 @@ namespace gnomon {
 /// Creates a mask that a compute pass writes; see ShadowTechnique::resolve for the formats.
 RGTexture create_mask(
 		RenderGraph &r_graph, glm::uvec2 p_size_px, Format p_format = Format::R16_SFLOAT);
-/// Adds a mask with the same value in each pixel, for lights without a shadow.
+/// Adds a mask with the same value in each pixel, for example for lights without a shadow.
 RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility);
 
 /// True when the mask has three colour channels: that of a light with translucent casters. All
@@ -25,13 +25,14 @@ std::vector<SpecializationConstant> make_mask_constants(
 /// The luminance of a coloured mask's texel: mask_luminance of mask_inc.glsl.
 float compute_mask_luminance(const glm::vec3 &p_mask);
 
-// For masks that are computed from light-view maps.
+// For masks that a compute shader derives from maps of the light's views.
 
 /// The bindings that common/map_resolve_inc.glsl reads, for a compute pass over the pixels. The
-/// technique's own bindings start at MAP_RESOLVE_OWN_BINDING.
+/// technique's own bindings start at MAP_RESOLVE_FIRST_FREE_BINDING.
 std::vector<PassBinding> make_map_resolve_bindings(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);
-/// As above for a light that was moved: p_light and p_views replace those of the inputs.
+/// As above, but p_light and p_views replace those of the inputs, for example for a light that was
+/// moved, or for maps of another size.
 std::vector<PassBinding> make_map_resolve_bindings(RenderGraph &r_graph,
 		const ShadowTechnique::Inputs &p_inputs, const LightSnapshot &p_light,
 		const std::vector<LightView> &p_views);

@@ -37,11 +37,12 @@ public:
 	virtual std::vector<std::string> get_shader_files() const = 0;
 };
 
+/// Description of a mask filter, which its module registers.
 struct MaskFilterInfo {
 	std::string id;
 	std::string name;
-	std::string source;
-	std::string color; // "#rrggbb", unique: the filter's colour in all plots
+	std::string source; // paper, book, section
+	std::string color;	// "#rrggbb", unique: the filter's colour in all plots
 	std::function<std::unique_ptr<MaskFilter>()> make;
 	/// The exact form of what the filter approximates: the reference integrates it, so the filter
 	/// does not run after the reference. Null: the filter also runs after the reference.
@@ -54,7 +55,7 @@ using MaskFilterRegistry = Registry<MaskFilterInfo>;
 /// MaskFilterInfo::spread of the first filter that has one, for the reference; null: there is none.
 /// Call on the main thread, or on the render thread while the main thread waits for the frame.
 std::shared_ptr<const SurfaceSpread> find_surface_spread();
-/// Hash of the registered filters, on which references and measured masks depend.
+/// Hash of the registered filters' ids. References and measured masks depend on it.
 uint64_t compute_filter_hash();
 
 } // namespace gnomon

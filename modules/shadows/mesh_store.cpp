@@ -21,7 +21,8 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 		return OwnedBuffer(device, device.create_buffer_with_data(desc, bytes));
 	};
 	const BufferUsage usage = BufferUsage::VERTEX | BufferUsage::STORAGE |
-			(p_mesh->rest ? BufferUsage::COPY_SOURCE : BufferUsage::VERTEX); // hosts may read it back
+			(p_mesh->rest ? BufferUsage::COPY_SOURCE
+						  : BufferUsage::VERTEX); // hosts may read it back
 	mesh.positions = upload("positions", usage, std::span<const glm::vec3>(p_mesh->positions_node));
 	mesh.normals = upload("normals", usage, std::span<const glm::vec3>(p_mesh->normals_node));
 	mesh.indices = rest_indices ? rest_indices
@@ -37,7 +38,7 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 
 BufferRID MeshStore::get_deformed_tangents(
 		const std::shared_ptr<const Mesh> &p_mesh, BufferRID p_rest) {
-	get(p_mesh);
+	get(p_mesh); // adds it to `meshes`
 	GpuMesh &mesh = meshes.at(p_mesh->id);
 	if (!mesh.tangents) {
 		const BufferDesc &rest = device.get_desc(p_rest);
@@ -53,21 +54,22 @@ BufferRID MeshStore::get_deformed_tangents(
 }
 
 const GpuTopology &MeshStore::get_topology(
-		const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts) {
+		const std::shared_ptr<const Mesh> &p_mesh, TopologyBuffer p_buffers) {
 	GpuTopology &topology = topologies.try_emplace(p_mesh->id, p_mesh).first->second;
 	if (p_mesh->rest) {
-		const TopologyPart deformed = TopologyPart::POSITIONS | TopologyPart::NORMALS;
-		const bool has_normals = (p_parts & TopologyPart::NORMALS) != TopologyPart::NONE;
-		const TopologyPart parts =
-				has_normals ? p_parts | TopologyPart::POSITIONS | TopologyPart::TRIANGLES : p_parts;
-		topology.share(get_topology(p_mesh->rest, parts & ~deformed));
-		topology.upload(device, parts & deformed);
-		if (topology.positions) { // which follow those of the mesh
-			get(p_mesh);
+		const TopologyBuffer deformed = TopologyBuffer::POSITIONS | TopologyBuffer::NORMALS;
+		const bool has_normals = (p_buffers & TopologyBuffer::NORMALS) != TopologyBuffer::NONE;
+		const TopologyBuffer buffers = has_normals
+				? p_buffers | TopologyBuffer::POSITIONS | TopologyBuffer::TRIANGLES
+				: p_buffers;
+		topology.share(get_topology(p_mesh->rest, buffers & ~deformed));
+		topology.upload(device, buffers & deformed);
+		if (topology.positions) { // the deform pass computes them from the mesh's positions
+			get(p_mesh);		  // uploads those
 			prepare_deform(p_mesh, true);
 		}
 	} else {
-		topology.upload(device, p_parts);
+		topology.upload(device, p_buffers);
 	}
 	return topology;
 }

@@ -38,10 +38,10 @@ public:
 	/// The mesh's tangents at its pose, a VERTEX buffer. p_rest: the tangents at rest, one per
 	/// vertex, which must live as long as the mesh at rest.
 	BufferRID get_deformed_tangents(const std::shared_ptr<const Mesh> &p_mesh, BufferRID p_rest);
-	/// Returns the mesh's topology and uploads the parts that were not requested before. Call
+	/// Returns the mesh's topology and uploads the requested buffers that do not exist yet. Call
 	/// before passes are recorded.
 	const GpuTopology &get_topology(
-			const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts);
+			const std::shared_ptr<const Mesh> &p_mesh, TopologyBuffer p_buffers);
 	/// Data that a technique derives from a mesh, shared by all lights and cached as long as the
 	/// mesh lives; p_make creates a T on the first call. One T per mesh and type; deformed meshes
 	/// use the T of their mesh at rest.

@@ -48,7 +48,7 @@ float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs) {
 	return nearest_w;
 }
 
-glm::vec2 compute_shown_depths(const ShadowTechnique::Inputs &p_inputs) {
+glm::vec2 compute_debug_depth_range(const ShadowTechnique::Inputs &p_inputs) {
 	double farthest_m = 0;
 	for (size_t index = 0; index < p_inputs.views.size(); ++index) {
 		if (p_inputs.views[index].is_orthographic) {
@@ -61,7 +61,7 @@ glm::vec2 compute_shown_depths(const ShadowTechnique::Inputs &p_inputs) {
 		}
 	}
 	if (farthest_m <= 0) {
-		return glm::vec2(0.0f, 1.0f); // no map holds anything
+		return glm::vec2(0.0f, 1.0f); // all maps are empty
 	}
 	return static_cast<float>(p_inputs.views[0].near_m / farthest_m) * glm::vec2(1.0f, 3.0f);
 }

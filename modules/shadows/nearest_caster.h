@@ -9,8 +9,8 @@ namespace gnomon {
 float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);
 /// The maximum over all views.
 float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs);
-/// The depths that debug views of light depths show black and white, see
-/// ShadowTechnique::DebugView.
-glm::vec2 compute_shown_depths(const ShadowTechnique::Inputs &p_inputs);
+/// Stored depths that a debug view of a light's depth map shows as black (x) and as white (y), see
+/// ShadowTechnique::DebugView::is_light_depth.
+glm::vec2 compute_debug_depth_range(const ShadowTechnique::Inputs &p_inputs);
 
 } // namespace gnomon

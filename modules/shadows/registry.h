@@ -18,7 +18,7 @@ public:
 	static void add(Info p_info) {
 		PropertyList list;
 		p_info.make()->get_light_properties(list);
-		check_own_properties(p_info.id, list);
+		check_extension_properties(p_info.id, list);
 		properties[p_info.id] = std::move(list);
 		ExtensionRegistry<Info>::add(std::move(p_info));
 		++revision;
@@ -34,7 +34,7 @@ public:
 		GNOMON_ASSERT(found != properties.end(), p_id, " is not registered");
 		return found->second;
 	}
-	/// Counts adds and removes.
+	/// Returns a number that grows with each add and remove.
 	static uint64_t get_revision() { return revision; }
 
 private:

@@ -48,14 +48,15 @@ Bounds compute_bounds(const SceneSnapshot &p_scene, const CasterFlags &p_casts) 
 	return bounds;
 }
 
-std::string describe_forced(const LightSnapshot &p_light, const TranslucentCasters &p_casters) {
-	if (p_casters.forced_count == 0) {
+std::string describe_merged(const LightSnapshot &p_light, const TranslucentCasters &p_casters) {
+	if (p_casters.merged_count == 0) {
 		return {};
 	}
-	return text("Light \"", p_light.name, "\": ", p_casters.forced_count,
-			" translucent casters share the colour of others, as it can distinguish ",
+	return text("Light \"", p_light.name, "\": ", p_casters.merged_count,
+			" translucent casters get the colour of another group, since at most ",
 			TranslucentCasters::MAX_GROUP_COUNT,
-			" groups. Give casters of one colour the same transmission, or fewer colours.");
+			" groups are possible. Give casters of one colour the same transmission, or use "
+			"fewer colours.");
 }
 
 void check_surface(const RenderGraph &p_graph, RGTexture p_texture, const char *p_what,
@@ -95,7 +96,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		options(std::move(p_options)) {
 	GNOMON_ASSERT(scene, "a frame needs a scene");
 	if (!options.technique_override.empty()) {
-		ShadowRegistry::get(options.technique_override);
+		ShadowRegistry::get(options.technique_override); // throws when it is not registered
 	}
 	system.begin_frame(*scene);
 	const uint32_t moved_count = system.meshes->add_deform_pass(graph, *scene, options.may_reuse);
@@ -109,22 +110,22 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 				"cached: their pose is the same");
 	}
 	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px),
-			BufferUsage::STORAGE | BufferUsage::UNIFORM); // as the host's own passes like it
+			BufferUsage::STORAGE | BufferUsage::UNIFORM); // hosts may bind it as either
 	LightView view = make_camera_view(scene->camera, size_px);
 	view.half_extent *= 1.0f + glm::abs(scene->camera.shift);
 	receivers = find_visible_receivers(*scene, view);
 	for (const InstanceSnapshot &instance : scene->instances) {
-		if (instance.casts_shadow && instance.outline_block_size_px > 0) {
+		if (instance.casts_shadow && instance.cut_block_size_px > 0) {
 			plan.run(
 					text("holes of \"", instance.node_name, "\" as squares, one for each block of ",
-							instance.outline_block_size_px, " texels"));
+							instance.cut_block_size_px, " texels"));
 		}
 	}
 }
 
 ShadowFrame::~ShadowFrame() {
 	if (!has_ended) {
-		system.forget_cached();
+		system.clear_caches();
 	}
 }
 
@@ -134,7 +135,7 @@ void ShadowFrame::end() {
 }
 
 void ShadowFrame::set_surfaces(const HostSurfaces &p_surfaces) {
-	GNOMON_ASSERT(p_surfaces.depth, "a host draws depth");
+	GNOMON_ASSERT(p_surfaces.depth, "HostSurfaces::depth is required");
 	check_surface(graph, p_surfaces.depth, "depth", Format::D32_SFLOAT, size_px);
 	check_surface(
 			graph, p_surfaces.geometric_normal, "geometric_normal", Format::R32_UINT, size_px);
@@ -188,7 +189,7 @@ std::string ShadowFrame::describe_unlit(const LightSnapshot &p_light) const {
 }
 
 LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_debug_views) {
-	GNOMON_ASSERT(surfaces.depth, "set_surfaces comes before add_light");
+	GNOMON_ASSERT(surfaces.depth, "call set_surfaces before add_light");
 	graph.set_pass_prefix(p_light.name + ": ");
 	plan.set_light(p_light.name);
 	LightShadow shadow;
@@ -219,8 +220,8 @@ std::vector<LightShadow> ShadowFrame::add_all_lights() {
 	return shadows;
 }
 
-void ShadowFrame::hold(
-		const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer, float p_elsewhere) {
+void ShadowFrame::hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer,
+		float p_no_receiver_value) {
 	const TextureDesc desc = graph.get_desc(p_array);
 	GNOMON_ASSERT(desc.is_array && glm::all(glm::greaterThanEqual(desc.size_px, size_px)) &&
 					p_layer < desc.layer_count,
@@ -231,7 +232,7 @@ void ShadowFrame::hold(
 			get_format_name(desc.format));
 	shader::HoldPush push = {};
 	push.layer = p_layer;
-	push.elsewhere = p_elsewhere;
+	push.no_receiver_value = p_no_receiver_value;
 	add_compute_pass(graph, "hold mask",
 			system.device.get_compute_pipeline(
 					{ "hold mask", has_color ? "shadows/hold_color.comp" : "shadows/hold_gray.comp",
@@ -301,9 +302,10 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 					compute_fit_reach_m(view, p_work.light, p_work.scene));
 		}
 		casters.push_back(cull_casters(p_work.scene, p_casts, view, options.may_skip));
-		// A view that is shown itself counts as visible, with or without receivers.
+		// While debug views are shown, every view counts as having receivers, so that its map is
+		// drawn.
 		casters.back().has_receivers =
-				wants_debug_views || may_view_hold_any(view, p_work.lit_receivers);
+				wants_debug_views || may_view_contain_any(view, p_work.lit_receivers);
 	}
 	const ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
 	r_technique.plan(inputs, technique_plan);
@@ -322,7 +324,7 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 		r_technique.get_debug_views(p_work.shadow.debug_views);
 		for (ShadowTechnique::DebugView &view : p_work.shadow.debug_views) {
 			view.shown_range =
-					view.is_light_depth ? compute_shown_depths(inputs) : view.shown_range;
+					view.is_light_depth ? compute_debug_depth_range(inputs) : view.shown_range;
 		}
 	}
 	return mask;
@@ -376,7 +378,7 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	const Work work = { seen, p_light, *choice.info, properties, p_lit, r_shadow,
 		p_wants_debug_views };
 	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
-	for (const BrokenLimit &limit : slot.limits.find_broken(
+	for (const ExceededLimit &limit : slot.limits.find_exceeded(
 				 seen, p_light, choice.info->id, slot.technique->get_limits(properties))) {
 		system.warn_once(limit.key, limit.warning);
 	}
@@ -392,7 +394,7 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	mask = add_technique(
 			work, *slot.technique, find_opaque_casters(seen, translucent, nullptr), "");
 	if (!translucent.is_empty()) {
-		system.warn_once(describe_forced(p_light, translucent));
+		system.warn_once(describe_merged(p_light, translucent));
 		mask = add_translucent_casters(work, translucent, mask);
 	}
 	mask = add_filters(work, mask);

@@ -17,7 +17,7 @@ namespace gnomon {
 struct HostSurfaces {
 	RGTexture depth; // D32_SFLOAT, reversed: near / z; 0 = background
 	/// R32_UINT, the face's normal towards the viewer in world axes, packed by normal_inc.glsl.
-	/// Empty: reconstructed from the depth.
+	/// Empty: reconstructed from the depth (normals_from_depth.comp).
 	RGTexture geometric_normal;
 	/// RGBA16_SFLOAT: R is scatter in 0..1, G the scatter distance in metres; shadows do not read B
 	/// and A. Empty: nothing scatters.
@@ -63,7 +63,8 @@ public:
 	ShadowFrame(const ShadowFrame &) = delete;
 	ShadowFrame &operator=(const ShadowFrame &) = delete;
 
-	/// The camera as a uniform buffer: shader::FrameConstants.
+	/// The camera, as a buffer that can be bound as uniform or storage buffer:
+	/// shader::FrameConstants.
 	RGBuffer get_constants() const { return constants; }
 	/// Call before the first add_light.
 	void set_surfaces(const HostSurfaces &p_surfaces);
@@ -79,10 +80,10 @@ public:
 	std::vector<LightShadow> add_all_lights();
 	/// Copies a light's mask into a layer of a texture array that outlives the frame: R16_SFLOAT
 	/// (gets the luminance of a coloured mask) or RGBA16_SFLOAT, usage STORAGE, at least of the
-	/// frame's size, with TextureDesc::is_array. p_elsewhere: the value of pixels without a
+	/// frame's size, with TextureDesc::is_array. p_no_receiver_value: the value of pixels without a
 	/// receiver: background, out of the light's reach, or facing away from it.
 	void hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer,
-			float p_elsewhere = 0.0f);
+			float p_no_receiver_value = 0.0f);
 
 	/// Call after the graph was executed.
 	void end();

@@ -13,7 +13,7 @@
 
 namespace gnomon {
 
-/// What a module declares for a technique when it registers it.
+/// Description of a technique, which its module registers.
 struct ShadowTechniqueInfo {
 	std::string id; // stored in scene files; never changes
 	std::string name;
@@ -28,8 +28,8 @@ struct ShadowTechniqueInfo {
 	bool is_reference = false;
 	/// For a reference: computes the same mask on the CPU, for callers that cannot wait for a
 	/// frame. Empty: not available.
-	std::function<std::unique_ptr<ReferenceSource>(ReferenceQuestion)> make_reference_source = {};
-	/// True: a template to copy. The error report skips it unless it is named.
+	std::function<std::unique_ptr<ReferenceSource>(ReferenceRequest)> make_reference_source = {};
+	/// True: a template to copy. The error report skips it unless the user names it.
 	bool is_example = false;
 	/// True: only instances whose node declares them planar receive shadows
 	/// (InstanceSnapshot::is_planar_receiver). Useless in a host whose nodes cannot declare it.
@@ -63,13 +63,13 @@ public:
 /// The property group of settings for tests, benchmarks and comparisons. No page or list shows it.
 extern const char *const TEST_SETTINGS_GROUP;
 
-/// Resets all settings to their defaults, then applies the [technique.ID] sections of a project. An
-/// id, name or value that this build does not know only warns: the project must open everywhere.
+/// Resets all settings to their defaults, then applies the [technique.ID] sections of a project.
+/// Unknown ids, names and values only cause a warning, so that the project opens in every build.
 void apply_technique_settings(const Project &p_project);
 
 /// The technique that a light gets, and why it is not the requested one.
 struct TechniqueChoice {
-	const ShadowTechniqueInfo *info = nullptr; // null: no shadow, v = 1
+	const ShadowTechniqueInfo *info = nullptr; // null: no shadow, visibility is 1
 	std::string warning;					   // empty when the light gets what it requests
 };
 /// p_override: an id that replaces every light's own; must exist when not empty.

@@ -13,7 +13,7 @@ ShadowSystem::Slot &ShadowSystem::get_slot(
 		const SlotKey &p_key, const ShadowTechniqueInfo &p_info) {
 	Slot &slot = slots[p_key];
 	if (!slot.technique || slot.technique_id != p_info.id) {
-		slot.technique.reset(); // before the new one takes memory
+		slot.technique.reset(); // first, so that the resources of both never exist at once
 		slot.technique = p_info.make();
 		slot.technique_id = p_info.id;
 	}
@@ -39,7 +39,7 @@ void ShadowSystem::begin_frame(const SceneSnapshot &p_scene) {
 			filters.push_back(info.make());
 		}
 	}
-	warn_once("scene_size", describe_unfit_size(p_scene));
+	warn_once("scene_size", describe_scene_size_problem(p_scene));
 	++frame;
 	std::erase_if(slots, [&](const auto &p_slot) {
 		return frame - p_slot.second.last_frame > MAX_UNUSED_FRAMES ||

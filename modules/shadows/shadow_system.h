@@ -32,7 +32,7 @@ public:
 	/// Standard error of the light's mask in the last frame, see ShadowTechnique.
 	float get_standard_error(const std::string &p_light_name) const;
 	/// Destroys all techniques and their caches, for example after shaders were replaced.
-	void forget_cached() { slots.clear(); }
+	void clear_caches() { slots.clear(); }
 
 private:
 	friend class ShadowFrame;
@@ -46,11 +46,12 @@ private:
 	/// The light's name, and 0 for its opaque casters or 1 + i for its group i of translucent ones.
 	using SlotKey = std::pair<std::string, size_t>;
 	Slot &get_slot(const SlotKey &p_key, const ShadowTechniqueInfo &p_info);
-	void warn_once(const std::string &p_warning); // empty: nothing
-	/// Warns only once per key, whatever the warning states.
+	void warn_once(const std::string &p_warning); // does nothing when p_warning is empty
+	/// Warns only once per key, even when the text differs.
 	void warn_once(const std::string &p_key, const std::string &p_warning);
-	/// Drops the techniques of lights that no longer exist or were unused for many frames, and all
-	/// techniques when a registry changed. Called once a frame.
+	/// Drops the techniques of lights that no longer exist or that were unused for
+	/// MAX_UNUSED_FRAMES frames, and all techniques or filters when their registry changed. Warns
+	/// about a scene size that does not fit. Called once a frame.
 	void begin_frame(const SceneSnapshot &p_scene);
 
 	RenderingDevice &device;

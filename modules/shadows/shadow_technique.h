@@ -21,7 +21,7 @@ class MeshStore;
 /// The casters that one light view may see, culled to it.
 struct CasterList {
 	std::vector<uint32_t> instances; // indices into SceneSnapshot::instances
-	/// Changes when the view, a caster or a caster's transform changes: equal hashes, equal map.
+	/// Changes when the view, a caster, its transform or its pose changes: equal hashes, equal map.
 	uint64_t content_hash = 0;
 	/// False: no receiver that the camera sees is in the view, so that only filters that look
 	/// across into other views can read its map.
@@ -56,20 +56,22 @@ private:
 /// Limits within which a technique's masks are usable, measured by the stability sweeps
 /// (doc/stability.md). Beyond them there is light in the umbra, or shadow where all is lit.
 struct ShadowLimits {
-	/// Minimum distance from the light's centre to a caster, as a multiple of R. For spot and omni
-	/// lights with R > 0 only. Below 1 the caster reaches into the light's sphere.
-	double least_caster_distance_radii = 1.0;
-	/// Maximum of the outer penumbra width r, and of the inner width t, as fractions of S.
-	double most_outer_width_sizes = std::numeric_limits<double>::infinity();
-	double most_inner_width_sizes = std::numeric_limits<double>::infinity();
+	/// Minimum distance from the light's centre to a caster, as a multiple of the light's radius R.
+	/// For spot and omni lights with R > 0 only. Below 1 the caster reaches into the light's
+	/// sphere.
+	double min_caster_distance_radii = 1.0;
+	/// Maximum of the outer penumbra width r, and of the inner width t, as fractions of the scene
+	/// size S.
+	double max_outer_width_sizes = std::numeric_limits<double>::infinity();
+	double max_inner_width_sizes = std::numeric_limits<double>::infinity();
 };
 
-/// Answers one question for one light: what fraction of it does each visible pixel see?
+/// Computes, for one light, the fraction of its area that is visible from each pixel's surface.
 ///
 /// The shadow system owns one instance per shadow-casting light, and one more for each group of
 /// translucent casters (see sees_translucent_casters), and calls it on the render thread, each
-/// frame in the order in which the methods are declared here. The engine knows the id, never the
-/// class.
+/// frame in the order in which the methods are declared here. Other modules know techniques by
+/// their ids only.
 class ShadowTechnique {
 public:
 	/// Valid from plan() to resolve() of one frame. All textures have the size `size_px`.
@@ -90,10 +92,11 @@ public:
 		/// RGBA16_SFLOAT: scatter in 0..1, scatter distance in metres. Empty when the host draws no
 		/// materials: then nothing scatters.
 		RGTexture material;
-		RGTexture receivers; // R8_UNORM: 1 where the light can reach; the mask counts only there
-		RGBuffer frame;		 // FrameConstants
+		/// R8_UNORM: 1 where the light can reach. Other pixels of the mask are not used.
+		RGTexture receivers;
+		RGBuffer frame;			  // FrameConstants
 		RGBuffer light_constants; // LightConstants
-		/// False: nothing may be skipped (for the test that compares both bit for bit).
+		/// False: nothing may be skipped. A test compares the masks of both cases bit for bit.
 		bool may_skip = true;
 		/// False: nothing cached in earlier frames may be used, as if everything had moved.
 		bool may_reuse = true;
@@ -120,29 +123,31 @@ public:
 
 	virtual ~ShadowTechnique() = default;
 
-	/// The limits within which the technique's results hold, see its page. Called once a frame,
-	/// with p_properties as in Inputs; a light beyond a limit gets a warning.
+	/// The limits within which the technique's masks are usable. Called once a frame, with
+	/// p_properties as in Inputs; a light beyond a limit causes a warning.
 	virtual ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const { return {}; }
 
 	/// Properties this technique adds to a light; names begin with the technique's id. Called on
 	/// any instance, at any time; always the same list.
 	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
-	/// Settings that the technique uses for all lights: they change how it computes, not what, so
-	/// they are not light properties. Names do not contain the id. Called on any instance, at any
-	/// time; always the same list.
+	/// Settings that the technique uses for all lights. They change how it computes a mask, not
+	/// which mask it approximates, so they are not light properties. Names do not contain the id.
+	/// Called on any instance, at any time; always the same list.
 	virtual void get_settings(PropertyList & /*r_list*/) const {}
-	/// Quality settings worth comparing for the light, whose r and t are derived from its size.
-	/// Cheapest first; empty: only the defaults. Called on any instance, at any time.
+	/// Quality settings that the error report compares, for a light whose penumbra widths r and t
+	/// are derived from its size. Cheapest first. Empty: only the defaults. Called on any
+	/// instance, at any time.
 	virtual void get_quality_settings(const LightSnapshot & /*p_light*/,
 			std::vector<QualitySetting> & /*r_settings*/) const {}
-	/// Called once a frame with p_properties as in Inputs. Leave empty when nothing is rendered
-	/// from the light.
+	/// Appends the views that are rendered from the light. Called once a frame with p_properties as
+	/// in Inputs. Leave empty when nothing is rendered from the light.
 	virtual void get_light_views(const LightSnapshot & /*p_light*/, const LightScene & /*p_scene*/,
 			const PropertyValues & /*p_properties*/, std::vector<LightView> & /*r_views*/) const {}
 	/// True: the technique queries its maps for receivers only, so directional views may be
 	/// narrowed to what the camera sees plus the reach of the penumbras.
 	virtual bool queries_receivers_only() const { return false; }
-	/// Called once a frame before any pass: what will run, what is skipped and why.
+	/// Decides what will run, what is skipped and why. Called once a frame before any pass is
+	/// recorded.
 	virtual void plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {}
 	/// Called in this order for each light view that was not skipped; may only record passes.
 	virtual void before_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
@@ -158,8 +163,8 @@ public:
 	virtual bool sees_translucent_casters() const { return false; }
 	/// Called after resolve() while a debug view is shown.
 	virtual void get_debug_views(std::vector<DebugView> & /*r_views*/) const {}
-	/// Called after the frame ran: the standard error of its mask for a technique that samples at
-	/// random and knows it, else 0.
+	/// Returns the standard error of the last mask, for a technique that samples at random and can
+	/// estimate it, otherwise 0. Called after the frame was executed.
 	virtual float get_standard_error() const { return 0.0f; }
 	/// Entry points under shaders/; compiled by the tests and watched for hot reload.
 	virtual std::vector<std::string> get_shader_files() const = 0;

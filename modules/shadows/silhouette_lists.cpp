@@ -17,7 +17,7 @@ uint32_t divide_up(uint32_t p_value, uint32_t p_divisor) {
 	return (p_value + p_divisor - 1) / p_divisor;
 }
 
-/// A caster's buffers live as long as the mesh, which the frame's scene holds.
+/// The dispatches of one caster. Its buffers live as long as its mesh, which the scene owns.
 struct SilhouetteDispatch {
 	uint32_t instance_index = 0;
 	BufferRID positions;
@@ -34,7 +34,7 @@ std::vector<SilhouetteDispatch> build_dispatches(const SilhouetteCasters &p_cast
 		dispatch.positions = caster.gpu->positions.get();
 		dispatch.edges = caster.gpu->edges.get();
 		dispatch.word_count = caster.word_count;
-		dispatch.push = { caster.light_node, caster.gpu->edge_count, caster.first_word,
+		dispatch.push = { caster.light_position_node, caster.gpu->edge_count, caster.first_word,
 			caster.first_block, caster.first_in_list, static_cast<uint32_t>(dispatches.size()),
 			caster.vertices_per_edge, 0, 0 };
 		dispatches.push_back(dispatch);
@@ -44,15 +44,16 @@ std::vector<SilhouetteDispatch> build_dispatches(const SilhouetteCasters &p_cast
 
 } // namespace
 
-glm::vec4 compute_light_node(const LightSnapshot &p_light, const glm::dmat4 &p_world_from_node) {
+glm::vec4 compute_light_position_node(
+		const LightSnapshot &p_light, const glm::dmat4 &p_world_from_node) {
 	const glm::dvec4 light_world = p_light.type == LightType::DIRECTIONAL
 			? glm::dvec4(-p_light.get_direction_world(), 0.0)
 			: glm::dvec4(p_light.position_world, 1.0);
 	return glm::vec4(glm::inverse(p_world_from_node) * light_world);
 }
 
-bool is_light_node_usable(const glm::vec4 &p_light_node) {
-	return std::isfinite(glm::dot(p_light_node, glm::vec4(1.0f)));
+bool is_light_position_finite(const glm::vec4 &p_light_position_node) {
+	return std::isfinite(glm::dot(p_light_position_node, glm::vec4(1.0f)));
 }
 
 const SilhouetteCaster *SilhouetteCasters::find(uint32_t p_instance_index) const {
@@ -71,13 +72,14 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 		SilhouetteCaster caster;
 		caster.instance_index = index;
 		caster.vertices_per_edge = p_vertices_per_edge;
-		caster.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
-		if (!is_light_node_usable(caster.light_node)) {
-			++result.flat_instance_count;
+		caster.light_position_node =
+				compute_light_position_node(p_inputs.light, instance.world_from_node);
+		if (!is_light_position_finite(caster.light_position_node)) {
+			++result.collapsed_instance_count;
 			continue;
 		}
 		caster.gpu = &p_inputs.meshes.get_topology(
-				instance.caster_mesh, TopologyPart::POSITIONS | TopologyPart::EDGES);
+				instance.caster_mesh, TopologyBuffer::POSITIONS | TopologyBuffer::EDGES);
 		if (caster.gpu->edge_count == 0) {
 			continue;
 		}
@@ -108,6 +110,7 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 	};
 	const RGBuffer words =
 			make_buffer("edge words", p_casters.word_count, sizeof(uint32_t), BufferUsage::STORAGE);
+	// For each block of edge words, the number of silhouette edges.
 	const RGBuffer blocks = make_buffer(
 			"edge blocks", p_casters.block_count, sizeof(uint32_t), BufferUsage::COPY_TARGET);
 	SilhouetteLists lists = p_targets;
@@ -118,7 +121,7 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 				sizeof(shader::SilhouetteDraw), BufferUsage::INDIRECT | BufferUsage::COPY_SOURCE);
 	}
 	const std::vector<SilhouetteDispatch> dispatches = build_dispatches(p_casters);
-	r_graph.add_pass("clear edges")
+	r_graph.add_pass("clear edge counts")
 			.writes(blocks, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
 				p_context.commands.clear_buffer(p_context.get(blocks));

@@ -18,8 +18,8 @@ namespace gnomon {
 struct SilhouetteCaster {
 	uint32_t instance_index = 0;
 	const GpuTopology *gpu = nullptr;
-	glm::vec4 light_node = glm::vec4(0.0f); // as SilhouettePush::light_node
-	uint32_t vertices_per_edge = 0;			// vertices that its draw needs for each listed edge
+	glm::vec4 light_position_node = glm::vec4(0.0f); // see SilhouettePush
+	uint32_t vertices_per_edge = 0; // vertices that its draw needs for each listed edge
 	// The range of its edges in the buffers that all casters share.
 	uint32_t word_count = 0;
 	uint32_t first_word = 0;
@@ -32,19 +32,21 @@ struct SilhouetteCasters {
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
 	uint32_t edge_count = 0;
-	uint32_t flat_instance_count = 0; // with a singular transform: no inside, no silhouette
+	uint32_t collapsed_instance_count = 0; // skipped: collapsed to a line or a point
 
-	/// Null for an instance without silhouettes.
+	/// Returns null for an instance without silhouettes.
 	const SilhouetteCaster *find(uint32_t p_instance_index) const;
 };
 
-/// Buffer handles of one frame.
+/// Buffers of one frame.
 struct SilhouetteLists {
 	RGBuffer list;	// indices into GpuTopology::edges, ascending, from each first_in_list on
 	RGBuffer draws; // one shader::SilhouetteDraw per caster
 };
 
-/// p_instances: ascending. Throws an Error when there are more edges than a 32-bit index can name.
+/// Lists the casters that have edges, and assigns each its ranges in the shared buffers.
+/// p_instances: ascending. Throws an Error when there are more than 300 million edges, since
+/// vertex indices have 32 bits.
 SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inputs,
 		const std::vector<uint32_t> &p_instances, uint32_t p_vertices_per_edge);
 
@@ -55,10 +57,13 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates = {},
 		const SilhouetteLists &p_targets = {});
 
-/// The light in the instance's node space, see SilhouettePush::light_node. Not finite when the
-/// transform is singular.
-glm::vec4 compute_light_node(const LightSnapshot &p_light, const glm::dmat4 &p_world_from_node);
-/// False when p_light_node is not finite: the caster is flat and has no inside.
-bool is_light_node_usable(const glm::vec4 &p_light_node);
+/// Transforms the light's position into the instance's node space. Homogeneous: xyz / w is the
+/// light's centre; w = 0: xyz is the direction towards it. Not finite when the transform is
+/// singular.
+glm::vec4 compute_light_position_node(
+		const LightSnapshot &p_light, const glm::dmat4 &p_world_from_node);
+/// False when p_light_position_node is not finite: the transform is singular, and collapses the
+/// caster to a line or a point (build_snapshot thickens flat ones).
+bool is_light_position_finite(const glm::vec4 &p_light_position_node);
 
 } // namespace gnomon

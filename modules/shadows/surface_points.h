@@ -11,7 +11,7 @@ namespace gnomon {
 
 /// The surface that the camera sees in one pixel.
 struct SurfacePoint {
-	bool is_there = false;						  // false: background
+	bool is_valid = false;						  // false: background
 	glm::vec3 position = glm::vec3(0.0f);		  // camera-relative, world axes, metres
 	glm::vec3 geometric_normal = glm::vec3(0.0f); // unit, towards the viewer
 	SurfaceMaterial material;

@@ -4,7 +4,7 @@ namespace gnomon {
 
 /// The material parameters of subsurface scattering at a receiver.
 struct SurfaceMaterial {
-	float scatter = 0.0f;			 // s in 0..1
+	float scatter = 0.0f;			 // s, 0..1: how much light spreads below the surface
 	float scatter_distance_m = 0.0f; // 0: not given
 	bool operator==(const SurfaceMaterial &) const = default;
 };
@@ -19,9 +19,9 @@ public:
 	/// pixel at the receiver, across the view. Returns 0 when light leaves where it enters.
 	virtual float compute_radius_m(
 			const SurfaceMaterial &p_material, float p_pixel_size_m) const = 0;
-	/// Distance, as a multiple of the radius, within which the fraction p_share (0..1) of the light
-	/// entered. Finite.
-	virtual float compute_distance(float p_share) const = 0;
+	/// Distance, as a multiple of the radius, within which the fraction p_fraction (0..1) of the
+	/// light entered. Finite.
+	virtual float compute_distance(float p_fraction) const = 0;
 };
 
 } // namespace gnomon

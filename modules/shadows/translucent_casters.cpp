@@ -7,9 +7,9 @@ namespace gnomon {
 
 namespace {
 
-/// Bounds of a caster as seen from the light: a cone from the light's centre, or a cylinder along
-/// its direction.
-struct Shade {
+/// Bounds of the volume that a caster darkens: a cone from the light's centre, or, for a
+/// directional light, a cylinder along its direction.
+struct ShadowBounds {
 	glm::dvec3 position = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
 	double radius_m = 0;				   // of the caster
 	double cosine = 1;					   // of the cone's half angle
@@ -17,45 +17,47 @@ struct Shade {
 	bool is_everywhere = false; // half angle of 90 degrees or more, or the light is inside
 };
 
-Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
-	Shade shade;
+ShadowBounds compute_shadow_bounds(const LightSnapshot &p_light, const Bounds &p_bounds) {
+	ShadowBounds shadow;
 	const glm::dvec3 centre = 0.5 * (p_bounds.minimum + p_bounds.maximum);
-	shade.radius_m = 0.5 * p_bounds.get_diagonal();
+	shadow.radius_m = 0.5 * p_bounds.get_diagonal();
 	if (p_light.type == LightType::DIRECTIONAL) {
-		shade.position = centre;
-		return shade;
+		shadow.position = centre;
+		return shadow;
 	}
-	const double disc_radius = p_light.get_disc_radius();
+	const double light_radius = p_light.get_disc_radius();
 	const glm::dvec3 to_caster = centre - p_light.position_world;
 	const double distance = glm::length(to_caster);
-	shade.is_everywhere = !(shade.radius_m + disc_radius < distance);
-	if (!shade.is_everywhere) {
-		shade.position = to_caster / distance;
+	shadow.is_everywhere = !(shadow.radius_m + light_radius < distance);
+	if (!shadow.is_everywhere) {
+		shadow.position = to_caster / distance;
 		// Seen from the light's rim, the caster exceeds the cone of the centre by the second angle.
-		const double half_rad = std::asin((shade.radius_m + disc_radius) / distance) +
-				std::asin(std::min(1.0, disc_radius / (distance - shade.radius_m)));
-		shade.is_everywhere = half_rad >= 1.57;
-		shade.cosine = std::cos(half_rad);
-		shade.sine = std::sin(half_rad);
+		const double half_rad = std::asin((shadow.radius_m + light_radius) / distance) +
+				std::asin(std::min(1.0, light_radius / (distance - shadow.radius_m)));
+		shadow.is_everywhere = half_rad >= 1.57;
+		shadow.cosine = std::cos(half_rad);
+		shadow.sine = std::sin(half_rad);
 	}
-	return shade;
+	return shadow;
 }
 
 /// False only when it is certain that no light ray hits both.
-bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade &p_right) {
+bool may_overlap(
+		const LightSnapshot &p_light, const ShadowBounds &p_left, const ShadowBounds &p_right) {
 	if (p_left.is_everywhere || p_right.is_everywhere) {
 		return true;
 	}
 	if (p_light.type == LightType::DIRECTIONAL) {
-		const glm::dvec3 way = p_left.position - p_right.position;
-		const double along = glm::dot(way, p_light.get_direction_world());
-		const double across2 = std::max(glm::dot(way, way) - along * along, 0.0);
+		const glm::dvec3 to_left = p_left.position - p_right.position;
+		const double along = glm::dot(to_left, p_light.get_direction_world());
+		const double across2 = std::max(glm::dot(to_left, to_left) - along * along, 0.0);
 		// Between the two, rays deviate by at most half the light's angle.
 		const double radii_m = p_left.radius_m + p_right.radius_m;
 		const double reach_m = radii_m + p_light.get_disc_radius() * (std::abs(along) + radii_m);
 		return across2 <= reach_m * reach_m;
 	}
-	// The angle between them is at most the sum of their half angles, which is below pi.
+	// They overlap when the angle between their axes is at most the sum of their half angles, which
+	// is below pi: cos(a + b) = cos a cos b - sin a sin b.
 	return glm::dot(p_left.position, p_right.position) >=
 			p_left.cosine * p_right.cosine - p_left.sine * p_right.sine;
 }
@@ -65,7 +67,7 @@ bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade 
 TranslucentCasters find_translucent_casters(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light) {
 	TranslucentCasters casters;
-	std::vector<std::vector<Shade>> shades; // of each group's casters
+	std::vector<std::vector<ShadowBounds>> group_shadows; // of each group's casters
 	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
 		const InstanceSnapshot &instance = p_scene.instances[index];
 		const glm::vec3 transmittance = instance.compute_transmittance();
@@ -77,14 +79,14 @@ TranslucentCasters find_translucent_casters(
 		if (transmittance == glm::vec3(1.0f) || instance.bounds_world.is_empty()) {
 			continue;
 		}
-		const Shade shade = find_shade(p_light, instance.bounds_world);
+		const ShadowBounds shadow = compute_shadow_bounds(p_light, instance.bounds_world);
 		size_t chosen = casters.groups.size();
 		for (size_t group = 0; group < casters.groups.size() && chosen == casters.groups.size();
 				++group) {
 			if (casters.groups[group].transmittance == transmittance &&
-					std::none_of(
-							shades[group].begin(), shades[group].end(), [&](const Shade &p_other) {
-								return may_overlap(p_light, shade, p_other);
+					std::none_of(group_shadows[group].begin(), group_shadows[group].end(),
+							[&](const ShadowBounds &p_other) {
+								return may_overlap(p_light, shadow, p_other);
 							})) {
 				chosen = group;
 			}
@@ -96,13 +98,13 @@ TranslucentCasters find_translucent_casters(
 								glm::distance(p_right.transmittance, transmittance);
 					});
 			chosen = static_cast<size_t>(nearest - casters.groups.begin());
-			++casters.forced_count;
+			++casters.merged_count;
 		} else if (chosen == casters.groups.size()) {
 			casters.groups.push_back({ {}, transmittance });
-			shades.emplace_back();
+			group_shadows.emplace_back();
 		}
 		casters.groups[chosen].instances.push_back(index);
-		shades[chosen].push_back(shade);
+		group_shadows[chosen].push_back(shadow);
 	}
 	return casters;
 }

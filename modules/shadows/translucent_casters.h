@@ -19,8 +19,9 @@ struct TranslucentGroup {
 struct TranslucentCasters {
 	static constexpr size_t MAX_GROUP_COUNT = 8; // each is one more run of the technique
 	std::vector<TranslucentGroup> groups;
-	/// Casters that were put into the group of the nearest colour because there were too many.
-	uint32_t forced_count = 0;
+	/// Casters that were put into the group of the nearest colour, since there were
+	/// MAX_GROUP_COUNT groups already.
+	uint32_t merged_count = 0;
 	std::vector<uint8_t> is_translucent; // by instance; empty: none is
 
 	bool is_empty() const { return is_translucent.empty(); }

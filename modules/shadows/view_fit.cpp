@@ -7,11 +7,11 @@ namespace gnomon {
 
 namespace {
 
-const double LEAST_PART = 1.0 / 1024.0;
+const double MIN_SCALE = 1.0 / 1024.0; // minimum factor by which a view is narrowed
 const double STEPS_PER_HALF = 4.0; // steps per half extent to which the view's centre is snapped
 // Maximum fraction of the view's half extent that the content may fill: rounding to a step takes
 // an eighth of it, a filter's border the rest.
-const double MOST_FILLED = 0.75;
+const double MAX_FILL = 0.75;
 
 } // namespace
 
@@ -34,22 +34,22 @@ void fit_to_receivers(LightView &r_view, const VisibleReceivers &p_receivers, do
 		seen.add(transform_bounds(receiver.bounds_world, r_view.view_from_world));
 	}
 	const glm::dvec2 whole(r_view.half_extent);
-	const glm::dvec2 least = glm::max(glm::dvec2(seen.minimum) - p_reach_m, -whole);
-	const glm::dvec2 greatest = glm::min(glm::dvec2(seen.maximum) + p_reach_m, whole);
-	const glm::dvec2 needed = 0.5 * (greatest - least);
+	const glm::dvec2 low = glm::max(glm::dvec2(seen.minimum) - p_reach_m, -whole);
+	const glm::dvec2 high = glm::min(glm::dvec2(seen.maximum) + p_reach_m, whole);
+	const glm::dvec2 needed = 0.5 * (high - low);
 	if (needed.x <= 0 || needed.y <= 0) {
-		return; // outside all casters
+		return; // no receiver is within p_reach_m of a caster
 	}
-	double part = 1;
-	while (part > LEAST_PART &&
-			glm::all(glm::lessThanEqual(needed, 0.5 * part * MOST_FILLED * whole))) {
-		part *= 0.5;
+	double scale = 1;
+	while (scale > MIN_SCALE &&
+			glm::all(glm::lessThanEqual(needed, 0.5 * scale * MAX_FILL * whole))) {
+		scale *= 0.5;
 	}
-	if (part < 1) {
-		const glm::dvec2 step = part * whole / STEPS_PER_HALF;
-		const glm::dvec2 centre = glm::round(0.5 * (least + greatest) / step) * step;
+	if (scale < 1) {
+		const glm::dvec2 step = scale * whole / STEPS_PER_HALF;
+		const glm::dvec2 centre = glm::round(0.5 * (low + high) / step) * step;
 		r_view.view_from_world[3] -= glm::dvec4(centre, 0.0, 0.0);
-		r_view.half_extent = glm::vec2(part * whole);
+		r_view.half_extent = glm::vec2(scale * whole);
 	}
 }
 

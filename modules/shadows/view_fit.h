@@ -4,8 +4,8 @@
 
 namespace gnomon {
 
-/// Maximum distance across the view, in metres, from a receiver to a caster that may hide the
-/// directional light from it, or to a texel that a technique with its penumbra widths reads.
+/// Upper bound of the distance, in metres across the view, from a receiver to any caster that may
+/// hide the directional light from it, and to any texel that a technique samples for its penumbra.
 double compute_fit_reach_m(
 		const LightView &p_view, const LightSnapshot &p_light, const SceneSnapshot &p_scene);
 

@@ -134,12 +134,12 @@ double compute_margin_m(const SceneSnapshot &p_scene, const InstanceSnapshot &p_
 
 /// True when the bounding sphere is certainly outside the cone.
 bool is_outside_cone(const LightSnapshot &p_light, const glm::dvec3 &p_centre, double p_radius_m) {
-	const glm::dvec3 way = p_centre - p_light.position_world;
-	const double distance_m = glm::length(way);
+	const glm::dvec3 to_centre = p_centre - p_light.position_world;
+	const double distance_m = glm::length(to_centre);
 	if (!(distance_m > p_radius_m)) {
 		return false;
 	}
-	const double cosine = glm::dot(way, p_light.get_direction_world()) / distance_m;
+	const double cosine = glm::dot(to_centre, p_light.get_direction_world()) / distance_m;
 	const double angle_rad = std::acos(std::clamp(cosine, -1.0, 1.0));
 	const double cone_rad = std::acos(
 			std::clamp(std::cos(double(p_light.outer_cone_rad)) - COSINE_MARGIN, -1.0, 1.0));
@@ -194,7 +194,7 @@ bool may_light_reach(const LightSnapshot &p_light, const Bounds &p_bounds_world)
 	LightView cone;
 	const double cone_rad = double(p_light.outer_cone_rad) + std::sqrt(2 * COSINE_MARGIN);
 	if (cone_rad >= 1.5) {
-		return true;
+		return true; // the pyramid would be nearly a half-space and reject little
 	}
 	const glm::dmat3 &axes = p_light.world_from_light;
 	const glm::dmat3 rotation = glm::transpose(glm::dmat3(axes[0], -axes[1], -axes[2]));
@@ -208,7 +208,7 @@ VisibleReceivers find_lit_receivers(
 		const LightSnapshot &p_light, const VisibleReceivers &p_receivers) {
 	VisibleReceivers lit;
 	if (p_receivers.list.empty() || !may_light_reach(p_light, p_receivers.bounds_world)) {
-		return lit; // most lights of a scene with many end here
+		return lit; // in a scene with many lights, most end here
 	}
 	for (const VisibleReceiver &receiver : p_receivers.list) {
 		if (may_light_reach(p_light, receiver.bounds_world)) {
@@ -218,7 +218,7 @@ VisibleReceivers find_lit_receivers(
 	return lit;
 }
 
-bool may_view_hold_any(const LightView &p_view, const VisibleReceivers &p_receivers) {
+bool may_view_contain_any(const LightView &p_view, const VisibleReceivers &p_receivers) {
 	return p_view.may_see(p_receivers.bounds_world) &&
 			std::any_of(p_receivers.list.begin(), p_receivers.list.end(),
 					[&](const VisibleReceiver &p_receiver) {

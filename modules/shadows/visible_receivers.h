@@ -15,7 +15,7 @@ struct VisibleReceiver {
 };
 
 struct VisibleReceivers {
-	std::vector<VisibleReceiver> list; // ascending
+	std::vector<VisibleReceiver> list; // ascending by instance_index
 	Bounds bounds_world;			   // union of the list's bounds
 
 	void add(const VisibleReceiver &p_receiver) {
@@ -37,6 +37,6 @@ VisibleReceivers find_lit_receivers(
 		const LightSnapshot &p_light, const VisibleReceivers &p_receivers);
 
 /// False only when no receiver is in the light view.
-bool may_view_hold_any(const LightView &p_view, const VisibleReceivers &p_receivers);
+bool may_view_contain_any(const LightView &p_view, const VisibleReceivers &p_receivers);
 
 } // namespace gnomon

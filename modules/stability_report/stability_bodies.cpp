@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-std::shared_ptr<const Mesh> make_globe(double p_radius_m) {
-	// An icosahedron, each of whose triangles is split into four, twice.
+std::shared_ptr<const Mesh> make_sphere_mesh(double p_radius_m) {
+	// An icosahedron whose triangles are split into four, twice: 20 * 4 * 4 triangles.
 	const float golden = std::numbers::phi_v<float>;
 	std::vector<glm::vec3> positions = { { -1, golden, 0 }, { 1, golden, 0 }, { -1, -golden, 0 },
 		{ 1, -golden, 0 }, { 0, -1, golden }, { 0, 1, golden }, { 0, -1, -golden },
@@ -75,7 +75,7 @@ std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_r
 	return make_mesh("cut box", std::move(positions), {}, std::move(indices));
 }
 
-std::shared_ptr<const Mesh> make_turned_box(double p_half_size_m) {
+std::shared_ptr<const Mesh> make_inside_out_box(double p_half_size_m) {
 	const auto box = make_box_mesh("box", glm::vec3(float(p_half_size_m)));
 	return make_mesh("inside out", box->positions_node, {},
 			std::vector<uint32_t>(box->indices.rbegin(), box->indices.rend()));
@@ -86,7 +86,7 @@ std::shared_ptr<const Mesh> make_open_mesh() {
 			"open mesh", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
 }
 
-std::shared_ptr<const Mesh> make_odd_mesh() {
+std::shared_ptr<const Mesh> make_degenerate_mesh() {
 	const std::vector<glm::vec3> positions = { { 0, 0, 0 }, { 0.5f, 0, 0 }, { 1, 0, 0 },
 		{ 0.25f, 0, 1e-7f }, { 0, 0, 0 }, { 0, 0, 0.5f } };
 	return make_mesh("odd", positions, std::vector<glm::vec3>(6, glm::vec3(0.0f)),

@@ -14,20 +14,25 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const double DOUBLED = 2.0;
-const uint64_t LEAST_PENUMBRA_PIXELS = 40; // fewer have no mean to speak of
-// Of 8 bits: what no image shows is no break, however much smaller the centre's error is.
-const double LEAST_MAE = 1.0 / 256;
-const double ODD_SHARE = 0.02;	 // of the receivers: the edges of hard shadows, a pixel wide
-const double NOISE_ERRORS = 2.0; // of the reference: standard errors that a mean may be off by
+const double DOUBLED = 2.0; // a point with more than this multiple of the centre's error breaks
+const uint64_t MIN_PENUMBRA_PIXEL_COUNT = 40; // the mean error of fewer pixels is unreliable
+// Errors up to this are no break, however small the centre's error is: an 8-bit image does not show
+// them.
+const double MIN_BREAKING_MAE = 1.0 / 256;
+// Fraction of the receivers that may be wrong: hard shadows have edges that are off by a pixel.
+const double MAX_WRONG_FRACTION = 0.02;
+const double NOISE_STANDARD_ERRORS = 2.0; // tolerated noise, in standard errors of the reference
 
-bool is_in_curve(const ReportConfiguration &p_configuration, const ReportConfiguration &p_other) {
+/// Returns whether two configurations are points of the same curve.
+bool are_in_same_curve(
+		const ReportConfiguration &p_configuration, const ReportConfiguration &p_other) {
 	return p_configuration.is_stability() && p_other.is_stability() &&
 			p_configuration.sweep == p_other.sweep &&
 			p_configuration.light_type == p_other.light_type;
 }
 
-/// Of the points from the centre outwards in one direction; step +1 or -1.
+/// Returns the first value that breaks, searching from the centre in one direction (p_step: +1 or
+/// -1); nullopt if none does.
 std::optional<double> find_break(
 		const std::vector<StabilityPoint> &p_points, double p_center, int p_step) {
 	const auto center = std::find_if(p_points.begin(), p_points.end(),
@@ -45,7 +50,8 @@ std::optional<double> find_break(
 	return std::nullopt;
 }
 
-/// In the order of the curve; those of a project's scenes are what the report has.
+/// Returns the values of the sweep in the order of the curve. For the sweep over the project's
+/// scenes they are taken from the report.
 std::vector<double> find_values(const Report &p_report, const StabilitySweep &p_sweep) {
 	if (!p_sweep.has_project_scenes) {
 		return p_sweep.values;
@@ -76,14 +82,14 @@ StabilityCurve make_curve(const Report &p_report, const std::string &p_technique
 					p_sweep.has_project_scenes ? at.scene + "/" + at.light
 											   : p_sweep.describe_value(value),
 					index,
-					judge_stability(
+					classify_stability(
 							cell, at.reference, center ? &p_report.cells[*center] : nullptr),
 					get_stability_error(cell) });
 		}
 	}
 	curve.is_complete = std::none_of(curve.points.begin(), curve.points.end(),
 			[](const StabilityPoint &p_point) { return p_point.state == StabilityState::MISSING; });
-	if (!p_sweep.has_cases()) { // cases have no order to break in
+	if (!p_sweep.has_cases()) { // separate cases have no order
 		curve.break_before = find_break(curve.points, p_sweep.center, -1);
 		curve.break_after = find_break(curve.points, p_sweep.center, 1);
 	}
@@ -103,12 +109,12 @@ std::optional<StabilityError> get_stability_error(const ReportCell &p_cell) {
 		return std::nullopt;
 	}
 	const MaskMetrics &metrics = p_cell.error->all;
-	const bool has_penumbra = metrics.penumbra.pixel_count >= LEAST_PENUMBRA_PIXELS;
+	const bool has_penumbra = metrics.penumbra.pixel_count >= MIN_PENUMBRA_PIXEL_COUNT;
 	return StabilityError{ has_penumbra ? metrics.penumbra.mae : metrics.receiver.mae,
 		has_penumbra };
 }
 
-StabilityState judge_stability(
+StabilityState classify_stability(
 		const ReportCell &p_cell, const ReportReference &p_reference, const ReportCell *p_center) {
 	if (p_cell.status != ReportStatus::OK || !p_cell.stability) {
 		return p_cell.status == ReportStatus::FAILED ? StabilityState::FAILED
@@ -117,16 +123,17 @@ StabilityState judge_stability(
 	if (!p_cell.stability->refusal.empty()) {
 		return StabilityState::REFUSED;
 	}
-	if (p_cell.stability->wrong_share > ODD_SHARE) {
+	if (p_cell.stability->wrong_share > MAX_WRONG_FRACTION) {
 		return StabilityState::NONSENSE;
 	}
 	const std::optional<StabilityError> error = get_stability_error(p_cell);
 	const std::optional<StabilityError> center =
 			p_center ? get_stability_error(*p_center) : std::nullopt;
 	if (error && center) {
-		// Over all receivers no error is larger than over the penumbra alone.
-		const double allowed = std::max(DOUBLED * center->mae, LEAST_MAE) +
-				NOISE_ERRORS * p_reference.standard_error;
+		// One of the two may be over all receivers and the other over the penumbra alone. This is
+		// tolerated: an MAE over all receivers is usually the smaller one.
+		const double allowed = std::max(DOUBLED * center->mae, MIN_BREAKING_MAE) +
+				NOISE_STANDARD_ERRORS * p_reference.standard_error;
 		return error->mae > allowed ? StabilityState::DOUBLED : StabilityState::OK;
 	}
 	return StabilityState::OK;
@@ -141,7 +148,7 @@ std::optional<size_t> find_stability_center(const Report &p_report, const Report
 	for (size_t index = 0; index < p_report.cells.size(); ++index) {
 		const ReportCell &cell = p_report.cells[index];
 		const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
-		if (cell.technique == p_cell.technique && is_in_curve(own, at) &&
+		if (cell.technique == p_cell.technique && are_in_same_curve(own, at) &&
 				at.value == sweep->center) {
 			return index;
 		}

@@ -7,14 +7,17 @@ namespace gnomon {
 
 namespace {
 
-struct Guard {
-	const char *name;
-	std::function<void(StabilityDraft &)> change;
+/// A scene that once broke a technique, or might: a point of the sweep "guards".
+struct HostileScene {
+	const char *name;							  // label in reports
+	std::function<void(StabilityDraft &)> change; // from the start scene
 };
 
-const std::vector<Guard> &get_guards() {
-	static const std::vector<Guard> GUARDS = {
-		{ "as it is", [](StabilityDraft &) {} },
+const std::vector<HostileScene> &get_hostile_scenes() {
+	// "The light's plane" passes through the light's centre, perpendicular to the direction to its
+	// target. A light of another type has the same pose as the spot light.
+	static const std::vector<HostileScene> HOSTILE_SCENES = {
+		{ "as it is", [](StabilityDraft &) {} }, // the centre of the sweep
 		{ "R = 0", [](StabilityDraft &r_draft) { r_draft.light_size_m = 0; } },
 		{ "R = 2 S",
 				[](StabilityDraft &r_draft) {
@@ -47,7 +50,7 @@ const std::vector<Guard> &get_guards() {
 				} },
 		{ "zero areas, slivers, duplicates, zero normals",
 				[](StabilityDraft &r_draft) {
-					r_draft.add_mesh("odd", make_odd_mesh(), { 0.2, 1.6, 0.1 });
+					r_draft.add_mesh("odd", make_degenerate_mesh(), { 0.2, 1.6, 0.1 });
 				} },
 		{ "coincident casters",
 				[](StabilityDraft &r_draft) {
@@ -64,7 +67,7 @@ const std::vector<Guard> &get_guards() {
 		{ "box turned inside out",
 				[](StabilityDraft &r_draft) {
 					r_draft.clear_casters();
-					r_draft.add_mesh("inside out", make_turned_box(0.4), { 0, 1.0, 0 });
+					r_draft.add_mesh("inside out", make_inside_out_box(0.4), { 0, 1.0, 0 });
 				} },
 		{ "no casters",
 				[](StabilityDraft &r_draft) {
@@ -88,24 +91,25 @@ const std::vector<Guard> &get_guards() {
 					glm::dmat4 &transform = r_draft.bodies[1].world_from_node;
 					transform = glm::scale(transform, glm::dvec3(1, 0, 1));
 				} },
+		// These change only spot lights.
 		{ "cone of 0.001 rad", [](StabilityDraft &r_draft) { r_draft.cone_rad = 1e-3; } },
 		{ "cone of a half sphere", [](StabilityDraft &r_draft) { r_draft.cone_rad = 1.5707963; } },
 	};
-	return GUARDS;
+	return HOSTILE_SCENES;
 }
 
 } // namespace
 
-std::vector<std::string> list_guard_names() {
+std::vector<std::string> list_hostile_scene_names() {
 	std::vector<std::string> names;
-	for (const Guard &guard : get_guards()) {
-		names.push_back(guard.name);
+	for (const HostileScene &scene : get_hostile_scenes()) {
+		names.push_back(scene.name);
 	}
 	return names;
 }
 
-void change_to_guard(StabilityDraft &r_draft, size_t p_index) {
-	get_guards().at(p_index).change(r_draft);
+void change_to_hostile_scene(StabilityDraft &r_draft, size_t p_index) {
+	get_hostile_scenes().at(p_index).change(r_draft);
 }
 
 } // namespace gnomon

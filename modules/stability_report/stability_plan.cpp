@@ -12,23 +12,22 @@ namespace {
 
 const char *const SCENE_NAME = "stability, generated";
 
-using QuestionCache =
-		LastValue<std::tuple<const StabilitySweep *, LightType, double>, MaskQuestion>;
+using TaskCache = LastValue<std::tuple<const StabilitySweep *, LightType, double>, MaskTask>;
 
-/// All techniques of a point answer the same question.
-MaskQuestion get_question(QuestionCache &r_cache, const StabilitySweep &p_sweep, LightType p_type,
+/// Returns the task of a point. The cache avoids building its scene again for each technique.
+MaskTask get_task(TaskCache &r_cache, const StabilitySweep &p_sweep, LightType p_type,
 		double p_value, const ReportOptions &p_options) {
 	return r_cache.get({ &p_sweep, p_type, p_value }, [&] {
-		const StabilityCase point =
-				make_stability_case(p_sweep, p_type, p_value, p_options.stability);
-		return MaskQuestion{ build_snapshot(
-									 *point.scene, *point.scene->find_nodes<Camera3D>().front()),
+		const StabilitySetup point =
+				make_stability_setup(p_sweep, p_type, p_value, p_options.stability);
+		return MaskTask{ build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front()),
 			point.light, point.size_px, p_options.filter_hash };
 	});
 }
 
-/// The lights of the project's own scenes, as they are.
-void plan_project_scenes(const ReportOptions &p_options, const ReportPart::Add &p_add) {
+/// Plans the sweep "scenes": each light of the project's stability scenes, unchanged.
+void plan_project_scenes(
+		const ReportOptions &p_options, const ReportPart::AddConfiguration &p_add) {
 	ReportConfiguration configuration;
 	configuration.group = STABILITY_GROUP;
 	configuration.sweep = PROJECT_SCENES_SWEEP;
@@ -43,9 +42,9 @@ void plan_project_scenes(const ReportOptions &p_options, const ReportPart::Add &
 				configuration.light = light->name;
 				configuration.id = text("stability/", PROJECT_SCENES_SWEEP, "/",
 						get_light_type_name(light->type), "/", item.name, "/", light->name);
-				const MaskQuestion question = { snapshot, light->name, configuration.size_px,
+				const MaskTask task = { snapshot, light->name, configuration.size_px,
 					p_options.filter_hash };
-				p_add(configuration, [=](const PropertyValues &) { return question; });
+				p_add(configuration, [=](const PropertyValues &) { return task; });
 				configuration.value += 1;
 			}
 		} catch (const Error &error) {
@@ -53,7 +52,7 @@ void plan_project_scenes(const ReportOptions &p_options, const ReportPart::Add &
 			configuration.id = text("stability/", PROJECT_SCENES_SWEEP, "/", item.name);
 			p_add(configuration,
 					[message = std::string(error.what())](
-							const PropertyValues &) -> MaskQuestion { fail(message); });
+							const PropertyValues &) -> MaskTask { fail(message); });
 		}
 	}
 }
@@ -68,9 +67,9 @@ std::vector<std::string> StabilityPart::list_sweeps() const {
 	return ids;
 }
 
-void StabilityPart::plan(const ReportOptions &p_options, const Add &p_add) const {
+void StabilityPart::plan(const ReportOptions &p_options, const AddConfiguration &p_add) const {
 	const bool is_quick = p_options.stability == ReportExtent::QUICK;
-	const auto cache = std::make_shared<QuestionCache>();
+	const auto cache = std::make_shared<TaskCache>();
 	for (const StabilitySweep &sweep : get_stability_sweeps()) {
 		if (!p_options.has_sweep(sweep.id)) {
 			continue;
@@ -83,8 +82,8 @@ void StabilityPart::plan(const ReportOptions &p_options, const Add &p_add) const
 		std::stable_partition(values.begin(), values.end(),
 				[&](double p_value) { return p_value == sweep.center; });
 		for (const LightType type : sweep.types) {
-			// The other types' sweeps take their own time; of these the quick form measures the
-			// sizes.
+			// To save time, a quick report measures only the first type of light, except in the
+			// first sweep (light_size).
 			if (is_quick && type != sweep.types.front() && &sweep != &get_stability_sweeps()[0]) {
 				continue;
 			}
@@ -96,12 +95,12 @@ void StabilityPart::plan(const ReportOptions &p_options, const Add &p_add) const
 				configuration.scene = SCENE_NAME;
 				configuration.id = text("stability/", sweep.id, "/", get_light_type_name(type), "/",
 						sweep.describe_value(value));
-				const MaskQuestion question = get_question(*cache, sweep, type, value, p_options);
-				configuration.light = question.light;
-				configuration.light_count = uint32_t(question.scene->lights.size());
-				configuration.size_px = question.size_px;
+				const MaskTask task = get_task(*cache, sweep, type, value, p_options);
+				configuration.light = task.light;
+				configuration.light_count = uint32_t(task.scene->lights.size());
+				configuration.size_px = task.size_px;
 				p_add(configuration, [=, &sweep](const PropertyValues &) {
-					return get_question(*cache, sweep, type, value, p_options);
+					return get_task(*cache, sweep, type, value, p_options);
 				});
 			}
 		}

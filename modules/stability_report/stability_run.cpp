@@ -14,18 +14,21 @@ namespace gnomon {
 
 namespace {
 
-const double MOTION_SHARE = 1e-3;					  // of R, a frame
-const uint64_t MOST_RAYS = uint64_t(1) << 30;		  // of a reference; some minutes of two cores
-const uint64_t MOST_MOVED_PIXELS = uint64_t(1) << 18; // that are traced a second time
-const uint32_t LEAST_SAMPLES = 16;
-const size_t CONDITION_POINT_COUNT = 16;
-const size_t CHECKED_RECEIVERS = 128; // of a reference, in double
-// Mean difference that 256 rays on a spiral and 1024 stratified ones do not have: about 0.004 in
-// penumbras.
-const double MOST_REFERENCE_ERROR = 0.009;
-const double REFERENCE_NOISE_ERRORS = 3.0;	// standard errors of a reference with fewer rays
-const double DOUBLE_STANDARD_ERROR = 0.004; // of 256 rays on a spiral, in a penumbra
+const double MOTION_FRACTION = 1e-3; // motion of the light between two frames, as a fraction of R
+const uint64_t MAX_RAY_COUNT = uint64_t(1) << 30; // per reference; some minutes on two cores
+/// Images with more pixels have no reference of the moved light.
+const uint64_t MAX_MOVED_PIXEL_COUNT = uint64_t(1) << 18;
+const uint32_t MIN_SAMPLE_COUNT = 16;	   // rays per pixel of a reference
+const size_t CONDITION_POINT_COUNT = 16;   // pixels for compute_visibility_condition
+const size_t CHECKED_RECEIVER_COUNT = 128; // pixels of a reference that are checked in double
+// A reference with a larger mean error is traced again in double. Sampling noise is smaller: 256
+// rays on a spiral and 1024 stratified rays differ by about 0.004 in penumbras.
+const double MAX_REFERENCE_ERROR = 0.009;
+// The same limit for noisier references with fewer rays, in standard errors.
+const double REFERENCE_NOISE_STANDARD_ERRORS = 3.0;
+const double DOUBLE_STANDARD_ERROR = 0.004; // of 256 rays on a spiral, in penumbras
 
+/// Throws an Error if a visibility is not finite or outside 0..1.
 void check_values(const std::vector<MaskImage> &p_frames) {
 	size_t bad_count = 0;
 	for (const MaskImage &frame : p_frames) {
@@ -38,6 +41,7 @@ void check_values(const std::vector<MaskImage> &p_frames) {
 	}
 }
 
+/// See ReportStability::wrong_share.
 double compute_wrong_share(const MaskImage &p_reference, const MaskImage &p_mask) {
 	uint64_t wrong_count = 0;
 	uint64_t receiver_count = 0;
@@ -53,7 +57,7 @@ double compute_wrong_share(const MaskImage &p_reference, const MaskImage &p_mask
 	return receiver_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
 }
 
-/// The pixels that are worst, as points to be computed in double.
+/// Returns the receivers with the largest errors, up to CONDITION_POINT_COUNT.
 std::vector<ConditionPoint> find_worst_points(
 		const TracedReference &p_reference, const MaskImage &p_mask) {
 	std::vector<ConditionPoint> points;
@@ -73,11 +77,13 @@ std::vector<ConditionPoint> find_worst_points(
 	return points;
 }
 
-/// The reference is traced in float32. Where that is not enough for the question, it is traced
-/// again in double; tested at some receivers, evenly spread. ALWAYS: as another frame's was.
+/// WHERE_NEEDED: if a check of evenly spaced receivers in double shows that float32 is too
+/// inaccurate. ALWAYS: for the second frame, if the first was traced in double.
 enum class DoubleReference { WHERE_NEEDED, ALWAYS };
+/// Replaces the visibility of a reference, which is traced in float32, by that of DoubleVisibility,
+/// under the condition p_when.
 void correct_reference(
-		const MaskQuestion &p_question, DoubleReference p_when, TracedReference &r_reference) {
+		const MaskTask &p_task, DoubleReference p_when, TracedReference &r_reference) {
 	MaskImage &mask = r_reference.mask;
 	std::vector<size_t> receivers;
 	for (size_t index = 0; index < mask.visibility.size(); ++index) {
@@ -88,18 +94,24 @@ void correct_reference(
 	if (receivers.empty() || r_reference.positions.size() != mask.visibility.size()) {
 		return;
 	}
-	const DoubleVisibility exact(*p_question.scene, get_light(*p_question.scene, p_question.light));
+	for (const InstanceSnapshot &instance : p_task.scene->instances) {
+		if (instance.casts_shadow && instance.compute_transmittance() != glm::vec3(0.0f)) {
+			return; // DoubleVisibility treats all casters as opaque
+		}
+	}
+	const DoubleVisibility exact(*p_task.scene, get_light(*p_task.scene, p_task.light));
 	const auto compute = [&](size_t p_index) {
-		return exact.compute(p_question.scene->camera.position_world +
-						glm::dvec3(r_reference.positions[p_index]),
+		return exact.compute(
+				p_task.scene->camera.position_world + glm::dvec3(r_reference.positions[p_index]),
 				r_reference.normals[p_index]);
 	};
-	// Shadows that are missing show anywhere, blurred ones in penumbras, of which there may be few.
-	std::vector<size_t> soft;
-	std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(soft),
+	// Missing shadows show in a check of all receivers. Blurred ones show only in penumbras, which
+	// may have few pixels, so these are checked separately.
+	std::vector<size_t> penumbra_receivers;
+	std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(penumbra_receivers),
 			[&](size_t p_index) { return is_penumbra(mask.visibility[p_index]); });
 	const auto compute_error = [&](const std::vector<size_t> &p_pixels) {
-		const size_t step = std::max<size_t>(1, p_pixels.size() / CHECKED_RECEIVERS);
+		const size_t step = std::max<size_t>(1, p_pixels.size() / CHECKED_RECEIVER_COUNT);
 		double sum = 0;
 		size_t count = 0;
 		for (size_t index = step / 2; index < p_pixels.size(); index += step, ++count) {
@@ -107,10 +119,10 @@ void correct_reference(
 		}
 		return count == 0 ? 0.0 : sum / double(count);
 	};
-	const double most =
-			std::max(MOST_REFERENCE_ERROR, REFERENCE_NOISE_ERRORS * r_reference.standard_error);
-	if (p_when == DoubleReference::WHERE_NEEDED && compute_error(receivers) <= most &&
-			compute_error(soft) <= most) {
+	const double max_error = std::max(
+			MAX_REFERENCE_ERROR, REFERENCE_NOISE_STANDARD_ERRORS * r_reference.standard_error);
+	if (p_when == DoubleReference::WHERE_NEEDED && compute_error(receivers) <= max_error &&
+			compute_error(penumbra_receivers) <= max_error) {
 		return;
 	}
 	for (const size_t index : receivers) {
@@ -122,40 +134,43 @@ void correct_reference(
 
 } // namespace
 
-MaskQuestion move_light(const MaskQuestion &p_question) {
-	auto scene = std::make_shared<SceneSnapshot>(*p_question.scene);
+MaskTask move_light(const MaskTask &p_task) {
+	auto scene = std::make_shared<SceneSnapshot>(*p_task.scene);
 	for (LightSnapshot &light : scene->lights) {
-		if (light.name != p_question.light) {
+		if (light.name != p_task.light) {
 			continue;
 		}
 		const double radius = light.get_disc_radius();
 		if (light.type == LightType::DIRECTIONAL) {
-			const double angle = MOTION_SHARE * (radius > 0 ? std::atan(radius) : MOTION_SHARE);
-			const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, light.world_from_light[1]);
-			light.world_from_light = glm::dmat3(turn) * light.world_from_light;
+			const double angle =
+					MOTION_FRACTION * (radius > 0 ? std::atan(radius) : MOTION_FRACTION);
+			const glm::dmat4 rotation =
+					glm::rotate(glm::dmat4(1.0), angle, light.world_from_light[1]);
+			light.world_from_light = glm::dmat3(rotation) * light.world_from_light;
 		} else {
-			const double least = MOTION_SHARE * scene->scene_size_m;
-			light.position_world +=
-					MOTION_SHARE * (radius > 0 ? radius : least) * light.world_from_light[0];
+			const double fallback_radius = MOTION_FRACTION * scene->scene_size_m;
+			light.position_world += MOTION_FRACTION * (radius > 0 ? radius : fallback_radius) *
+					light.world_from_light[0];
 		}
 	}
-	MaskQuestion moved = p_question;
+	MaskTask moved = p_task;
 	moved.scene = scene;
 	return moved;
 }
 
 std::vector<TracedReference> StabilityPart::trace_references(
-		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) const {
-	const uint64_t pixel_count = uint64_t(p_question.size_px.x) * p_question.size_px.y;
-	const uint32_t sample_count = static_cast<uint32_t>(std::clamp<uint64_t>(
-			MOST_RAYS / pixel_count, std::min(LEAST_SAMPLES, p_sample_count), p_sample_count));
+		MaskSource &r_source, const MaskTask &p_task, uint32_t p_sample_count) const {
+	const uint64_t pixel_count = uint64_t(p_task.size_px.x) * p_task.size_px.y;
+	const uint32_t sample_count =
+			static_cast<uint32_t>(std::clamp<uint64_t>(MAX_RAY_COUNT / pixel_count,
+					std::min(MIN_SAMPLE_COUNT, p_sample_count), p_sample_count));
 	std::vector<TracedReference> references;
-	references.push_back(r_source.trace_reference(p_question, sample_count));
-	if (pixel_count > MOST_MOVED_PIXELS) {
+	references.push_back(r_source.trace_reference(p_task, sample_count));
+	if (pixel_count > MAX_MOVED_PIXEL_COUNT) {
 		return references;
 	}
-	correct_reference(p_question, DoubleReference::WHERE_NEEDED, references[0]);
-	const MaskQuestion moved = move_light(p_question);
+	correct_reference(p_task, DoubleReference::WHERE_NEEDED, references[0]);
+	const MaskTask moved = move_light(p_task);
 	references.push_back(r_source.trace_reference(moved, sample_count));
 	if (references[0].is_double) {
 		correct_reference(moved, DoubleReference::ALWAYS, references[1]);
@@ -163,21 +178,21 @@ std::vector<TracedReference> StabilityPart::trace_references(
 	return references;
 }
 
-MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskQuestion &p_question,
+MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 		std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const {
 	ReportCell &cell = r_report.cells[p_cell];
-	const TracedReference &still = p_references.front();
+	const TracedReference &unmoved = p_references.front();
 	const TracedReference *moved = p_references.size() > 1 ? &p_references[1] : nullptr;
 	ReportStability stability;
-	std::vector<MaskQuestion> questions = { p_question };
+	std::vector<MaskTask> tasks = { p_task };
 	if (moved != nullptr) {
-		questions.push_back(move_light(p_question));
+		tasks.push_back(move_light(p_task));
 	}
 	DrawnMasks drawn;
 	try {
-		drawn = r_source.draw(questions, cell.technique);
+		drawn = r_source.draw(tasks, cell.technique);
 	} catch (const DeviceLost &) {
-		throw; // no answer: the run ends, and goes on with --resume
+		throw; // not a refusal: it ends the run, which --resume continues
 	} catch (const Error &error) {
 		stability.refusal = error.what();
 		cell.stability = stability;
@@ -189,30 +204,30 @@ MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskQuestion &p_qu
 	}
 	check_values(drawn.frames);
 	const MaskImage &mask = drawn.frames.front();
-	cell.error = ReportError{ compute_mask_metrics(still.mask, mask), {} };
-	cell.error->whole_light = cell.error->all;
-	stability.wrong_share = compute_wrong_share(still.mask, mask);
-	if (moved != nullptr && still.mask.receiver == moved->mask.receiver) {
-		const MaskImage references[] = { still.mask, moved->mask };
+	cell.error = ReportError{ compute_mask_metrics(unmoved.mask, mask), {} };
+	cell.error->whole_light = cell.error->all; // not measured separately in report parts
+	stability.wrong_share = compute_wrong_share(unmoved.mask, mask);
+	if (moved != nullptr && unmoved.mask.receiver == moved->mask.receiver) {
+		const MaskImage references[] = { unmoved.mask, moved->mask };
 		stability.temporal_rmse = compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
 	}
 	cell.stability = stability;
-	ReportCell judged = cell;
+	ReportCell judged = cell; // run_report sets the cell's status only after this function
 	judged.status = ReportStatus::OK;
 	const std::optional<size_t> center = find_stability_center(r_report, cell);
 	const StabilityState state =
-			judge_stability(judged, r_report.configurations[cell.configuration_index].reference,
+			classify_stability(judged, r_report.configurations[cell.configuration_index].reference,
 					center ? &r_report.cells[*center] : nullptr);
 	if (state == StabilityState::DOUBLED || state == StabilityState::NONSENSE) {
-		cell.stability->condition = compute_visibility_condition(*p_question.scene,
-				get_light(*p_question.scene, p_question.light), find_worst_points(still, mask));
+		cell.stability->condition = compute_visibility_condition(*p_task.scene,
+				get_light(*p_task.scene, p_task.light), find_worst_points(unmoved, mask));
 	}
-	const bool is_worth_seeing = state == StabilityState::NONSENSE || center == p_cell;
-	return is_worth_seeing ? std::move(drawn.frames.front()) : MaskImage();
+	const bool keeps_image = state == StabilityState::NONSENSE || center == p_cell;
+	return keeps_image ? std::move(drawn.frames.front()) : MaskImage();
 }
 
 bool StabilityPart::is_unusable(const ReportCell &p_cell) const {
-	const StabilityState state = judge_stability(p_cell, {}, nullptr);
+	const StabilityState state = classify_stability(p_cell, {}, nullptr);
 	return state == StabilityState::REFUSED || state == StabilityState::NONSENSE;
 }
 

@@ -13,28 +13,35 @@ namespace gnomon {
 
 namespace {
 
-// As the demo scenes have it, in metres.
+// The camera of the demo scenes; positions in metres.
 const glm::dvec3 CAMERA_POSITION(-3.2, 4.6, 4.6);
-const double CAMERA_FOV_RAD = 0.64350110879;	  // 36.87 degrees
-const double WIDEST_LIGHT_DEGREES = 90.0;		  // of a directional light
-const glm::dvec3 OFFSET_WAY(0.64, -0.192, 0.744); // of length 1, along no axis
+const double CAMERA_FOV_RAD = 0.64350110879;			// 36.87 degrees
+const double MAX_LIGHT_DEGREES = 90.0;					// apparent diameter, directional
+const glm::dvec3 OFFSET_DIRECTION(0.64, -0.192, 0.744); // unit length, not along an axis
 
+/// Returns world_from_node of a node at p_position that looks along -Z at p_target.
 glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
-	const glm::dvec3 way = glm::normalize(p_target - p_position);
-	const glm::dvec3 up = std::abs(way.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+	const glm::dvec3 direction = glm::normalize(p_target - p_position);
+	const glm::dvec3 up = std::abs(direction.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
 	return glm::inverse(glm::lookAtRH(p_position, p_target, up));
 }
 
-/// A floating box, a globe and a box on the ground: contact, gap, edges and curves.
+/// Returns the scene that all sweeps start from: a ground, a floating box, a floating sphere and a
+/// box in contact with the ground.
 StabilityDraft make_start() {
 	StabilityDraft draft;
 	draft.add_box("ground", { 0, -0.2, 0 }, { 4.2f, 0.2f, 4.2f });
 	draft.add_box("block", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
-	draft.add_mesh("globe", make_globe(0.35), { -0.8, 0.9, -0.4 });
+	draft.add_mesh("globe", make_sphere_mesh(0.35), { -0.8, 0.9, -0.4 });
 	draft.add_box("post", { -0.5, 0.35, 0.7 }, { 0.12f, 0.4f, 0.12f }, 0.2);
 	return draft;
 }
 
+// One function per sweep, which changes the start scene. The second argument is the value of the
+// sweep; StabilitySweep::quantity states its unit.
+
+/// A single, small caster near the light. p_value: the light's distance to its target divided by
+/// that to the caster.
 void change_depth_range(StabilityDraft &r_draft, double p_value) {
 	r_draft.clear_casters();
 	const double near_m = r_draft.get_distance_m() / p_value;
@@ -44,7 +51,7 @@ void change_depth_range(StabilityDraft &r_draft, double p_value) {
 			glm::scale(glm::translate(at_light, glm::dvec3(0, 0, -near_m)), glm::dvec3(near_m)));
 }
 
-/// A plate before the light, somewhat to the side, in addition to the casters that stay.
+/// Adds a plate in front of the light, slightly to the side. p_radii: distance in light radii R.
 void change_near_caster(StabilityDraft &r_draft, double p_radii) {
 	const glm::dmat4 at_light = look_at(r_draft.light_position, r_draft.light_target);
 	r_draft.add_box("near", glm::vec3(0.12f, 0.1f, 0.01f),
@@ -52,6 +59,7 @@ void change_near_caster(StabilityDraft &r_draft, double p_radii) {
 					at_light, glm::dvec3(0.1, 0.05, -p_radii * r_draft.light_size_m - 0.01)));
 }
 
+/// p_degrees: angle between the ground's normal and the direction to the light.
 void change_slope(StabilityDraft &r_draft, double p_degrees) {
 	const double angle = glm::radians(p_degrees);
 	r_draft.light_target = glm::dvec3(0.0);
@@ -61,15 +69,17 @@ void change_slope(StabilityDraft &r_draft, double p_degrees) {
 	r_draft.add_box("post", { 0.3, 0.25, 0.2 }, { 0.25f, 0.3f, 0.2f }, 0.4);
 }
 
+/// A rod whose axis points almost at the light. p_degrees: angle between the two.
 void change_end_on(StabilityDraft &r_draft, double p_degrees) {
 	r_draft.clear_casters();
-	const glm::dvec3 middle(0.0, 1.4, 0.0);
-	// Towards the light itself, not along the cone.
+	const glm::dvec3 center(0.0, 1.4, 0.0);
+	// The direction to the light, which is not the axis of its cone.
 	r_draft.add_box("rod", glm::vec3(0.06f, 0.05f, 0.7f),
-			glm::rotate(look_at(middle, r_draft.light_position), glm::radians(p_degrees),
+			glm::rotate(look_at(center, r_draft.light_position), glm::radians(p_degrees),
 					glm::dvec3(0, 1, 0)));
 }
 
+/// A stack of p_count thin plates.
 void change_layers(StabilityDraft &r_draft, double p_count) {
 	r_draft.clear_casters();
 	for (int index = 0; index < int(p_count); ++index) {
@@ -79,12 +89,14 @@ void change_layers(StabilityDraft &r_draft, double p_count) {
 	}
 }
 
-void change_inside(StabilityDraft &r_draft, double p_sizes) {
+/// A cube behind the light, as seen from the light's target. p_scene_sizes: distance from the light
+/// to the cube's nearest face, in S; below 0 the light is inside the cube.
+void change_inside(StabilityDraft &r_draft, double p_scene_sizes) {
 	r_draft.clear_casters();
 	const float half = 0.5f;
 	r_draft.add_box("around", glm::vec3(half),
 			glm::translate(look_at(r_draft.light_position, r_draft.light_target),
-					glm::dvec3(0.1, 0.05, half + p_sizes * StabilityDraft::SCENE_SIZE_M)));
+					glm::dvec3(0.1, 0.05, half + p_scene_sizes * StabilityDraft::SCENE_SIZE_M)));
 	r_draft.add_box("block", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
 }
 
@@ -93,29 +105,30 @@ using Change = std::function<void(StabilityDraft &, double)>;
 const std::map<std::string, Change> &get_changes() {
 	static const std::map<std::string, Change> CHANGES = {
 		{ "light_size",
-				[](StabilityDraft &r_draft, double p_sizes) {
-					r_draft.light_size_m = p_sizes * StabilityDraft::SCENE_SIZE_M;
+				[](StabilityDraft &r_draft, double p_scene_sizes) {
+					r_draft.light_size_m = p_scene_sizes * StabilityDraft::SCENE_SIZE_M;
 				} },
 		{ "depth_range", change_depth_range },
 		{ "near_caster", change_near_caster },
 		{ "scale", [](StabilityDraft &r_draft, double p_scale) { r_draft.scale = p_scale; } },
 		{ "offset",
 				[](StabilityDraft &r_draft, double p_metres) {
-					r_draft.offset_m = p_metres * OFFSET_WAY;
+					r_draft.offset_m = p_metres * OFFSET_DIRECTION;
 				} },
 		{ "slope", change_slope },
 		{ "gap",
-				[](StabilityDraft &r_draft, double p_sizes) {
+				[](StabilityDraft &r_draft, double p_scene_sizes) {
 					r_draft.clear_casters();
 					r_draft.add_box("block",
-							{ 0.2, 0.25 + p_sizes * StabilityDraft::SCENE_SIZE_M, 0.1 },
+							{ 0.2, 0.25 + p_scene_sizes * StabilityDraft::SCENE_SIZE_M, 0.1 },
 							{ 0.35f, 0.25f, 0.35f }, 0.4);
 				} },
 		{ "thickness",
-				[](StabilityDraft &r_draft, double p_sizes) {
+				[](StabilityDraft &r_draft, double p_scene_sizes) {
 					r_draft.clear_casters();
 					r_draft.add_box("plate", { 0, 0.8, 0 },
-							{ 0.6f, float(0.5 * p_sizes * StabilityDraft::SCENE_SIZE_M), 0.5f },
+							{ 0.6f, float(0.5 * p_scene_sizes * StabilityDraft::SCENE_SIZE_M),
+									0.5f },
 							0.4);
 				} },
 		{ "aspect",
@@ -126,17 +139,18 @@ const std::map<std::string, Change> &get_changes() {
 		{ "end_on", change_end_on },
 		{ "layers", change_layers },
 		{ "fin_width",
-				[](StabilityDraft &r_draft, double p_sizes) {
+				[](StabilityDraft &r_draft, double p_scene_sizes) {
 					r_draft.properties["penumbra_outer_width"] =
-							p_sizes * StabilityDraft::SCENE_SIZE_M;
+							p_scene_sizes * StabilityDraft::SCENE_SIZE_M;
 					r_draft.properties["penumbra_inner_width"] =
-							p_sizes * StabilityDraft::SCENE_SIZE_M;
+							p_scene_sizes * StabilityDraft::SCENE_SIZE_M;
 				} },
 		{ "inside", change_inside },
 	};
 	return CHANGES;
 }
 
+/// Builds the scene of a draft, with one light of type p_type.
 std::unique_ptr<Scene> build_scene(const StabilityDraft &p_draft, LightType p_type) {
 	const double scale = p_draft.scale;
 	const auto transform_point = [&](const glm::dvec3 &p_point) {
@@ -164,7 +178,7 @@ std::unique_ptr<Scene> build_scene(const StabilityDraft &p_draft, LightType p_ty
 	if (p_type == LightType::DIRECTIONAL) {
 		const double tangent = p_draft.light_size_m / p_draft.get_distance_m();
 		light->properties["light_angular_distance"] =
-				std::min(2.0 * glm::degrees(std::atan(tangent)), WIDEST_LIGHT_DEGREES);
+				std::min(2.0 * glm::degrees(std::atan(tangent)), MAX_LIGHT_DEGREES);
 	} else {
 		light->properties["light_size"] = p_draft.light_size_m * scale;
 	}
@@ -187,7 +201,7 @@ std::unique_ptr<Scene> make_stability_scene(
 		const std::string &p_sweep, LightType p_type, double p_value) {
 	StabilityDraft draft = make_start();
 	if (p_sweep == "guards") {
-		change_to_guard(draft, static_cast<size_t>(p_value));
+		change_to_hostile_scene(draft, static_cast<size_t>(p_value));
 	} else if (const auto change = get_changes().find(p_sweep); change != get_changes().end()) {
 		change->second(draft, p_value);
 	}

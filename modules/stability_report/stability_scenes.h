@@ -8,14 +8,17 @@
 
 namespace gnomon {
 
+/// Name of the light in make_stability_scene.
 inline constexpr const char *STABILITY_LIGHT_NAME = "Light";
 
-/// A ground, casters above it, one light and a camera, with one thing about them extreme: the value
-/// of that sweep. An unknown sweep has the scene that all start from.
+/// Builds a generated scene: a ground, casters above it, one light and a camera. p_sweep: id of the
+/// sweep (StabilitySweep::id), which decides what p_value changes. For an unknown id nothing is
+/// changed.
 std::unique_ptr<Scene> make_stability_scene(
 		const std::string &p_sweep, LightType p_type, double p_value);
 
-/// Of the sweep "guards", whose values are indices of this list.
-std::vector<std::string> list_guard_names();
+/// Returns the names of the hostile scenes. They are the points of the sweep "guards", whose values
+/// are indices of this list.
+std::vector<std::string> list_hostile_scene_names();
 
 } // namespace gnomon

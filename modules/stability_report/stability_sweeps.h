@@ -11,40 +11,44 @@
 
 namespace gnomon {
 
-/// One quantity taken from harmless to extreme while all else stays: a curve for each technique.
+/// A sweep: generated scenes in which one quantity varies from harmless to extreme and everything
+/// else is constant. The report shows one curve per technique and light type.
 struct StabilitySweep {
-	std::string id;		  // "light_size"
-	std::string quantity; // what the values are: "light radius, S"
-	std::vector<LightType> types;
-	std::vector<double> values;		  // in the order of the curve
-	double center = 0;				  // of the values: what the others' errors are compared with
-	std::vector<double> quick_values; // of the values
-	/// Names of the values, where they are cases and no quantity; else empty.
+	std::string id;				  // "light_size"
+	std::string quantity;		  // name and unit of the values: "light radius, S"
+	std::vector<LightType> types; // of the light; each gets a curve of its own
+	std::vector<double> values;	  // in the order of the curve
+	double center = 0; // harmless element of `values`: errors are compared with the error there
+	std::vector<double> quick_values; // subset of `values` for ReportExtent::QUICK
+	/// Names of separate scenes, whose indices are `values`. Empty if the values are a quantity.
 	std::vector<std::string> labels = {};
-	/// Its values count the lights of ReportOptions::stability_scenes; it has no centre.
+	/// True: the points are the lights of ReportOptions::stability_scenes, numbered from 0, and
+	/// there is no centre.
 	bool has_project_scenes = false;
 
-	/// Scenes one by one, which are no curve.
+	/// True: the points are separate scenes, which form no curve.
 	bool has_cases() const { return has_project_scenes || !labels.empty(); }
-	/// "1e-06", or the value's own label.
+	/// Returns the label of a value: the number as text ("1e-06"), or its name in `labels`.
 	std::string describe_value(double p_value) const;
 };
-/// All that there are; the last but one, "guards", holds scenes that once broke something or might,
-/// the last, "scenes", those of a project.
+/// Returns all sweeps. The last two are no curves: "guards" has generated scenes that once broke a
+/// technique or might, and "scenes" has the scenes of the project.
 const std::vector<StabilitySweep> &get_stability_sweeps();
-/// Null: there is none of that name.
+/// Returns the sweep with that id; null if there is none.
 const StabilitySweep *find_stability_sweep(const std::string &p_id);
 
-/// What is drawn at one point of a sweep. The light is "Light", or "Light 1" among several.
-struct StabilityCase {
+/// The scene of one point of a sweep, the name of the light whose mask is measured ("Light", or
+/// "Light 1" in sweeps that use make_scaling_scene), and the size of the mask.
+struct StabilitySetup {
 	std::unique_ptr<Scene> scene;
 	std::string light;
 	glm::uvec2 size_px = glm::uvec2(0u);
 };
-/// Width and height of masks.
+/// Returns the width and height of masks in pixels. Only the sweep "resolution" has other sizes.
 uint32_t get_stability_size_px(ReportExtent p_extent);
-/// Of a sweep without project scenes. S is 4 m, but where the scale is what is swept.
-StabilityCase make_stability_case(
+/// Builds a point of a sweep that has no project scenes. The scene size S is 4 m, except in the
+/// sweep "scale".
+StabilitySetup make_stability_setup(
 		const StabilitySweep &p_sweep, LightType p_type, double p_value, ReportExtent p_extent);
 
 } // namespace gnomon

@@ -11,12 +11,13 @@ namespace gnomon {
 namespace {
 
 const double GOLDEN_ANGLE_RAD = 2.39996322972865332;
-// Relative moves of the receiver. The first is what a few operations in float32 round away, 16
-// halves of the last bit; the second shows slopes that 256 rays cannot resolve otherwise.
+// Displacements of the receiver as fractions of its distance to the light. The first is about the
+// rounding error of a few float32 operations: 16 times half a unit in the last place. The second is
+// large enough that 256 rays can resolve a gradual change of visibility.
 const double ROUNDING_MOVE = 1e-6;
 const double WIDE_MOVE = 1e-4;
-// A cause explains an error when it makes at least this share of it.
-const double EXPLAINING_SHARE = 0.5;
+// A cause explains an error if it amounts to at least this fraction of the error.
+const double EXPLAINING_FRACTION = 0.5;
 
 } // namespace
 
@@ -44,27 +45,28 @@ double DoubleVisibility::compute(
 	const glm::dvec3 origin =
 			p_position_world + double(RECEIVER_OFFSET) * scene.scene_size_m * p_normal;
 	const bool is_directional = light.type == LightType::DIRECTIONAL;
-	const glm::dvec3 way =
+	const glm::dvec3 direction =
 			is_directional ? -light.get_direction_world() : light.position_world - origin;
-	const glm::dvec3 axis = glm::normalize(way);
+	const glm::dvec3 axis = glm::normalize(direction);
 	const glm::dvec3 other_axis =
 			std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
 	const glm::dvec3 u = glm::normalize(glm::cross(axis, other_axis));
 	const glm::dvec3 v = glm::cross(axis, u);
 	int seen_count = 0;
 	for (int sample = 0; sample < SAMPLE_COUNT; ++sample) {
-		// A spiral: rows and columns would let an edge fall between whole lines of points.
+		// Samples on a spiral: with a regular grid, an edge parallel to its rows would hide or
+		// reveal a whole row at once.
 		const double radius = light.get_disc_radius() * std::sqrt((sample + 0.5) / SAMPLE_COUNT);
 		const double angle = sample * GOLDEN_ANGLE_RAD;
-		const glm::dvec3 ray = way + radius * (std::cos(angle) * u + std::sin(angle) * v);
+		const glm::dvec3 ray = direction + radius * (std::cos(angle) * u + std::sin(angle) * v);
 		seen_count += is_blocked(origin, ray, is_directional) ? 0 : 1;
 	}
 	return double(seen_count) / SAMPLE_COUNT;
 }
 
 bool DoubleVisibility::is_blocked(
-		const glm::dvec3 &p_origin, const glm::dvec3 &p_ray, bool p_is_endless) const {
-	const double end = p_is_endless ? 1e300 : 1.0;
+		const glm::dvec3 &p_origin, const glm::dvec3 &p_ray, bool p_is_unbounded) const {
+	const double end = p_is_unbounded ? 1e300 : 1.0;
 	for (const Body &body : bodies) {
 		if (!find_box_entry(body.bounds_world, p_origin, p_ray, 0.0, end)) {
 			continue;
@@ -86,7 +88,7 @@ VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 		return mean;
 	}
 	const DoubleVisibility tracer(p_scene, p_light);
-	const double share = 1.0 / double(p_points.size());
+	const double weight = 1.0 / double(p_points.size());
 	for (const ConditionPoint &point : p_points) {
 		const glm::dvec3 position = p_scene.camera.position_world + glm::dvec3(point.position);
 		const double visibility = tracer.compute(position, point.normal);
@@ -95,23 +97,23 @@ VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 		double rounding = 0;
 		for (const double move : { ROUNDING_MOVE, WIDE_MOVE }) {
 			double change = 0;
-			for (int way = 0; way < 6; ++way) {
+			for (int direction = 0; direction < 6; ++direction) {
 				glm::dvec3 moved = position;
-				moved[way / 2] += (way % 2 == 0 ? move : -move) * distance;
+				moved[direction / 2] += (direction % 2 == 0 ? move : -move) * distance;
 				change = std::max(
 						change, std::abs(tracer.compute(moved, point.normal) - visibility));
 			}
 			number = std::max(number, change / move);
 			rounding = move == ROUNDING_MOVE ? change : rounding;
 		}
-		mean.number += share * number;
-		mean.rounding += share * rounding;
-		mean.reference_error += share * std::abs(visibility - point.reference);
-		mean.error += share * point.error;
+		mean.number += weight * number;
+		mean.rounding += weight * rounding;
+		mean.reference_error += weight * std::abs(visibility - point.reference);
+		mean.error += weight * point.error;
 	}
-	mean.cause = mean.reference_error >= EXPLAINING_SHARE * mean.error ? ErrorCause::REFERENCE
-			: mean.rounding >= EXPLAINING_SHARE * mean.error		   ? ErrorCause::ROUNDING
-																	   : ErrorCause::METHOD;
+	mean.cause = mean.reference_error >= EXPLAINING_FRACTION * mean.error ? ErrorCause::REFERENCE
+			: mean.rounding >= EXPLAINING_FRACTION * mean.error			  ? ErrorCause::ROUNDING
+																		  : ErrorCause::METHOD;
 	return mean;
 }
 

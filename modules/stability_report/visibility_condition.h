@@ -12,19 +12,20 @@
 
 namespace gnomon {
 
-/// Visibility of one light in double precision, from 256 rays a point, with neither GPU nor Embree:
-/// slow, for few points, to separate rounding from method. The light is the disc of its
-/// radius that faces the point, as the reference has it, and the point is moved by RECEIVER_OFFSET.
-/// Scene and light must live on.
+/// Computes the visibility of one light in double precision on the CPU, with 256 rays per point. It
+/// is slow and meant for few points, to separate rounding errors from errors of a method. As in the
+/// reference technique, the light is a disc of its radius that faces the point, and the ray origin
+/// is offset along the normal by RECEIVER_OFFSET times S. Unlike there, translucent casters count
+/// as opaque. Scene and light must outlive this object.
 class DoubleVisibility {
 public:
-	static constexpr int SAMPLE_COUNT = 256;
+	static constexpr int SAMPLE_COUNT = 256; // rays per point
 
 	DoubleVisibility(const SceneSnapshot &p_scene, const LightSnapshot &p_light);
 
-	/// To the light's centre; directional: S.
+	/// Returns the distance to the light's centre in metres; for a directional light S.
 	double get_distance_m(const glm::dvec3 &p_position_world) const;
-	/// The share of the light that a point of a surface with that unit normal sees, 0..1.
+	/// Returns the visible fraction of the light, 0..1, at a surface point with that unit normal.
 	double compute(const glm::dvec3 &p_position_world, const glm::dvec3 &p_normal) const;
 
 private:
@@ -33,22 +34,25 @@ private:
 		Bounds bounds_world;
 		std::unique_ptr<RayTree> tree;
 	};
-	bool is_blocked(const glm::dvec3 &p_origin, const glm::dvec3 &p_ray, bool p_is_endless) const;
+	/// Returns whether a caster is hit. The ray ends at p_origin + p_ray unless p_is_unbounded.
+	bool is_blocked(const glm::dvec3 &p_origin, const glm::dvec3 &p_ray, bool p_is_unbounded) const;
 
 	const SceneSnapshot &scene;
 	const LightSnapshot &light;
 	std::vector<Body> bodies;
 };
 
-/// A receiver whose visibility a technique got wrong.
+/// A receiver point at which a technique has a large error.
 struct ConditionPoint {
 	glm::vec3 position = glm::vec3(0.0f); // camera-relative, metres
 	glm::vec3 normal = glm::vec3(0.0f);	  // of the face, unit
-	double reference = 0;				  // v of the reference, in float32
-	double error = 0;					  // |v of the technique - reference|
+	double reference = 0;				  // visibility of the reference technique (float32)
+	double error = 0;					  // |visibility of the technique - reference|
 };
 
-/// Traces 256 rays a point and perturbation, with neither GPU nor Embree. For a few dozen points.
+/// Computes the mean condition of visibility at the points. For each, DoubleVisibility is evaluated
+/// at the point and at 12 displaced positions: meant for a few dozen points. No points: all values
+/// are 0.
 VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 		const LightSnapshot &p_light, std::span<const ConditionPoint> p_points);
 

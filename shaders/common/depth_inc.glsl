@@ -1,10 +1,10 @@
-// The one file that knows how depth is stored: reversed, near / z, 1 near .. 0 far (infinity).
+// Converts stored camera depth to positions. Depth is reversed: near / z, from 1 at the near plane to 0 at infinity.
 #ifndef DEPTH_INC_GLSL
 #define DEPTH_INC_GLSL
 
 #include "shared/frame_shared.h"
 
-/// Camera-relative position of a pixel's centre from its stored depth, which is above 0.
+/// Camera-relative position, in metres, of a pixel's centre. p_depth: its stored depth, above 0.
 vec3 position_from_depth(FrameConstants p_frame, ivec2 p_pixel, float p_depth) {
 	const vec2 uv = (vec2(p_pixel) + 0.5) / vec2(p_frame.size_px);
 	const float z_m = p_frame.near_m / p_depth;

@@ -11,11 +11,12 @@ vec3 vector_to_light(LightConstants p_light, vec3 p_position) {
 												  : p_light.position_radius.xyz - p_position;
 }
 
-/// True for a receiver: it faces the light and is inside its cone and range (doc/glossary.md).
+/// True when the point receives light if nothing is in between: its surface faces the light, and it is inside the
+/// light's cone and range (see receiver in doc/glossary.md).
 bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 	const vec3 to_light = vector_to_light(p_light, p_position);
 	const float distance_m = length(to_light);
-	if (!(dot(p_normal, to_light) > LIGHT_LEAST_COSINE * distance_m)) {
+	if (!(dot(p_normal, to_light) > LIGHT_MIN_COSINE * distance_m)) {
 		return false; // also for a point on the light, and NaN
 	}
 	if (p_light.type == LIGHT_TYPE_DIRECTIONAL) {
@@ -29,7 +30,7 @@ bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 }
 
 /// Illuminance on a surface that faces the light, lx per colour: KHR_lights_punctual's attenuation
-/// with its range window and smooth cone.
+/// with its range window and smooth cone, without the cosine at the surface. p_to_light: see vector_to_light.
 vec3 illuminance(LightConstants p_light, vec3 p_to_light) {
 	const bool is_directional = p_light.type == LIGHT_TYPE_DIRECTIONAL;
 	const float distance2 = max(dot(p_to_light, p_to_light), 1e-12);

@@ -7,11 +7,12 @@
 /// A receiver in map coordinates, and how w changes over the map on the receiver's plane.
 struct MapPoint {
 	vec2 xy;
-	float w; // 0 or less: behind the view
+	float w; // 0: behind the light; orthographic: 0 or less beyond the far plane
 	vec2 w_slope; // dw/dx, dw/dy on the receiver's plane: exact, since w is linear on a plane
 };
 
-/// Index of the view, of six, that contains a direction in the light's axes: by largest component.
+/// Index of the view, of six, that contains a direction in the light's axes. As for a cube map, the largest component
+/// decides.
 uint find_view_of_direction(vec3 p_direction_light) {
 	const vec3 r = p_direction_light;
 	const vec3 size = abs(r);
@@ -24,7 +25,7 @@ uint find_view_of_direction(vec3 p_direction_light) {
 	return r.z >= 0.0 ? 4u : 5u;
 }
 
-/// Index of the view that holds a position.
+/// Index of the light view that contains a camera-relative position.
 uint find_view(LightViewsConstants p_views, vec3 p_position) {
 	return p_views.view_count <= 1u
 			? 0u
@@ -32,6 +33,8 @@ uint find_view(LightViewsConstants p_views, vec3 p_position) {
 					  (p_views.light_from_camera_relative * vec4(p_position, 1.0)).xyz);
 }
 
+/// Projects a receiver into a view's map space. p_position and p_normal, the unit normal of the receiver's plane, are
+/// camera-relative.
 MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_normal) {
 	const vec3 r = (p_view.view_from_camera_relative * vec4(p_position, 1.0)).xyz;
 	const vec3 n = mat3(p_view.view_from_camera_relative) * p_normal;
@@ -43,7 +46,7 @@ MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_norma
 	} else {
 		point.w = r.z > 0.0 ? 1.0 / r.z : 0.0;
 		point.xy = r.xy * point.w;
-		const float height = dot(n, r); // distance of the plane from the light, with sign
+		const float height = dot(n, r); // signed distance of the plane from the light
 		point.w_slope = abs(height) < 1e-7 ? vec2(0.0) : n.xy / height;
 	}
 	return point;

@@ -1,4 +1,4 @@
-// Unit vectors as two signed 16 bit numbers (octahedral mapping, error below 7e-5 rad).
+// Packs a unit vector into two signed normalized 16-bit numbers (octahedral mapping, error below 7e-5 rad).
 #ifndef NORMAL_INC_GLSL
 #define NORMAL_INC_GLSL
 
@@ -21,12 +21,11 @@ vec3 unpack_normal(uint p_packed) {
 	return normalize(n);
 }
 
-/// Unit normal of a camera-relative triangle on the visible side, which is the lit side. Along z
-/// for a triangle without area.
+/// Unit normal of a camera-relative triangle, on the side that the camera sees. Along z for a triangle without area.
 vec3 face_normal_to_viewer(vec3 p_a, vec3 p_b, vec3 p_c) {
 	const vec3 ab = p_b - p_a;
 	const vec3 ac = p_c - p_a;
-	// Scaled first, so that tiny triangles do not underflow.
+	// Scaled first, so that the cross product of a tiny triangle does not underflow.
 	const float scale = max(max(max(abs(ab.x), abs(ab.y)), abs(ab.z)),
 			max(max(abs(ac.x), abs(ac.y)), abs(ac.z)));
 	vec3 normal = cross(ab / scale, ac / scale);

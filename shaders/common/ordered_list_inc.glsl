@@ -1,24 +1,25 @@
-// Stream compaction that keeps the items' order, whatever the scheduling: one bit per item, 32 per
-// word. The words of a work group form a block, which stores the number of its set bits.
+// Stream compaction that preserves the order of the items, independent of scheduling. There is one bit per item, 32 per
+// word. The words of a work group form a block, whose number of set bits is stored.
 #ifndef ORDERED_LIST_INC_GLSL
 #define ORDERED_LIST_INC_GLSL
 
-/// Accessors of the words and the blocks' counts, which each entry point defines for its buffers.
+// Each entry point defines these for its buffers.
+/// Word p_index, and the number of set bits in block p_index.
 uint load_list_word(uint p_index);
 uint load_list_block(uint p_index);
 
 shared uint list_count_before;
 
-/// Number of items marked in blocks p_first_block .. p_block - 1 and in words p_first_word ..
-/// p_word - 1, those of the work group's own block. Called by a whole work group, of p_group_size
-/// invocations (gl_WorkGroupSize is 1 in what is before the entry point's layout).
+/// List index of the first item of word p_word: the number of items that are set in blocks p_first_block .. p_block - 1
+/// and in words p_first_word .. p_word - 1 of the work group's own block. The whole work group must call it.
+/// p_group_size: its invocations, since gl_WorkGroupSize is not yet set where this file is included.
 uint find_list_index(uint p_group_size, uint p_first_block, uint p_block, uint p_first_word,
 		uint p_word) {
 	if (gl_LocalInvocationID.x == 0u) {
 		list_count_before = 0u;
 	}
 	barrier();
-	// Together the invocations add up the blocks before.
+	// The invocations together add up the counts of the preceding blocks.
 	uint count = 0u;
 	for (uint i = p_first_block + gl_LocalInvocationID.x; i < p_block; i += p_group_size) {
 		count += load_list_block(i);

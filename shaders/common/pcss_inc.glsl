@@ -5,13 +5,14 @@
 #include "common/map_tap_inc.glsl"
 #include "common/sampling_inc.glsl"
 
-/// Visibility of a receiver. p_empty_views: bit i, the layer of view i was not drawn; p_radius: R in
-/// metres, directional: the tangent of half the angular distance; p_nearest_w: no caster has a greater
-/// w; p_angle_rad turns the taps.
+/// Visibility of a receiver, 0..1. p_empty_views: bit i is set when the layer of view i was not drawn. p_radius: R in
+/// metres; directional: the tangent of half the angular distance. p_nearest_w: upper bound of the casters' w.
+/// p_tap_count: taps of the blocker search, and as many of the filter. p_angle_rad: rotation of the taps.
 float pcss(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, MapPoint p_point,
 		float p_radius, float p_nearest_w, uint p_tap_count, float p_angle_rad) {
 	const float margin = hiding_margin(p_view, p_point);
-	// A blocker of w hides the point of the light's disc at its map offset / (w - w_receiver).
+	// A blocker with map coordinate w, at map offset o from the receiver, hides the point o / (w - w_receiver) of the
+	// light's disc. So blockers are at most p_radius * (w - w_receiver) away.
 	const vec2 extent = texel_extent(p_view);
 	const float search_radius = min(p_radius * max(p_nearest_w - p_point.w, 0.0),
 			max(p_view.half_extent.x, p_view.half_extent.y));
@@ -26,10 +27,10 @@ float pcss(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, 
 		}
 	}
 	const float mean_w = blocker_w / float(max(blocker_count, 1u));
-	// Less than half a texel is more than the map can resolve; but a light without size stays hard.
-	const float least = p_radius > 0.0 ? 0.5 * max(extent.x, extent.y) : 0.0;
-	const float radius = max(p_radius * (mean_w - p_point.w), least);
-	// Early out: without blockers there is no tap to take.
+	// The map cannot resolve filters of less than half a texel. A light without size keeps a hard shadow.
+	const float min_radius = p_radius > 0.0 ? 0.5 * max(extent.x, extent.y) : 0.0;
+	const float radius = max(p_radius * (mean_w - p_point.w), min_radius);
+	// Early out: without blockers the receiver is lit, and no filter taps are needed.
 	const uint filter_count = blocker_count > 0u ? p_tap_count : 0u;
 	uint hidden_count = 0u;
 	for (uint i = 0u; i < filter_count; ++i) {

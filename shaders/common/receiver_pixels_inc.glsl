@@ -1,5 +1,5 @@
-// The receivers of an image's pixels, and the views of one light. It reads make_map_resolve_bindings of
-// shadows.
+// Loads the receivers of pixels, and the views of one light. Uses the bindings that make_map_resolve_bindings of
+// modules/shadows/mask.h sets.
 #ifndef RECEIVER_PIXELS_INC_GLSL
 #define RECEIVER_PIXELS_INC_GLSL
 
@@ -21,7 +21,7 @@ bool is_in_image(ivec2 p_pixel) {
 	return all(lessThan(p_pixel, ivec2(frame.size_px)));
 }
 
-/// The mask counts only there.
+/// True when the light can reach the pixel's surface. The mask of other pixels is not used.
 bool is_receiver_pixel(ivec2 p_pixel) {
 	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0;
 }
@@ -31,7 +31,7 @@ struct ReceiverPixel {
 	vec3 normal;   // unit, of the face, towards the viewer
 };
 
-/// Only for pixels that receive. p_frame: `frame`, or a copy of it.
+/// Loads a pixel's receiver. Call it only where is_receiver_pixel is true. p_frame: `frame`, or a copy of it.
 ReceiverPixel load_receiver(FrameConstants p_frame, ivec2 p_pixel) {
 	const vec3 normal = unpack_normal(texelFetch(normal_texture, p_pixel, 0).r);
 	return ReceiverPixel(

@@ -1,16 +1,15 @@
-// Test whether an edge is a silhouette as seen from the light. One expression for all shaders and
-// the CPU (find_silhouette_edges in mesh_tools/tests/silhouette_edges.h): float32, each product and
-// sum rounded once, vertices in an order that does not depend on the caller. So all find the same
-// edges, bit for bit.
+// Tests whether an edge is a silhouette as seen from the light. All shaders and the CPU version (find_silhouette_edges
+// in mesh_tools/tests/silhouette_edges.h) evaluate the same expression: in float32, each product and sum rounded once,
+// with vertices in an order that does not depend on the caller. So all find exactly the same edges.
 #ifndef SILHOUETTE_INC_GLSL
 #define SILHOUETTE_INC_GLSL
 
 #include "shared/topology_shared.h"
 
-/// True when the light is strictly in front of the triangle. Node space. p_light.xyz / w is a point;
-/// w = 0: the direction towards a light at infinity. p_ids: the triangle's vertex indices.
+/// True when the light is strictly in front of the triangle. All in node space. p_light: xyz / w is the light's centre;
+/// w = 0: xyz is the direction towards a light at infinity. p_ids: the triangle's vertex indices.
 bool is_light_facing(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c) {
-	// The vertex of least index comes first: the same order for the face and for each neighbour.
+	// Start with the vertex of the lowest index, so that a face and its neighbours compute with the same order.
 	vec3 p = p_a;
 	vec3 q = p_b;
 	vec3 r = p_c;
@@ -33,9 +32,9 @@ bool is_light_facing(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c) {
 	return side > 0.0;
 }
 
-/// Is the edge a -> b between two faces a silhouette, whose first face, which winds a -> b, faces
-/// the light or not? The second face is b a c; where it is inconsistent a b c, with its other side
-/// for its own. p_ids: of a, b, c.
+/// True when the edge a -> b is a silhouette. p_is_first_facing: its first face, which winds a -> b, faces the light.
+/// The second face has the vertices b, a, c. When the edge is inconsistent, the second face is a, b, c and also winds
+/// a -> b, so its front and back are swapped. p_ids: indices of a, b, c.
 bool is_edge_silhouette(vec4 p_light, bool p_is_first_facing, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c,
 		bool p_is_inconsistent) {
 	return p_is_inconsistent
@@ -43,12 +42,14 @@ bool is_edge_silhouette(vec4 p_light, bool p_is_first_facing, uvec3 p_ids, vec3 
 			: p_is_first_facing != is_light_facing(p_light, p_ids.yxz, p_b, p_a, p_c);
 }
 
-/// The vertex of the edge's second face; of a boundary no vertex, to be tested first.
+/// Index of the vertex opposite to the edge in its second face. Invalid for a boundary edge: first test whether
+/// opposite1 is TOPOLOGY_NO_VERTEX.
 uint get_second_opposite(TopologyEdge p_edge) {
 	return p_edge.opposite1 & ~uint(TOPOLOGY_EDGE_INCONSISTENT | TOPOLOGY_EDGE_NOT_SOLID);
 }
 
-/// Is an edge with two faces a silhouette? The positions of its a, b, opposite0 and second opposite.
+/// True when an edge with two faces is a silhouette. p_a, p_b, p_first, p_second: positions of its vertices a, b,
+/// opposite0 and get_second_opposite.
 bool is_edge_record_silhouette(
 		vec4 p_light, TopologyEdge p_edge, vec3 p_a, vec3 p_b, vec3 p_first, vec3 p_second) {
 	const bool is_first_facing = is_light_facing(
@@ -58,11 +59,11 @@ bool is_edge_record_silhouette(
 			(p_edge.opposite1 & TOPOLOGY_EDGE_INCONSISTENT) != 0u);
 }
 
-/// Bit mask of the edges that a face owns and that are silhouettes, bit i for edge i, for a
-/// geometry shader: vertices and their indices as triangles with adjacency have them, flags as in
-/// topology_shared.h. Each edge of the mesh belongs to one face, so that it is not drawn twice.
-uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_positions[6]) {
-	if ((p_flags & 7u) == 0u) {
+/// For geometry shaders: bit i is set when edge i of the face is a silhouette that the face owns. Each edge is owned by
+/// one face only, so that it is not drawn twice. p_ids, p_positions: as in a triangle with adjacency. p_flags:
+/// TOPOLOGY_FACE_*.
+uint find_owned_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_positions[6]) {
+	if ((p_flags & 7u) == 0u) { // none of the three TOPOLOGY_FACE_OWNS_EDGE bits
 		return 0u;
 	}
 	const bool is_facing = is_light_facing(p_light, uvec3(p_ids[0], p_ids[2], p_ids[4]),
@@ -78,8 +79,8 @@ uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_posi
 					uvec3(p_ids[a], p_ids[b], p_ids[c]), p_positions[a], p_positions[b], p_positions[c],
 					(p_flags & (TOPOLOGY_FACE_HAS_INCONSISTENT << edge)) != 0u);
 		}
-		const bool is_own = (p_flags & (TOPOLOGY_FACE_OWNS_EDGE << edge)) != 0u;
-		found |= is_own && is_silhouette ? 1u << edge : 0u;
+		const bool is_owned = (p_flags & (TOPOLOGY_FACE_OWNS_EDGE << edge)) != 0u;
+		found |= is_owned && is_silhouette ? 1u << edge : 0u;
 	}
 	return found;
 }

@@ -1,8 +1,9 @@
-// Operations over a whole subgroup in which all invocations take part: no branch or loop may have stopped any.
+// Subgroup operations in which all invocations of the subgroup take part: call them only where all are active.
 //
-// llvmpipe 22.3, whose subgroups have 8 invocations, shuffles in one instruction, but loops over the invocations in
-// reductions, votes, ballots and broadcasts (60 to 100 cycles each). There three shuffles in a butterfly do the same;
-// other devices have instructions for them. Before it: SUBGROUP_SIZE, a constant, the invocations of a subgroup.
+// llvmpipe of Mesa 22.3, whose subgroups have 8 invocations, shuffles in one instruction, but loops over the
+// invocations in reductions, votes, ballots and broadcasts (60 to 100 cycles each). So where SUBGROUP_SIZE is 8, three
+// butterfly shuffles replace them; with other sizes, which GPUs have, the built-in functions are used. Define the
+// constant SUBGROUP_SIZE, the invocations per subgroup, before including this file.
 #ifndef SUBGROUP_INC_GLSL
 #define SUBGROUP_INC_GLSL
 
@@ -33,7 +34,7 @@ SUBGROUP_REDUCTION(subgroup_max, vec2, max, subgroupMax)
 SUBGROUP_REDUCTION(subgroup_max, uint, max, subgroupMax)
 SUBGROUP_REDUCTION(subgroup_or, uint, combine_bits, subgroupOr)
 
-/// A bit for each invocation that has true.
+/// Bit i is set when p_value is true in invocation i.
 uvec4 subgroup_ballot(bool p_value) {
 	if (USES_BUTTERFLY) {
 		return uvec4(subgroup_or(p_value ? 1u << gl_SubgroupInvocationID : 0u), 0u, 0u, 0u);
@@ -49,9 +50,9 @@ bool subgroup_all(bool p_value) {
 	return !subgroup_any(!p_value);
 }
 
-/// What the subgroup wrote to shared memory before is there for all of it. Subgroups of one work group may come here
-/// unequally often: llvmpipe 26 takes the barrier for one of the whole group, and loses those that come more often. Its
-/// subgroups go in step anyway.
+/// Makes earlier writes of the subgroup to shared memory visible to the whole subgroup. Subgroups of one work group may
+/// call it a different number of times. llvmpipe of Mesa 26 treats subgroupBarrier as a barrier of the whole work
+/// group, which fails in that case. So it is omitted where SUBGROUP_SIZE is 8: llvmpipe runs a subgroup in lockstep.
 void sync_subgroup_memory() {
 	subgroupMemoryBarrierShared();
 	if (!USES_BUTTERFLY) {

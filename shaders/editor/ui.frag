@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "editor/ui_shared.h"
 
-// Text, widgets and images: a texture times a colour, both as they are stored.
+// Draws text, widgets and images: a texture times a colour. All values are sRGB-encoded and are not converted.
 layout(set = 0, binding = UI_BINDING_TEXTURE) uniform texture2D shown_texture;
 layout(set = 0, binding = UI_BINDING_SAMPLER) uniform sampler shown_sampler;
 layout(location = 0) in vec2 in_uv;

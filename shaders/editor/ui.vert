@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "editor/ui_shared.h"
 
-// The editor's triangles, in pixels from the top left.
+// Draws the editor's triangles. Positions are in pixels from the top left.
 layout(push_constant) uniform Push {
 	UiPush push;
 };

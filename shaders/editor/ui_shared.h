@@ -7,7 +7,7 @@
 
 /// Push constants of ui.vert.
 struct SHARED_ALIGN UiPush {
-	vec2 clip_per_px;
+	vec2 clip_per_px; // clip-space units per pixel: 2 / window size in pixels
 	vec2 padding;
 };
 SHARED_SIZE(UiPush, 16);

@@ -2,7 +2,8 @@
 #define GODOT_ADDON_SHARED_H
 #include "shared/shared_begin.h"
 
-// Of the table of lights that materials read, its first row included.
+// Size of the table of lights that materials read, including its first row, which describes the
+// view.
 #define RECEIVER_ROW_COUNT 64
 #define RECEIVER_COLUMN_COUNT 4
 
@@ -28,10 +29,10 @@ struct SHARED_ALIGN ConvertDepthPush {
 };
 SHARED_SIZE(ConvertDepthPush, 16);
 
-/// Push constants of merge_depth.frag: shares of a surface's distance.
+/// Push constants of merge_depth.frag: tolerances as fractions of a surface's depth.
 struct SHARED_ALIGN MergeDepthPush {
-	float same_share; // up to here it is the surface that Godot drew
-	float most_share; // farther apart no surface is one of fewer triangles
+	float surface_tolerance; // largest difference at which Godot drew the reduced mesh in the pixel
+	float lod_tolerance;	 // largest difference between a reduced mesh and its full mesh
 	float padding0;
 	float padding1;
 };
@@ -39,14 +40,14 @@ SHARED_SIZE(MergeDepthPush, 16);
 
 /// Push constants of scale_depth.frag and scale_masks.comp.
 struct SHARED_ALIGN ScalePush {
-	vec2 ratio; // pixels of the other image to one of what is written
+	vec2 ratio; // pixels of the image that is read per pixel that is written
 	vec2 padding;
 };
 SHARED_SIZE(ScalePush, 16);
 
 /// Push constants of show_mask.frag.
 struct SHARED_ALIGN ShowMaskPush {
-	uint layer; // of the masks
+	uint layer; // layer of the array of masks
 	uint padding0;
 	uint padding1;
 	uint padding2;

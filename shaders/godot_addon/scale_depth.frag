@@ -9,10 +9,14 @@ layout(push_constant) uniform Push {
 	ScalePush push;
 };
 
-// The depth at the pixel's centre: interpolated over the surface of the nearest of the view's pixels.
+// Writes the depth at the pixel's centre. It is extrapolated along the surface from the nearest pixel of the view.
 void main() {
 	const vec2 position = gl_FragCoord.xy * push.ratio;
 	const ivec2 nearest = ivec2(position);
 	const float depth = texelFetch(full_depth_texture, nearest, 0).r;
-	gl_FragDepth = depth > 0.0 ? max(depth + dot(find_slope(full_depth_texture, nearest), position - (vec2(nearest) + 0.5)), 0.0) : 0.0;
+	gl_FragDepth = depth > 0.0 ? max(depth +
+												 dot(find_slope(full_depth_texture, nearest),
+														 position - (vec2(nearest) + 0.5)),
+										 0.0)
+							   : 0.0;
 }

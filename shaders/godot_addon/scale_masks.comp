@@ -13,11 +13,12 @@ layout(push_constant) uniform Push {
 	ScalePush push;
 };
 
-// How far near / z may be from that of the pixel's plane for a mask to count in full, as a share.
-const float SAME_SURFACE = 1e-3;
+// Relative difference of near / z from the plane of the pixel's surface at which a tap has half of its weight.
+const float SURFACE_TOLERANCE = 1e-3;
 
-// The masks' four pixels around this one, bilinear, each by how near it is to this pixel's surface. A mask below 0, where the
-// surface faces away from the light, is no number to mix: it is taken where it has the largest weight.
+// Resizes the masks: averages the four mask pixels around this pixel with bilinear weights, which are reduced for
+// pixels that are not on this pixel's surface. A mask below 0 marks a surface that faces away from the light and is not
+// averaged: the result is -1 if the pixel with the largest weight has such a mask.
 void main() {
 	const ivec3 item = ivec3(gl_GlobalInvocationID);
 	const ivec2 size = textureSize(full_depth_texture, 0);
@@ -25,28 +26,29 @@ void main() {
 		return;
 	}
 	const float depth = texelFetch(full_depth_texture, item.xy, 0).r;
-	const vec2 slope = find_slope(full_depth_texture, item.xy) / push.ratio; // to one pixel of the masks
+	const vec2 slope = find_slope(full_depth_texture, item.xy) / push.ratio; // per pixel of the masks
 	const vec2 position = (vec2(item.xy) + 0.5) * push.ratio - 0.5;
 	const ivec2 first = ivec2(floor(position));
 	const ivec2 last = textureSize(depth_texture, 0) - 1;
 	float sum = 0.0;
 	float weight_sum = 0.0;
-	float most = 0.0;
+	float max_weight = 0.0;
 	float nearest = -1.0;
 	for (int corner = 0; corner < 4; ++corner) {
 		const ivec2 tap = clamp(first + ivec2(corner & 1, corner >> 1), ivec2(0), last);
 		const vec2 offset = vec2(tap) - position;
-		const vec2 bilinear = max(1.0 - abs(offset), 1e-3);
+		const vec2 bilinear = max(1.0 - abs(offset), 1e-3); // above 0, so that weight_sum is never 0
 		const float tap_depth = texelFetch(depth_texture, tap, 0).r;
-		const float share = abs(tap_depth - depth - dot(slope, offset)) / max(depth, 1e-20) / SAME_SURFACE;
-		const float weight = bilinear.x * bilinear.y / (1.0 + share * share * share * share);
+		const float relative_error = abs(tap_depth - depth - dot(slope, offset)) / max(depth, 1e-20) / SURFACE_TOLERANCE;
+		const float weight = bilinear.x * bilinear.y /
+				(1.0 + relative_error * relative_error * relative_error * relative_error);
 		const float mask = texelFetch(masks_texture, ivec3(tap, item.z), 0).r;
 		if (mask >= 0.0) {
 			sum += weight * mask;
 			weight_sum += weight;
 		}
-		if (weight > most) {
-			most = weight;
+		if (weight > max_weight) {
+			max_weight = weight;
 			nearest = mask;
 		}
 	}

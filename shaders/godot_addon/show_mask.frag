@@ -9,6 +9,7 @@ layout(push_constant) uniform Push {
 	ShowMaskPush push;
 };
 
+// Draws a layer of the masks in grey. Pixels without a receiver are black.
 void main() {
 	const float mask = max(texelFetch(masks_texture, ivec3(gl_FragCoord.xy, push.layer), 0).r, 0.0);
 	out_color = vec4(mask, mask, mask, 1.0);

@@ -1,15 +1,18 @@
 // Surfaces in an image of near / z, which is linear over planes.
 
-// Along one axis the smaller of the two differences: the larger one may lead to another surface.
-float find_smaller_step(float before, float here, float behind) {
-	const float back = here - before;
-	const float ahead = behind - here;
-	return before <= 0.0 || (behind > 0.0 && abs(ahead) < abs(back)) ? ahead : back;
+// Returns the smaller of the two differences to the neighbours along one axis, because the larger one may lead to
+// another surface. A neighbour of 0 is background.
+float find_smaller_step(float previous, float here, float next) {
+	const float back = here - previous;
+	const float ahead = next - here;
+	return previous <= 0.0 || (next > 0.0 && abs(ahead) < abs(back)) ? ahead : back;
 }
 
 float fetch_inside(texture2D depth_texture, ivec2 pixel) {
 	const ivec2 size = textureSize(depth_texture, 0);
-	return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size)) ? 0.0 : texelFetch(depth_texture, pixel, 0).r;
+	return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))
+			? 0.0
+			: texelFetch(depth_texture, pixel, 0).r;
 }
 
 // Change of near / z per pixel along x and y, on the surface at a pixel.

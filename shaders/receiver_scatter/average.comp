@@ -3,11 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "receiver_scatter/receiver_inc.glsl"
 
-// Averages the neighbours of spread.comp, which took their samples from different sets. A block's width
-// and one pixel more each way, the outer ones by half, hold every set equally often and shift nothing.
+// Averages each pixel of spread.comp with its neighbours, which took their samples from different sets. The window is
+// one pixel wider and higher than a block, and its outermost pixels count by half. So it is centred on the pixel, and
+// every set has the same weight.
 layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
 
-const float SMALLEST_COSINE = 0.7; // between the normals of neighbours; a box's edge is 0
+// Minimum cosine between the normals of pixels that are averaged; 0 across the edge of a box.
+const float MIN_COSINE = 0.7;
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -31,12 +33,12 @@ void main() {
 				}
 				const uvec4 packed = load_pixel(other);
 				if (get_material_key(packed) != receiver.material_key ||
-						dot(unpack_normal(packed.y), receiver.normal) < SMALLEST_COSINE) {
+						dot(unpack_normal(packed.y), receiver.normal) < MIN_COSINE) {
 					continue;
 				}
-				const vec3 way = position_from_depth(frame, other, get_depth(packed)) - receiver.position;
-				if (abs(dot(way, receiver.normal)) > float(reach) * receiver.pixel_size_m) {
-					continue;
+				const vec3 offset_m = position_from_depth(frame, other, get_depth(packed)) - receiver.position;
+				if (abs(dot(offset_m, receiver.normal)) > float(reach) * receiver.pixel_size_m) {
+					continue; // too far from the receiver's tangent plane
 				}
 				const float weight = (abs(x) == reach ? 0.5 : 1.0) * (abs(y) == reach ? 0.5 : 1.0);
 				sum += weight * texelFetch(mask_texture, other, 0).rgb;

@@ -1,5 +1,5 @@
-// The method in metres: samples on the receiver's tangent plane, distributed as the light that leaves
-// it (scatter_samples.h), so that all weigh the same.
+// The method in metres: samples on the receiver's tangent plane, distributed as the entry points of the light that
+// leaves at the receiver (make_scatter_samples in scatter_samples.h), so that all have the same weight.
 #ifndef RECEIVER_SCATTER_DIPOLE_INC_GLSL
 #define RECEIVER_SCATTER_DIPOLE_INC_GLSL
 
@@ -7,10 +7,10 @@
 #include "receiver_scatter/receiver_inc.glsl"
 
 layout(set = 0, binding = SCATTER_BINDING_SAMPLES) readonly buffer Samples {
-	vec2 samples[]; // in radii
+	vec2 samples[]; // offsets in radii
 };
 
-/// x, y and w of a point or way in clip space.
+/// x, y and w in clip space of a point (p_position.w = 1) or a direction (0).
 vec3 project(vec4 p_position) {
 	return (frame.clip_from_camera_relative * p_position).xyw;
 }
@@ -24,10 +24,12 @@ ivec2 find_pixel_of(vec3 p_projected) {
 	return ivec2(clamp(pixel, vec2(-1.0), vec2(frame.size_px)));
 }
 
-/// How much the squared distance of a sample from its receiver grows on average, as it is taken at a
-/// pixel's centre and the pixels of a block are averaged, on the receiver's tangent plane.
+/// By how much the mean squared distance of samples from the receiver grows on its tangent plane, because samples are
+/// taken at pixel centres and average.comp averages pixels.
 float find_blur_m2(Receiver p_receiver, int p_block_width) {
+	// Variance of average.comp's window along one axis; 1/12 is that of rounding to a pixel.
 	const float averaged_px2 = p_block_width == 1 ? 0.0 : p_block_width == 2 ? 0.5 : 1.5;
+	// A pixel is 1 / cosine times as long on the plane along the view; limited for grazing views.
 	const float cosine = max(abs(dot(p_receiver.normal, normalize(p_receiver.position))), 0.2);
 	return (averaged_px2 + 1.0 / 12.0) * (1.0 + 1.0 / (cosine * cosine)) * p_receiver.pixel_size_m *
 			p_receiver.pixel_size_m;
@@ -49,7 +51,7 @@ vec3 spread_in_metres(ivec2 p_pixel, Receiver p_receiver) {
 	uint count = 0u;
 	for (uint i = 0u; i < push.sample_count; ++i) {
 		vec2 offset_m = p_receiver.radius_m * samples[first + i];
-		// Nearer by what will be added.
+		// Move the sample inwards, so that the blur restores its mean squared distance.
 		offset_m *= sqrt(max(1.0 - blur_m2 / max(dot(offset_m, offset_m), 1e-30), 0.0));
 		const ivec2 other =
 				find_pixel_of(projected + offset_m.x * projected_x + offset_m.y * projected_y);
@@ -58,7 +60,7 @@ vec3 spread_in_metres(ivec2 p_pixel, Receiver p_receiver) {
 		}
 		const uvec4 packed = load_pixel(other);
 		const vec3 expected = p_receiver.position + offset_m.x * axis_x + offset_m.y * axis_y;
-		// Curved by as much as 45 degrees, and what a pixel's width makes of it.
+		// Allows for a surface that curves away by up to 45 degrees, and for two pixel widths.
 		const float tolerance_m = length(offset_m) + 2.0 * p_receiver.pixel_size_m;
 		if (refuses ? is_same_surface(p_receiver, other, packed, expected, tolerance_m)
 					: get_depth(packed) > 0.0) {

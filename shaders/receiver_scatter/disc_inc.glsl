@@ -1,5 +1,5 @@
-// The source's method, in pixels: a disc in the image, sectors times rings, one random point in each
-// cell, a mean whose weights fall with the distance.
+// The method in pixels, of Wang and Xiao 2015: a disc in the image is divided into rings times sectors, each cell gets
+// one random sample, and the weights of the mean fall with the distance.
 #ifndef RECEIVER_SCATTER_DISC_INC_GLSL
 #define RECEIVER_SCATTER_DISC_INC_GLSL
 

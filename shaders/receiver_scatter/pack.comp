@@ -5,8 +5,8 @@
 #include "receiver_scatter/receiver_scatter_shared.h"
 #include "shared/frame_shared.h"
 
-// All that a sample must know of a pixel in four words, as each pixel is looked up by many others:
-// depth; normal; a key of the material and the mask's blue; its red and green.
+// Packs the data of a pixel that samples read into four 32-bit words, because many other pixels look it up: depth;
+// normal; a key of the material, and the mask's blue; the mask's red and green.
 layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
 layout(std140, set = 0, binding = SCATTER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
@@ -18,7 +18,8 @@ layout(set = 0, binding = SCATTER_BINDING_RECEIVERS) uniform texture2D receivers
 layout(set = 0, binding = SCATTER_BINDING_MASK) uniform texture2D mask_texture;
 layout(set = 0, binding = SCATTER_BINDING_PIXELS, rgba32ui) uniform writeonly uimage2D pixels_image;
 
-/// 1..0xffff. Two materials of one key are distinguished by position and normal only: 1 in 65,535.
+/// Returns a hash of scatter and scatter distance, 1..0xffff. One in 65,535 pairs of materials has the same key; then
+/// only position and normal distinguish their surfaces.
 uint find_material_key(vec2 p_scatter_and_distance) {
 	uint hash = packHalf2x16(p_scatter_and_distance) * 2654435769u;
 	hash = (hash ^ (hash >> 15u)) * 2246822519u;

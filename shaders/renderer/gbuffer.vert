@@ -25,7 +25,8 @@ layout(location = 3) out vec4 out_color;
 
 void main() {
 	const mat4 m = instance.camera_relative_from_node;
-	// The cofactor matrix carries normals through any linear transform, mirrored ones included.
+	// The cofactor matrix transforms normals, also if the transform has no inverse. Of a mirroring transform it gives
+	// the opposite normal.
 	const mat3 cofactor =
 			mat3(cross(m[1].xyz, m[2].xyz), cross(m[2].xyz, m[0].xyz), cross(m[0].xyz, m[1].xyz));
 	const vec3 normal = cofactor * in_normal_node * (instance.is_mirrored != 0u ? -1.0 : 1.0);

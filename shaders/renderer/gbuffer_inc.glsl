@@ -1,18 +1,19 @@
-// What both G-buffers make of a surface.
+// The surface values that gbuffer.frag and gbuffer_without_faces.frag write.
 #ifndef GBUFFER_INC_GLSL
 #define GBUFFER_INC_GLSL
 #include "renderer/renderer_shared.h"
 
-/// The interpolated normal, or the face's where the mesh has none, on the side that is seen.
+/// Returns the interpolated normal, or the geometric normal where the mesh has none, on the side of the geometric
+/// normal.
 vec3 make_shading_normal(vec3 p_interpolated, vec3 p_geometric) {
 	const bool has_normal = dot(p_interpolated, p_interpolated) > 0.0;
 	const vec3 shading = has_normal ? normalize(p_interpolated) : p_geometric;
 	return dot(shading, p_geometric) < 0.0 ? -shading : shading;
 }
 
-/// What is written of a surface, see GBuffer.
+/// The G-buffer's texels of a surface, see GBuffer in gbuffer.h.
 struct SurfaceTexels {
-	vec4 base_color; // a: how much ambient light arrives
+	vec4 base_color; // a: ambient occlusion, 1 = open
 	vec3 shading_normal;
 	vec4 material; // see make_surface of brdf_inc.glsl
 	vec3 emissive;
@@ -20,8 +21,8 @@ struct SurfaceTexels {
 
 #ifdef VARIANT_TEXTURED
 
-// Constants of the G-buffer are uniform blocks: lavapipe 22.3 loads nothing from storage buffers in helper
-// invocations, and derivatives need them.
+// The constants of the G-buffer pass are uniform blocks, because lavapipe 22.3 loads nothing from storage buffers in
+// helper invocations, which derivatives need.
 layout(set = 0, binding = GBUFFER_BINDING_MATERIAL) uniform Material {
 	MaterialConstants material;
 };
@@ -40,7 +41,7 @@ vec2 transform_uv(TextureTransform p_transform) {
 	return vec2(dot(p_transform.row_u.xyz, uv), dot(p_transform.row_v.xyz, uv));
 }
 
-/// p_normal: make_shading_normal's.
+/// Applies the normal map. p_normal: the result of make_shading_normal. p_is_mirrored: InstancePush::is_mirrored.
 vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 	if (material.normal.row_v.a < 0.5) {
 		return p_normal;
@@ -48,14 +49,14 @@ vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 	vec3 map = texture(normal_texture, transform_uv(material.normal)).xyz * 2.0 - 1.0;
 	map.xy *= material.normal_scale;
 	const vec3 tangent = in_tangent.xyz - p_normal * dot(p_normal, in_tangent.xyz);
-	const vec3 along = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
-	const vec3 across = cross(p_normal, along) * (in_tangent.w < 0.0 != p_is_mirrored ? -1.0 : 1.0);
-	const vec3 normal = along * map.x + across * map.y + p_normal * map.z;
+	const vec3 unit_tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
+	const vec3 bitangent = cross(p_normal, unit_tangent) * (in_tangent.w < 0.0 != p_is_mirrored ? -1.0 : 1.0);
+	const vec3 normal = unit_tangent * map.x + bitangent * map.y + p_normal * map.z;
 	const float length2 = dot(normal, normal);
 	return length2 > 0.0 ? normal * inversesqrt(length2) : p_normal;
 }
 
-/// Ends the fragment where the surface is not there.
+/// Discards the fragment if its alpha is below the material's cutoff.
 SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
 	const vec4 base_color = vec4(p_instance.base_color_roughness.rgb, material.alpha) * in_color *
 			texture(base_color_texture, transform_uv(material.base_color));
@@ -68,6 +69,7 @@ SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
 		discard;
 	}
 	const float factor = p_instance.base_color_roughness.a;
+	// A negative factor is -1 - roughness and selects Phong's model; the texture scales the roughness.
 	const float roughness = factor < 0.0 ? -1.0 + (factor + 1.0) * metallic_roughness.g
 										 : factor * metallic_roughness.g;
 	return SurfaceTexels(

@@ -4,8 +4,8 @@
 #include "common/normal_inc.glsl"
 #include "renderer/gbuffer_inc.glsl"
 
-// gbuffer.frag for devices without gl_PrimitiveID in fragments: without the geometric normal, for
-// which derivatives would not do at grazing angles.
+// gbuffer.frag for devices without gl_PrimitiveID in fragment shaders. It writes no geometric normal, because
+// derivatives are too inaccurate for it at grazing angles.
 layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // see gbuffer_inc.glsl
 	FrameConstants frame;
 };
@@ -20,11 +20,11 @@ layout(location = 2) out vec4 out_material;
 layout(location = 3) out vec4 out_emissive;
 
 void main() {
-	// Only where the mesh has no normals, and for the side that is seen.
+	// An approximate face normal, only for meshes without normals and to find the visible side.
 	const vec3 position = position_from_depth(frame, ivec2(gl_FragCoord.xy), gl_FragCoord.z);
-	const vec3 across = cross(dFdx(position), dFdy(position));
-	const float length2 = dot(across, across);
-	const vec3 face = length2 > 0.0 ? across * inversesqrt(length2) : -normalize(position);
+	const vec3 scaled_face_normal = cross(dFdx(position), dFdy(position));
+	const float length2 = dot(scaled_face_normal, scaled_face_normal);
+	const vec3 face = length2 > 0.0 ? scaled_face_normal * inversesqrt(length2) : -normalize(position);
 	const vec3 shading = make_shading_normal(in_normal, dot(face, position) > 0.0 ? -face : face);
 
 	const SurfaceTexels texels = make_texels(instance, shading);

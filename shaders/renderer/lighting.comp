@@ -46,7 +46,8 @@ void main() {
 	const vec3 reflected =
 			reflect_light(surface, unpack_normal(texelFetch(normal_texture, pixel, 0).r),
 					normalize(-position), normalize(to_light));
-	// Exposure before half floats, so that lights of 1e6 cd do not overflow.
+	// The exposure is applied before the result is stored as half floats (at most 65504), so that lights of 1e6 cd do
+	// not overflow.
 	const vec3 added = reflected * illuminance(light, to_light) * visibility * push.ambient.a;
 	imageStore(radiance_image, pixel,
 			vec4(imageLoad(radiance_image, pixel).rgb + min(added, vec3(6e4)), 1.0));

@@ -1,6 +1,6 @@
 #version 460
 
-// Text and gizmos over the image, in pixels from the top left.
+// Draws text and gizmos over the image. Positions are in pixels from the top left.
 layout(push_constant) uniform Push {
 	vec4 clip_per_px; // xy
 };

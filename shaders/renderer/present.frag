@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "renderer/renderer_shared.h"
 
-// An image in a window of perhaps another size: nearest texel, values as they are stored.
+// Draws an image into a window, which may have another size, with the nearest texel. Stored values are not converted.
 layout(set = 0, binding = PRESENT_BINDING_IMAGE) uniform texture2D image;
 layout(push_constant) uniform Push {
 	PresentPush push;

@@ -2,11 +2,10 @@
 #define RENDERER_SHARED_H
 #include "shared/shared_begin.h"
 
-// Bindings of the renderer's compute passes (ambient, lighting, tone map, debug view).
+// Bindings of the renderer's compute passes (ambient, lighting, tone map, debug view, mask error).
 #define RENDERER_BINDING_FRAME 0
 #define RENDERER_BINDING_LIGHT 1
 #define RENDERER_BINDING_DEPTH 2
-#define RENDERER_BINDING_GEOMETRIC_NORMAL 3
 #define RENDERER_BINDING_SHADING_NORMAL 4
 #define RENDERER_BINDING_MATERIAL 5
 #define RENDERER_BINDING_BASE_COLOR 6
@@ -23,7 +22,7 @@
 #define GBUFFER_BINDING_FRAME 0
 #define GBUFFER_BINDING_POSITIONS 1
 #define GBUFFER_BINDING_INDICES 2
-// Of what has textures or vertex colours.
+// Only for surfaces with textures, vertex colours or an alpha cutoff.
 #define GBUFFER_BINDING_MATERIAL 3
 #define GBUFFER_BINDING_BASE_COLOR 4
 #define GBUFFER_BINDING_METALLIC_ROUGHNESS 5
@@ -31,22 +30,23 @@
 #define GBUFFER_BINDING_OCCLUSION 7
 #define GBUFFER_BINDING_EMISSIVE 8
 
-/// Push constants of gbuffer.vert and gbuffer.frag.
+/// Push constants of gbuffer.vert, gbuffer.frag and gbuffer_without_faces.frag.
 struct SHARED_ALIGN InstancePush {
 	mat4 camera_relative_from_node;
-	vec4 base_color_roughness; // rgb linear; a: -1 - roughness for Phong's model
+	vec4 base_color_roughness; // rgb linear; a: roughness, or -1 - roughness for Phong's model
 	vec4 emissive_metallic;	   // rgb in cd/m^2
-	float scatter;			   // s in 0..1
+	float scatter;			   // 0..1, see Material::scatter
 	float scatter_distance_m;
-	uint is_mirrored; // 1: the transform turns the winding round
+	uint is_mirrored; // 1: the transform reverses the winding
 	uint padding;
 };
 SHARED_SIZE(InstancePush, 112);
 
-/// How a texture is mapped to the surface. Of coordinates (x, y, 1) each row makes one of the image's.
+/// Transform of texture coordinates: dot(row_u.xyz, (u, v, 1)) and dot(row_v.xyz, (u, v, 1)) are
+/// the coordinates in the image.
 struct SHARED_ALIGN TextureTransform {
-	vec4 row_u; // a: 1: of the second coordinates
-	vec4 row_v; // a: 1: there is a texture
+	vec4 row_u; // a: 1 = uses the second texture coordinates of the mesh
+	vec4 row_v; // a: 1 = there is a texture
 };
 SHARED_SIZE(TextureTransform, 32);
 
@@ -58,7 +58,7 @@ struct SHARED_ALIGN MaterialConstants {
 	TextureTransform occlusion;
 	TextureTransform emissive;
 	float alpha;
-	float alpha_cutoff; // alpha below is not there
+	float alpha_cutoff; // fragments with a smaller alpha are discarded; -1: none
 	float normal_scale;
 	float occlusion_strength;
 };
@@ -66,13 +66,13 @@ SHARED_SIZE(MaterialConstants, 176);
 
 /// Push constants of ambient.comp and lighting.comp.
 struct SHARED_ALIGN ExposurePush {
-	vec4 ambient; // rgb: radiance that every surface reflects; a: exposure
+	vec4 ambient; // rgb: radiance of a white surface in ambient light; a: exposure
 };
 SHARED_SIZE(ExposurePush, 16);
 
 /// Push constants of tone_map.comp.
 struct SHARED_ALIGN ToneMapPush {
-	uint antialiasing; // 1..4: so many texels a side make a pixel
+	uint antialiasing; // texels per pixel along each axis, 1..4
 	uint padding0;
 	uint padding1;
 	uint padding2;

@@ -4,8 +4,9 @@
 #include "renderer/renderer_shared.h"
 #include "shared/frame_shared.h"
 
-// Exposed linear radiance to sRGB-encoded bytes. The curve is the identity below 0.8 and compresses
-// above it to 1, so that the penumbra's shades on screen are the mask's.
+// Converts exposed linear radiance to sRGB-encoded bytes. The curve is the identity up to 0.8 and compresses larger
+// values to at most 1, so that the screen's luminance in a penumbra is proportional to the mask. The curve above 0.8 is
+// as in the Khronos PBR Neutral tone mapper, without its offset for small values.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
 layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
@@ -17,7 +18,7 @@ layout(push_constant) uniform Push {
 	ToneMapPush push;
 };
 
-const float SHOULDER = 0.8;
+const float SHOULDER = 0.8; // radiance up to which the curve is the identity
 
 float encode_srgb(float p_linear) {
 	return p_linear <= 0.0031308 ? 12.92 * p_linear : 1.055 * pow(p_linear, 1.0 / 2.4) - 0.055;
@@ -31,7 +32,7 @@ vec3 compress(vec3 p_radiance) {
 	}
 	const float span = 1.0 - SHOULDER;
 	const float compressed = 1.0 - span * span / (peak + span - SHOULDER);
-	// Very bright colours go towards white instead of clipping to a primary.
+	// Very bright colours go towards white instead of clipping to a primary. 0.1 sets how fast.
 	return mix(color * (compressed / peak), vec3(compressed), 1.0 - 1.0 / (0.1 * (peak - compressed) + 1.0));
 }
 
@@ -41,7 +42,7 @@ void main() {
 	if (any(greaterThanEqual(pixel * side, ivec2(frame.size_px)))) {
 		return;
 	}
-	// Of what is shown: the mean of radiance would let one bright texel outshine its edge.
+	// Averages tone-mapped colours: in a mean of radiance, one bright texel would dominate the pixel.
 	vec3 color = vec3(0.0);
 	for (int y = 0; y < side; ++y) {
 		for (int x = 0; x < side; ++x) {

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_KHR_shader_subgroup_basic : require
 
-// How many invocations run together, which Godot does not report.
+// Writes the subgroup size, which Godot does not report.
 layout(local_size_x = 128) in;
 layout(std430, set = 0, binding = 0) writeonly buffer Result {
 	uint size;

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Bounds a light's bundles, group by group. One invocation per group.
+// Computes the bounding box of each group of a light's bundles. One invocation per group.
 layout(local_size_x = 64) in;
 layout(std140, set = 0, binding = FIND_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -16,7 +16,7 @@ layout(std430, set = 0, binding = FIND_BINDING_BUNDLES) buffer Bundles {
 
 void main() {
 	const float FAR = 3e38;
-	const float WIDENED = 1.0001; // for the rounding of the middle
+	const float WIDENING = 1.0001; // for rounding of the centre
 	const uint size = uint(EDGE_COUNT_BUNDLES_PER_GROUP);
 	const uint bundle_size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint group = gl_GlobalInvocationID.x;
@@ -24,14 +24,14 @@ void main() {
 	if (group * size >= end) {
 		return;
 	}
-	vec3 least = vec3(FAR);
-	vec3 greatest = vec3(-FAR);
+	vec3 minimum = vec3(FAR);
+	vec3 maximum = vec3(-FAR);
 	for (uint i = group * size; i < min((group + 1u) * size, end); ++i) {
 		const CountEdgeBundle bundle = bundles[i];
-		least = min(least, bundle.center.xyz - bundle.half_size.xyz);
-		greatest = max(greatest, bundle.center.xyz + bundle.half_size.xyz);
+		minimum = min(minimum, bundle.center.xyz - bundle.half_size.xyz);
+		maximum = max(maximum, bundle.center.xyz + bundle.half_size.xyz);
 	}
-	const vec3 center = 0.5 * least + 0.5 * greatest;
-	bundles[light.most_bundles + group] = CountEdgeBundle(vec4(center, 0.0),
-			vec4(WIDENED * max(greatest - center, center - least) + 1e-6 * abs(center), 0.0));
+	const vec3 center = 0.5 * minimum + 0.5 * maximum;
+	bundles[light.max_bundle_count + group] = CountEdgeBundle(vec4(center, 0.0),
+			vec4(WIDENING * max(maximum - center, center - minimum) + 1e-6 * abs(center), 0.0));
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Bounds the edges of a light's list, bundle by bundle. One invocation per bundle.
+// Computes the bounding box of each bundle of edges in a light's list. One invocation per bundle.
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = FIND_BINDING_EDGES) readonly buffer Edges {
 	CountEdgeRecord edges[];
@@ -16,22 +16,22 @@ layout(std430, set = 0, binding = FIND_BINDING_BUNDLES) writeonly buffer Bundles
 
 void main() {
 	const float FAR = 3e38;
-	const float WIDENED = 1.0001; // for the rounding of the middle
+	const float WIDENING = 1.0001; // for rounding of the centre
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle = gl_GlobalInvocationID.x;
 	const uint end = totals[EDGE_COUNT_TOTAL_EDGES];
 	if (bundle * size >= end) {
 		return;
 	}
-	vec3 least = vec3(FAR);
-	vec3 greatest = vec3(-FAR);
+	vec3 minimum = vec3(FAR);
+	vec3 maximum = vec3(-FAR);
 	for (uint i = bundle * size; i < min((bundle + 1u) * size, end); ++i) {
 		const vec3 a = uintBitsToFloat(edges[i].a_face0.xyz);
 		const vec3 b = uintBitsToFloat(edges[i].b_face1.xyz);
-		least = min(least, min(a, b));
-		greatest = max(greatest, max(a, b));
+		minimum = min(minimum, min(a, b));
+		maximum = max(maximum, max(a, b));
 	}
-	const vec3 center = 0.5 * least + 0.5 * greatest;
+	const vec3 center = 0.5 * minimum + 0.5 * maximum;
 	bundles[bundle] = CountEdgeBundle(vec4(center, 0.0),
-			vec4(WIDENED * max(greatest - center, center - least) + 1e-6 * abs(center), 0.0));
+			vec4(WIDENING * max(maximum - center, center - minimum) + 1e-6 * abs(center), 0.0));
 }

@@ -3,7 +3,7 @@
 #include "shadow_edge_count/caster_positions_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-// Computes the faces of one caster in light space: vertices and planes.
+// Computes the vertices and planes of one caster's faces in light space. One invocation per face.
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = FIND_BINDING_MESH_FACES) readonly buffer MeshFaces {
 	CountMeshFace mesh_faces[];
@@ -27,7 +27,7 @@ void main() {
 	const vec4 plane = make_count_plane(a, b, c);
 	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
 	planes[push.first_face + index] = is_mirrored ? -plane : plane;
-	// The vertices are ordered to wind as the plane's side requires.
+	// Mirroring inverts the winding, so two vertices are swapped to match the plane's front.
 	faces[push.first_face + index] = CountFaceRecord(uvec4(floatBitsToUint(a), face.kind),
 			uvec4(floatBitsToUint(is_mirrored ? c : b), 0u), uvec4(floatBitsToUint(is_mirrored ? b : c), 0u));
 }

@@ -1,5 +1,5 @@
-// The vertices of one caster in light space, for the passes that find its faces and edges: one expression,
-// so that both have equal bits.
+// The vertices of one caster in light space, for the passes that find its faces and edges. Both use the same
+// expression, so that they get equal bits.
 #ifndef CASTER_POSITIONS_INC_GLSL
 #define CASTER_POSITIONS_INC_GLSL
 

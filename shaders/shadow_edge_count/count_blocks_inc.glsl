@@ -1,35 +1,36 @@
-// The pixels of a pass over blocks of one kind: a work group deals with one block.
+// The blocks and pixels of a pass over the blocks of one kind. Each work group processes one block.
 #ifndef COUNT_BLOCKS_INC_GLSL
 #define COUNT_BLOCKS_INC_GLSL
 
 #include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
-#ifdef COUNT_GROUP_SIZE // invocations: fewer than the block has pixels
+#ifdef COUNT_GROUP_SIZE // invocations per work group, if it is not one per pixel
 layout(local_size_x = COUNT_GROUP_SIZE) in;
 #else
 #define COUNT_GROUP_SIZE (EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX)
 layout(local_size_x = EDGE_COUNT_BLOCK_PX, local_size_y = EDGE_COUNT_BLOCK_PX) in;
 #endif
 layout(std430, set = 0, binding = COUNT_BINDING_BLOCKS) readonly buffer Blocks {
-	uint blocks[]; // by kind, EDGE_COUNT_BLOCKS_*
+	uint blocks[]; // a list for each kind, EDGE_COUNT_BLOCKS_*
 };
 layout(push_constant) uniform Push {
 	CountBlockPush push;
 };
 
-/// The list's even entries first, then the odd ones, see interleave_work: neighbours in the list are neighbours in the image
-/// and cost about the same, so both halves of the dispatch do.
+/// The work group's entry in the list of blocks. Even entries come first, then odd ones (see interleave_work):
+/// neighbours in the list are neighbours in the image and cost about the same, so both halves of the dispatch do.
 uint load_block_entry() {
 	const uint index = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
 	return blocks[push.first_block + index];
 }
 
+/// The work group's block.
 uint find_block() {
 	return load_block_entry() & ~EDGE_COUNT_BLOCK_IS_DARK;
 }
 
-/// The block's first pixel.
+/// The position of the block's first pixel in the image.
 uvec2 find_block_corner(uint p_block) {
 	return uvec2(p_block % light.block_count.x, p_block / light.block_count.x) * uint(EDGE_COUNT_BLOCK_PX);
 }

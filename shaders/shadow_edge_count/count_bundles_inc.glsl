@@ -1,4 +1,4 @@
-// The light's edges and their bundles. The block `light` comes first.
+// Access to the light's edges and their bundles. The includer must declare `light` first.
 #ifndef COUNT_BUNDLES_INC_GLSL
 #define COUNT_BUNDLES_INC_GLSL
 
@@ -13,7 +13,7 @@ CountEdgeRecord load_count_edge(uint p_index) {
 	return CountEdgeRecord(FETCH_UVEC4(edges_buffer, first), FETCH_UVEC4(edges_buffer, first + 1));
 }
 
-/// The planes of an edge's faces; of a second one that is not there that of the first.
+/// The planes of an edge's faces. If there is no second face, both return the first one's plane.
 vec4 load_count_plane0(CountEdgeRecord p_edge) {
 	return load_count_plane(p_edge.a_face0.w & EDGE_COUNT_FACE_MASK);
 }
@@ -23,13 +23,15 @@ vec4 load_count_plane1(CountEdgeRecord p_edge) {
 			EDGE_COUNT_FACE_MASK);
 }
 
+/// p_index: of a bundle, or CountLightConstants::max_bundle_count plus the index of a group of bundles.
 CountEdgeBundle load_count_bundle(uint p_index) {
 	const int first = int(2u * p_index);
 	return CountEdgeBundle(FETCH_VEC4(bundles_buffer, first), FETCH_VEC4(bundles_buffer, first + 1));
 }
 
+/// The number of edges in the light's list.
 uint find_edge_count() {
-	return min(totals[EDGE_COUNT_TOTAL_EDGES], light.most_edges);
+	return min(totals[EDGE_COUNT_TOTAL_EDGES], light.max_edge_count);
 }
 
 uint find_bundle_count(uint p_edge_count) {

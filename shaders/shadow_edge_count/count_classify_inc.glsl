@@ -1,19 +1,19 @@
-// Planes of faces, and which edges receivers may have to count: CountedCasters in float32.
+// Planes of faces, and weights of edges: the float32 version of CountedCasters in tests/count_in_double.h.
 #ifndef COUNT_CLASSIFY_INC_GLSL
 #define COUNT_CLASSIFY_INC_GLSL
 
 #include "shadow_edge_count/count_space_inc.glsl"
 
-/// A side of a face at length 1, whatever its scale; 0 of a side without length.
+/// A side of a face, scaled to length 1 without overflow or underflow; 0 for a side without length.
 vec3 normalize_side(vec3 p_side) {
 	const float size = max(abs(p_side.x), max(abs(p_side.y), abs(p_side.z)));
 	return size > 0.0 ? normalize(p_side / size) : vec3(0.0);
 }
 
-/// n and d of a face, n unit: n.r + d = 0, above 0 in front. All 0 for a face without area. Made once
-/// per face, so that both edges' sides of it are equal bit for bit.
+/// The plane (n, c) of a face, n unit: n.r + c is 0 on the face and above 0 in front. All 0 for a face without area.
+/// Computed once per face, so that all its edges use equal bits.
 vec4 make_count_plane(vec3 p_a, vec3 p_b, vec3 p_c) {
-	// From the shortest side and the next: two long ones of a sliver hardly differ in direction.
+	// Use the shortest side and the next one: the two long sides of a sliver are nearly parallel.
 	const vec3 ab = p_b - p_a;
 	const vec3 bc = p_c - p_b;
 	const vec3 ca = p_a - p_c;
@@ -30,15 +30,15 @@ vec4 make_count_plane(vec3 p_a, vec3 p_b, vec3 p_c) {
 	return vec4(unit, -dot(unit, p_a));
 }
 
-/// +1 when the whole light is in front of the face, -1 when behind it, 0 when it is divided.
-/// p_tolerance: what rounding may move the face's plane; metres, directional: a cosine.
+/// +1 if the whole light is in front of the face's plane, -1 if it is behind, 0 if the plane crosses the light.
+/// p_tolerance: maximum shift of the plane by rounding, in metres; directional: a cosine.
 int count_find_light_side(bool p_is_directional, float p_radius, float p_tolerance, vec4 p_plane) {
 	const float reach = p_radius * (p_is_directional ? length(p_plane.xy) : 1.0) + p_tolerance;
 	const float side = p_is_directional ? -p_plane.z : p_plane.w;
 	return side > reach ? 1 : (side < -reach ? -1 : 0);
 }
 
-/// What an edge's word for its first face holds; see CountEdgeRecord.
+/// Flags of an edge, unpacked from the words of its two faces; see CountEdgeRecord.
 struct CountEdgeKind {
 	bool is_double_sided;
 	bool is_inconsistent;
@@ -50,11 +50,12 @@ CountEdgeKind make_count_kind(uint p_face0, uint p_face1) {
 			(p_face0 & EDGE_COUNT_INCONSISTENT) != 0u, p_face1 != EDGE_COUNT_NO_FACE);
 }
 
-/// Signed weight: how the number of solids changes across the edge, for a viewpoint that is in front of the
-/// first face or not, and of the second (of an inconsistent one: of its negated plane).
-int count_sum_weights(bool p_is_before0, bool p_is_before1, CountEdgeKind p_kind) {
-	const int first = p_is_before0 ? 1 : -1;
-	const int sum = first - (p_is_before1 ? 1 : -1);
+/// Signed weight of an edge: the change of the number of solids across it. p_is_in_front0, p_is_in_front1: the
+/// viewpoint is in front of the first and of the second face (for an inconsistent edge: of the second face's negated
+/// plane).
+int count_sum_weights(bool p_is_in_front0, bool p_is_in_front1, CountEdgeKind p_kind) {
+	const int first = p_is_in_front0 ? 1 : -1;
+	const int sum = first - (p_is_in_front1 ? 1 : -1);
 	return p_kind.has_face1 ? (p_kind.is_double_sided ? sum : sum / 2) : first;
 }
 

@@ -1,5 +1,5 @@
-// The light's constants in variables. Within loops and branches llvmpipe takes 20 instructions to read a word of a
-// uniform block, and one where main() begins; so main() begins with load_light(), or with
+// Copies the light's constants to variables. llvmpipe takes one instruction to read a word of a uniform block at the
+// start of main(), and 20 within loops and branches. So main() starts with load_light(), or with
 // load_count_constants() of count_pixels_inc.glsl.
 #ifndef COUNT_CONSTANTS_INC_GLSL
 #define COUNT_CONSTANTS_INC_GLSL
@@ -10,13 +10,13 @@ layout(std140, set = 0, binding = COUNT_BINDING_LIGHT) restrict readonly buffer 
 	CountLightConstants light_block;
 };
 
-CountLightConstants light; // views: only the first
+CountLightConstants light; // for views other than the first, use load_count_view
 
 void load_light() {
 	light = light_block;
 }
 
-/// One view needs no reading by index.
+/// Avoids indexing if the light has one view.
 CountViewConstants load_count_view(uint p_view) {
 	if (VIEW_COUNT == 1u) {
 		return light.views[0];

@@ -1,6 +1,6 @@
-// Buffers that earlier passes wrote and that are read often, as arrays of uint, uvec2, uvec4 or vec4: texel buffers, which
-// software drivers read a fifth faster than storage buffers; in the variant for devices that cannot store into texel
-// buffers, storage buffers.
+// Buffers that earlier passes wrote and that are read often, as arrays of uint, uvec2, uvec4 or vec4. They are texel
+// buffers, which software drivers read a fifth faster than storage buffers. The variant VARIANT_STORAGE, for devices
+// that cannot store into texel buffers, uses storage buffers.
 #ifndef COUNT_FETCH_INC_GLSL
 #define COUNT_FETCH_INC_GLSL
 

@@ -1,4 +1,4 @@
-// The light's faces, and the lists of them. The block `light` comes first.
+// Access to the light's faces, and to the face lists of texels. The includer must declare `light` first.
 #ifndef COUNT_LISTS_INC_GLSL
 #define COUNT_LISTS_INC_GLSL
 
@@ -36,9 +36,9 @@ vec4 load_count_plane(uint p_face) {
 	return FETCH_VEC4(planes_buffer, p_face);
 }
 
-/// Of the faces that may cut the light's disc.
+/// The number of faces that may cut the light's disc.
 uint find_cut_face_count() {
-	return light.most_cut_faces == 0u ? 0u : min(totals[EDGE_COUNT_TOTAL_CUT_FACES], light.most_cut_faces);
+	return light.max_cut_face_count == 0u ? 0u : min(totals[EDGE_COUNT_TOTAL_CUT_FACES], light.max_cut_face_count);
 }
 
 uint load_cut_face(uint p_index) {

@@ -1,4 +1,4 @@
-// Writes the mask in blocks with edges: resolve.comp and resolve_fine.comp.
+// The entry point of resolve.comp and resolve_fine.comp, which write the mask in blocks with edges.
 #ifndef COUNT_MASK_INC_GLSL
 #define COUNT_MASK_INC_GLSL
 

@@ -1,5 +1,5 @@
-// Masks of 64 points of the light, two words each, and 64 counters as nine bit planes: see
-// DiscMasks.
+// Bit masks of the 64 sample points of the light (two words each, see DiscMasks), and 64 counters, stored as nine bit
+// planes.
 #ifndef COUNT_MASKS_INC_GLSL
 #define COUNT_MASKS_INC_GLSL
 
@@ -7,32 +7,33 @@
 
 const float COUNT_PI = 3.14159265358979;
 
-// The points may be turned several times; their results are averaged.
-#ifndef COUNT_TURN_COUNT
-#define COUNT_TURN_COUNT 1
+// Number of sets of 64 points: 1, or 4 for 256 points. The results of all sets are averaged.
+#ifndef COUNT_SAMPLE_SET_COUNT
+#define COUNT_SAMPLE_SET_COUNT 1
 #endif
 
-/// Two masks of the tables, of turns 2 p_pair and 2 p_pair + 1: x, y and z, w. p_index: see find_count_mask_index.
+/// Loads the masks of sample sets 2 p_pair (in x, y) and 2 p_pair + 1 (in z, w). p_index: see find_count_mask_index.
 uvec4 load_count_masks(uint p_index, uint p_pair);
 
-/// The bin of a direction by its diamond angle y / (|x| + |y|): 0 at -y, 1 at +x, 2 at +y, 3 at -x.
-uint count_direction(vec2 p_direction) {
+/// The bin of a direction in the mask table. Bins divide the range 0..4 of the diamond angle evenly, which is
+/// 1 + y / (|x| + |y|) where x >= 0, else 3 - y / (|x| + |y|): 0 at -y, 1 at +x, 2 at +y, 3 at -x.
+uint find_direction_bin(vec2 p_direction) {
 	const float sum = abs(p_direction.x) + abs(p_direction.y);
-	const float share = sum > 0.0 ? p_direction.y / sum : 0.0;
-	const float angle = p_direction.x >= 0.0 ? 1.0 + share : 3.0 - share;
+	const float ratio = sum > 0.0 ? p_direction.y / sum : 0.0;
+	const float angle = p_direction.x >= 0.0 ? 1.0 + ratio : 3.0 - ratio;
 	return uint(angle * float(EDGE_COUNT_DIRECTION_COUNT / 4)) % uint(EDGE_COUNT_DIRECTION_COUNT);
 }
 
-/// Where the tables have the points of the unit disc beyond the line that is p_offset from the centre in that
-/// direction.
+/// Index in the mask table of the points of the unit disc that are farther than p_offset (0..1) from the centre along
+/// p_direction, which need not be unit.
 uint find_count_mask_index(vec2 p_direction, float p_offset) {
 	const uint row = uint(float(EDGE_COUNT_OFFSET_COUNT) * clamp(p_offset, 0.0, 0.9999));
-	return count_direction(p_direction) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
+	return find_direction_bin(p_direction) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
 }
 
-/// Angle of a direction with y not below 0, 0..pi, to 2e-6; two divisions less than atan.
+/// Angle in radians (0..pi) of a direction with y >= 0. The error is at most 2e-6. Needs two fewer divisions than atan.
 float count_half_angle(vec2 p_direction) {
-	// Half a right angle and the arc tangent of u in -1..1: a Chebyshev series of six terms.
+	// pi / 4 plus the arc tangent of u in -1..1: a Chebyshev series of six terms.
 	const float x = abs(p_direction.x);
 	const float u = (p_direction.y - x) / max(p_direction.y + x, 1e-37);
 	const float u2 = u * u;
@@ -45,7 +46,7 @@ float count_half_angle(vec2 p_direction) {
 	return p_direction.x < 0.0 ? COUNT_PI - angle : angle;
 }
 
-/// The angle of a direction in sectors of the points, plus an offset so that it is not below 0 in any turn.
+/// The angle of a direction in units of 2 pi / 64, plus an offset that makes it positive for every sample set.
 float find_count_angle(vec2 p_direction) {
 	const float half_angle = count_half_angle(vec2(p_direction.x, abs(p_direction.y)));
 	const float angle = p_direction.y < 0.0 ? 2.0 * COUNT_PI - half_angle : half_angle;
@@ -53,30 +54,30 @@ float find_count_angle(vec2 p_direction) {
 	return angle * (sectors / (2.0 * COUNT_PI)) + 1.0 + sectors;
 }
 
-/// The first point of a turn whose angle is not below that of find_count_angle: points are in the order of their
-/// angles, one in each of 64 equal sectors; in a sector the turns follow each other evenly (see DiscMasks).
-int find_count_sector(float p_angle, uint p_turn) {
-	return int(p_angle - (float(p_turn) + 0.5) / float(COUNT_TURN_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
+/// Index of the first point of a sample set whose angle is not below p_angle (see find_count_angle). Points are ordered
+/// by angle, one in each of 64 equal sectors. In a sector the points of all sets are evenly spaced, see DiscMasks.
+int find_count_sector(float p_angle, uint p_sample_set) {
+	return int(p_angle - (float(p_sample_set) + 0.5) / float(COUNT_SAMPLE_SET_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
 }
 
-/// Mask of the points below an index, 0..63.
+/// Mask of the points with an index below p_index, 0..63.
 uvec2 count_points_before(int p_index) {
-	const uint part = (1u << (p_index & 31)) - 1u;
-	return p_index < 32 ? uvec2(part, 0u) : uvec2(0xffffffffu, part);
+	const uint bits_before = (1u << (p_index & 31)) - 1u;
+	return p_index < 32 ? uvec2(bits_before, 0u) : uvec2(0xffffffffu, bits_before);
 }
 
-/// Mask of a turn's points from one angle (see find_count_angle) counter-clockwise to another. Neighbours that share a direction share no
-/// point and leave none.
-uvec2 find_count_wedge(float p_from, float p_to, uint p_turn) {
-	const int from = find_count_sector(p_from, p_turn);
-	const int to = find_count_sector(p_to, p_turn);
+/// Mask of a sample set's points between two angles (see find_count_angle), counter-clockwise. Two wedges with a common
+/// border have no point in common and miss none.
+uvec2 find_count_wedge(float p_from, float p_to, uint p_sample_set) {
+	const int from = find_count_sector(p_from, p_sample_set);
+	const int to = find_count_sector(p_to, p_sample_set);
 	const uvec2 between = count_points_before(from) ^ count_points_before(to);
 	return from > to ? ~between : between;
 }
 
-/// Counters of all points, one bit of each in a plane: numbers of nine bits, modulo 512. No array: where one of its
-/// indices is not known to the compiler, drivers keep it in memory.
-struct CountPlanes {
+/// Counters of all points, modulo 512, as bit planes: bit k of bit0 is the lowest bit of point k's counter. Not an
+/// array: drivers put arrays into memory if the compiler does not know all indices.
+struct PointCounters {
 	uvec2 bit0;
 	uvec2 bit1;
 	uvec2 bit2;
@@ -87,39 +88,39 @@ struct CountPlanes {
 	uvec2 bit7;
 	uvec2 bit8;
 };
-const int COUNT_MOST_SOLIDS = 200; // before the light's centre; counts of points reach 255
+const int COUNT_MAX_SOLIDS = 200; // in front of the light's centre; the count of a point is at most 255
 
-CountPlanes make_count_planes() {
+PointCounters make_point_counters() {
 	const uvec2 zero = uvec2(0u);
-	return CountPlanes(zero, zero, zero, zero, zero, zero, zero, zero, zero);
+	return PointCounters(zero, zero, zero, zero, zero, zero, zero, zero, zero);
 }
 
-/// The carry of three bits.
+/// The carry of a sum of three bits.
 uvec2 find_carry(uvec2 p_one, uvec2 p_two, uvec2 p_three) {
 	return (p_one & p_two) | (p_three & (p_one ^ p_two));
 }
 
-/// Adds a carry to one plane; the carry that goes on.
-uvec2 carry_count(inout uvec2 r_plane, uvec2 p_carry) {
+/// Adds a carry to one bit plane, and returns the carry to the next.
+uvec2 add_carry(inout uvec2 r_plane, uvec2 p_carry) {
 	const uvec2 next = r_plane & p_carry;
 	r_plane ^= p_carry;
 	return next;
 }
 
-/// Adds 1 at the points of two masks, and 2 at those of two others.
-void add_masks(inout CountPlanes r_counters, uvec2 p_once0, uvec2 p_once1, uvec2 p_twice0, uvec2 p_twice1) {
+/// Adds 1 to the counters of the points in two masks, and 2 to those in two others.
+void add_masks(inout PointCounters r_counters, uvec2 p_once0, uvec2 p_once1, uvec2 p_twice0, uvec2 p_twice1) {
 	const uvec2 carry1 = find_carry(r_counters.bit0, p_once0, p_once1);
 	r_counters.bit0 ^= p_once0 ^ p_once1;
 	const uvec2 carry2 = find_carry(r_counters.bit1, carry1, p_twice0);
 	r_counters.bit1 ^= carry1 ^ p_twice0;
-	const uvec2 other2 = carry_count(r_counters.bit1, p_twice1);
+	const uvec2 other2 = add_carry(r_counters.bit1, p_twice1);
 	uvec2 carry = find_carry(r_counters.bit2, carry2, other2);
 	r_counters.bit2 ^= carry2 ^ other2;
-	carry = carry_count(r_counters.bit3, carry);
-	carry = carry_count(r_counters.bit4, carry);
-	carry = carry_count(r_counters.bit5, carry);
-	carry = carry_count(r_counters.bit6, carry);
-	carry = carry_count(r_counters.bit7, carry);
+	carry = add_carry(r_counters.bit3, carry);
+	carry = add_carry(r_counters.bit4, carry);
+	carry = add_carry(r_counters.bit5, carry);
+	carry = add_carry(r_counters.bit6, carry);
+	carry = add_carry(r_counters.bit7, carry);
 	r_counters.bit8 ^= carry;
 }
 
@@ -128,7 +129,7 @@ int count_points(uvec2 p_mask) {
 	return counts.x + counts.y;
 }
 
-/// Adds a bit that is the same for all points, and a carry.
+/// Adds a bit, the same for all points, and a carry to one bit plane. r_carry becomes the carry to the next.
 void add_bit(inout uvec2 r_plane, int p_bit, inout uvec2 r_carry) {
 	const uvec2 added = uvec2(p_bit != 0 ? 0xffffffffu : 0u);
 	const uvec2 both = r_plane ^ added;
@@ -137,9 +138,9 @@ void add_bit(inout uvec2 r_plane, int p_bit, inout uvec2 r_carry) {
 	r_carry = next;
 }
 
-/// Each counter plus p_added, modulo 512, as numbers in two's complement.
-CountPlanes add_to_all(CountPlanes p_counters, int p_added) {
-	CountPlanes sums = p_counters;
+/// Each counter plus p_added, modulo 512, in two's complement.
+PointCounters add_to_all(PointCounters p_counters, int p_added) {
+	PointCounters sums = p_counters;
 	uvec2 carry = uvec2(0u);
 	add_bit(sums.bit0, p_added & 1, carry);
 	add_bit(sums.bit1, p_added & 2, carry);
@@ -153,71 +154,72 @@ CountPlanes add_to_all(CountPlanes p_counters, int p_added) {
 	return sums;
 }
 
-uvec2 find_above_one(CountPlanes p_sums) {
+/// Points whose count is above 1.
+uvec2 find_above_one(PointCounters p_sums) {
 	return (p_sums.bit1 | p_sums.bit2 | p_sums.bit3 | p_sums.bit4 | p_sums.bit5 | p_sums.bit6 | p_sums.bit7) &
 			~p_sums.bit8;
 }
 
 /// Points whose count is above 0.
-uvec2 find_hidden(CountPlanes p_sums) {
+uvec2 find_hidden(PointCounters p_sums) {
 	return find_above_one(p_sums) | (p_sums.bit0 & ~p_sums.bit8);
 }
 
-/// True where counts are neither 0 nor 1: casters overlap, or rounding took some away.
-bool has_overlap(CountPlanes p_sums) {
-	const uvec2 beyond = find_above_one(p_sums) | p_sums.bit8;
-	return (beyond.x | beyond.y) != 0u;
+/// True if some count is neither 0 nor 1: casters overlap, or rounding made a count negative.
+bool has_overlap(PointCounters p_sums) {
+	const uvec2 overlapping = find_above_one(p_sums) | p_sums.bit8;
+	return (overlapping.x | overlapping.y) != 0u;
 }
 
 /// Sum of the counts of all points.
-int sum_points(CountPlanes p_sums) {
+int sum_points(PointCounters p_sums) {
 	return count_points(p_sums.bit0) + 2 * count_points(p_sums.bit1) + 4 * count_points(p_sums.bit2) +
 			8 * count_points(p_sums.bit3) + 16 * count_points(p_sums.bit4) + 32 * count_points(p_sums.bit5) +
 			64 * count_points(p_sums.bit6) + 128 * count_points(p_sums.bit7) -
 			256 * count_points(p_sums.bit8);
 }
 
-/// Bits of the points two on: neighbours in angle, at other distances from the centre.
-uvec2 turn_points(uvec2 p_mask) {
+/// Rotates a mask: bit k becomes that of point k + 2, a neighbour in angle at another distance from the centre.
+uvec2 rotate_points(uvec2 p_mask) {
 	return (p_mask >> 2) | (p_mask.yx << 30);
 }
 
-/// The difference of a plane and its turned one, less a borrow.
-uvec2 subtract_turned(uvec2 p_plane, inout uvec2 r_borrow) {
-	const uvec2 turned = turn_points(p_plane);
-	const uvec2 differs = p_plane ^ turned;
+/// Subtracts the rotated bit plane (see rotate_points) and a borrow from a bit plane. r_borrow becomes the next borrow.
+uvec2 subtract_rotated(uvec2 p_plane, inout uvec2 r_borrow) {
+	const uvec2 rotated = rotate_points(p_plane);
+	const uvec2 differs = p_plane ^ rotated;
 	const uvec2 difference = differs ^ r_borrow;
-	r_borrow = (~p_plane & turned) | (~differs & r_borrow);
+	r_borrow = (~p_plane & rotated) | (~differs & r_borrow);
 	return difference;
 }
 
-/// How counts change from each point to the one two on: sums over all points.
+/// Changes of the count from each point k to point k + 2: sums over all points.
 struct CountChanges {
-	int square;	 // of the change's square
-	int product; // of the change's size, where one of the two points is hidden and the other is not
+	int square;	 // of squares of changes
+	int product; // of absolute changes where exactly one of the two points is hidden
 };
 
-/// Changes by more than 15 are taken as 15. p_is_parted: one of the two points is hidden.
-CountChanges sum_changes(CountPlanes p_sums, uvec2 p_is_parted) {
+/// Changes by more than 15 count as 15. p_hidden_differs: bit k is set if exactly one of points k and k + 2 is hidden.
+CountChanges sum_changes(PointCounters p_sums, uvec2 p_hidden_differs) {
 	uvec2 borrow = uvec2(0u);
-	const uvec2 d0 = subtract_turned(p_sums.bit0, borrow);
-	const uvec2 d1 = subtract_turned(p_sums.bit1, borrow);
-	const uvec2 d2 = subtract_turned(p_sums.bit2, borrow);
-	const uvec2 d3 = subtract_turned(p_sums.bit3, borrow);
-	const uvec2 d4 = subtract_turned(p_sums.bit4, borrow);
-	const uvec2 d5 = subtract_turned(p_sums.bit5, borrow);
-	const uvec2 d6 = subtract_turned(p_sums.bit6, borrow);
-	const uvec2 d7 = subtract_turned(p_sums.bit7, borrow);
-	const uvec2 sign = subtract_turned(p_sums.bit8, borrow);
-	// Bits of the size: where the change is negative those of its inverse, plus 1.
+	const uvec2 d0 = subtract_rotated(p_sums.bit0, borrow);
+	const uvec2 d1 = subtract_rotated(p_sums.bit1, borrow);
+	const uvec2 d2 = subtract_rotated(p_sums.bit2, borrow);
+	const uvec2 d3 = subtract_rotated(p_sums.bit3, borrow);
+	const uvec2 d4 = subtract_rotated(p_sums.bit4, borrow);
+	const uvec2 d5 = subtract_rotated(p_sums.bit5, borrow);
+	const uvec2 d6 = subtract_rotated(p_sums.bit6, borrow);
+	const uvec2 d7 = subtract_rotated(p_sums.bit7, borrow);
+	const uvec2 sign = subtract_rotated(p_sums.bit8, borrow);
+	// Bits of the absolute value: negative changes are inverted, plus 1.
 	uvec2 s0 = d0 ^ sign;
 	uvec2 s1 = d1 ^ sign;
 	uvec2 s2 = d2 ^ sign;
 	uvec2 s3 = d3 ^ sign;
-	uvec2 carry = carry_count(s0, sign);
-	carry = carry_count(s1, carry);
-	carry = carry_count(s2, carry);
-	carry = carry_count(s3, carry);
+	uvec2 carry = add_carry(s0, sign);
+	carry = add_carry(s1, carry);
+	carry = add_carry(s2, carry);
+	carry = add_carry(s3, carry);
 	const uvec2 is_large = carry | (d4 ^ sign) | (d5 ^ sign) | (d6 ^ sign) | (d7 ^ sign);
 	s0 |= is_large;
 	s1 |= is_large;
@@ -228,8 +230,8 @@ CountChanges sum_changes(CountPlanes p_sums, uvec2 p_is_parted) {
 			8 * count_points(s0 & s2) +
 			16 * (count_points(s2) + count_points(s0 & s3) + count_points(s1 & s2)) +
 			32 * count_points(s1 & s3) + 64 * (count_points(s3) + count_points(s2 & s3));
-	changes.product = count_points(s0 & p_is_parted) + 2 * count_points(s1 & p_is_parted) +
-			4 * count_points(s2 & p_is_parted) + 8 * count_points(s3 & p_is_parted);
+	changes.product = count_points(s0 & p_hidden_differs) + 2 * count_points(s1 & p_hidden_differs) +
+			4 * count_points(s2 & p_hidden_differs) + 8 * count_points(s3 & p_hidden_differs);
 	return changes;
 }
 

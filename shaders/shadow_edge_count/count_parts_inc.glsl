@@ -1,4 +1,4 @@
-// Parts of a block's receivers: EDGE_COUNT_RECEIVES_*.
+// Parts of a block: groups of its receivers, see EDGE_COUNT_PARTS. They are not the parts of a mesh.
 #ifndef COUNT_PARTS_INC_GLSL
 #define COUNT_PARTS_INC_GLSL
 
@@ -6,10 +6,10 @@
 
 layout(constant_id = EDGE_COUNT_CONSTANT_VIEW_COUNT) const uint VIEW_COUNT = 1u;
 
-/// That a block may have.
+/// Maximum number of parts of a block.
 const uint PART_COUNT = uint(EDGE_COUNT_PARTS(VIEW_COUNT));
 
-/// The view of a part, from the first of the words of EDGE_COUNT_RECEIVES_*.
+/// The view of a part. p_parts: the block's word EDGE_COUNT_RECEIVERS_PARTS.
 uint find_part_view(uint p_parts, uint p_part) {
 	const uint view = (p_parts & EDGE_COUNT_IS_SORTED) != 0u
 			? p_parts >> EDGE_COUNT_VIEW_SHIFT & EDGE_COUNT_VIEW_MASK

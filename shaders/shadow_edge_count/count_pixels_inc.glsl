@@ -1,4 +1,4 @@
-// The receiver of a pixel in the light view that holds it.
+// The receiver of a pixel, in light space and in the light view that contains it.
 #ifndef COUNT_PIXELS_INC_GLSL
 #define COUNT_PIXELS_INC_GLSL
 
@@ -6,7 +6,7 @@
 #include "shadow_edge_count/count_constants_inc.glsl"
 #include "shadow_edge_count/count_space_inc.glsl"
 
-// See count_constants_inc.glsl.
+// Copies of constants, for speed: see count_constants_inc.glsl.
 FrameConstants frame_copy;
 mat4 light_from_camera;
 
@@ -16,8 +16,8 @@ void load_count_constants() {
 	light_from_camera = light_views.views[0].view_from_camera_relative;
 }
 
-/// The position in its 8 x 8 block of the pixel with this index in Morton order, so that pixels of consecutive indices are
-/// close together.
+/// The position in the 8 x 8 block of the pixel with this index, 0..63. The order is Morton's, so that pixels with
+/// consecutive indices are close together.
 uvec2 find_pixel_in_block(uint p_index) {
 	const uint x = (p_index & 1u) | ((p_index >> 1) & 2u) | ((p_index >> 2) & 4u);
 	const uint y = ((p_index >> 1) & 1u) | ((p_index >> 2) & 2u) | ((p_index >> 3) & 4u);
@@ -27,14 +27,14 @@ uvec2 find_pixel_in_block(uint p_index) {
 /// A pixel's receiver.
 struct CountPoint {
 	vec3 position; // light space
-	uint view;	   // that holds it
+	uint view;	   // light view that contains it
 	vec3 warped;   // x', y' and w in the view
-	vec2 slope;	   // of its plane: w per x' and y'; 0 where it is seen edge on
+	vec2 slope;	   // of its surface's plane: w per x' and y'; 0 if the light sees the plane edge-on
 };
 
-/// Only for pixels that receive.
+/// The pixel must have a receiver, see is_receiver_pixel.
 CountPoint load_count_point(ivec2 p_pixel) {
-	const float FLAT = 1e-7;
+	const float EDGE_ON_COSINE = 1e-7; // cosine of normal and light direction, below which the plane is edge-on
 	const ReceiverPixel pixel = load_receiver(frame_copy, p_pixel);
 	CountPoint point;
 	point.view = VIEW_COUNT == 1u ? 0u : find_view(light_views, pixel.position);
@@ -47,16 +47,16 @@ CountPoint load_count_point(ivec2 p_pixel) {
 	const bool is_directional = light.is_directional != 0u;
 	point.warped = is_directional ? vec3(r.xy, light.depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;
 	const float height = is_directional ? n.z : dot(n, r);
-	const float least = FLAT * (is_directional ? 1.0 : length(r));
-	point.slope = abs(height) >= least ? n.xy / height : vec2(0.0);
+	const float threshold = EDGE_ON_COSINE * (is_directional ? 1.0 : length(r));
+	point.slope = abs(height) >= threshold ? n.xy / height : vec2(0.0);
 	return point;
 }
 
-/// False where no caster of the view can hide the receiver: it is behind the view, or the view has no
-/// casters.
+/// False if no caster of the view can hide the receiver: the receiver is behind the light, or the view is one of
+/// CountLightConstants::empty_views.
 bool may_count_at(CountPoint p_point) {
-	const bool is_before = light.is_directional != 0u || p_point.warped.z > 0.0;
-	return (light.empty_views & (1u << p_point.view)) == 0u && is_before;
+	const bool is_in_front = light.is_directional != 0u || p_point.warped.z > 0.0;
+	return (light.empty_views & (1u << p_point.view)) == 0u && is_in_front;
 }
 
 #endif

@@ -1,7 +1,7 @@
-// Counts the edges of a block's pixels: what the resolve and its debug images share.
+// Counts the edges of a block's pixels, for the mask and for the debug image.
 //
-// llvmpipe runs a branch that no invocation takes, and a loop's body once even where no invocation enters it. So loops
-// test at their ends; their first iteration does no harm where there is nothing to do.
+// llvmpipe executes a branch that no invocation takes, and a loop's body once even if no invocation enters it. So loops
+// test at their ends, and their first iteration has no effect if there is nothing to do.
 #ifndef COUNT_RESOLVE_INC_GLSL
 #define COUNT_RESOLVE_INC_GLSL
 
@@ -9,50 +9,51 @@
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_edge_inc.glsl"
 
-layout(std430, set = 0, binding = COUNT_BINDING_RECEIVES) readonly buffer Receives {
-	uint receives[]; // of each block, EDGE_COUNT_RECEIVES_*
+layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) readonly buffer BlockReceivers {
+	uint block_receivers[]; // per block, EDGE_COUNT_RECEIVERS_*
 };
 layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) readonly buffer Chains {
-	uint chains[]; // of each block and part, EDGE_COUNT_CHAIN_*
+	uint chains[]; // per block and part, EDGE_COUNT_CHAIN_*
 };
 FETCHED_UINTS(COUNT_BINDING_LISTS, lists_buffer);
 layout(set = 0, binding = COUNT_BINDING_MASKS) uniform utextureBuffer masks_buffer;
 
-layout(constant_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
-/// Invocations that there are: a work group may be smaller than a subgroup of the device.
+layout(constant_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
+/// Active invocations of a subgroup: a work group may be smaller than the device's subgroups.
 const uint SUBGROUP_SIZE =
 		FULL_SUBGROUP_SIZE < uint(COUNT_GROUP_SIZE) ? FULL_SUBGROUP_SIZE : uint(COUNT_GROUP_SIZE);
 #include "common/subgroup_inc.glsl"
-/// The blocks have no lists: each group of pixels goes through all bundles of the light.
+/// The blocks have no edge lists: each subgroup tests all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
 uvec4 load_count_masks(uint p_index, uint p_pair) {
-	return texelFetch(masks_buffer, int(p_index * uint((COUNT_TURN_COUNT + 1) / 2) + p_pair));
+	return texelFetch(masks_buffer, int(p_index * uint((COUNT_SAMPLE_SET_COUNT + 1) / 2) + p_pair));
 }
 
-// Edges that some receiver of a subgroup may have to count, and what is known of them, in one word each: a slice
-// for each subgroup.
+// List entries (see COUNT_EDGE_MASK) of the edges that some receiver of a subgroup may have to count. Each subgroup has
+// its own slice. There is one for every four invocations, the smallest subgroup.
 const uint SLICE_SIZE = 64u;
 shared uint chosen_edges[SLICE_SIZE * COUNT_GROUP_SIZE / 4];
 
-/// One pixel: what it receives, and what was counted.
+/// The results of one pixel.
 struct CountPixel {
 	ivec2 pixel;
-	uint edge_count; // that it counted
-	float visibility; // 0 where it is no receiver
-	int solid_count; // between it and the light's centre
+	uint edge_count; // edges that its receiver counted
+	float visibility; // 0 without a receiver
+	int solid_count; // between the receiver and the light's centre
 };
 
-/// Edges that a box's receivers may need.
+/// State of collecting the edges that a box's receivers may need.
 struct CountChoice {
-	uint next; // index in the list, or edge, from where to go on
-	uint count;
+	uint next; // where to continue: index in the list, or without lists index of the edge
+	uint count; // of edges in the slice
 };
 
-/// Each invocation tests one edge. p_entry: the edge and what is known of it for the part.
-void choose_edge(CountBox p_box, uint p_entry, bool p_is_there, inout CountChoice r_choice) {
+/// Each invocation tests one edge, and appends it to the slice if the box's receivers may need it. p_entry: the edge's
+/// list entry.
+void choose_edge(CountBox p_box, uint p_entry, bool p_is_valid, inout CountChoice r_choice) {
 	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
-	const bool is_chosen = p_is_there &&
+	const bool is_chosen = p_is_valid &&
 			is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
 	const uvec4 chosen = subgroup_ballot(is_chosen);
 	if (is_chosen) {
@@ -66,15 +67,16 @@ bool has_choice_room(CountChoice p_choice, uint p_more) {
 	return p_choice.count + p_more <= SLICE_SIZE;
 }
 
-/// From the part's list, which has p_end edges. Ends where the slice may be full.
+/// Collects edges from the part's list, which has p_end entries, from p_first on. Ends when the slice may be full.
+/// r_chunk: the chunk of the next entry.
 CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, CountBox p_box) {
 	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
 	CountChoice choice = CountChoice(p_first, 0u);
 	do {
 		const uint index = choice.next + gl_SubgroupInvocationID;
-		const bool is_there = index < p_end;
-		const uint entry = FETCH_UINT(lists_buffer, is_there ? int(r_chunk * size + index % size) : 0);
-		choose_edge(p_box, is_there ? entry : 0u, is_there, choice);
+		const bool is_valid = index < p_end;
+		const uint entry = FETCH_UINT(lists_buffer, is_valid ? int(r_chunk * size + index % size) : 0);
+		choose_edge(p_box, is_valid ? entry : 0u, is_valid, choice);
 		choice.next += SUBGROUP_SIZE;
 		r_chunk = choice.next % size == 0u
 				? FETCH_UINT(lists_buffer, light.chunk_capacity * size + r_chunk)
@@ -83,15 +85,16 @@ CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, Count
 	return choice;
 }
 
-/// p_index: of the edge in the bundle. p_end: edges of the light.
+/// p_index: the edge's index in the bundle. p_end: number of edges of the light.
 void choose_edge_of_bundle(CountBox p_box, uint p_bundle, uint p_index, uint p_end, inout CountChoice r_choice) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint edge = p_bundle * size + p_index;
-	const bool is_there = p_index < size && edge < p_end;
-	choose_edge(p_box, is_there ? edge : 0u, is_there, r_choice);
+	const bool is_valid = p_index < size && edge < p_end;
+	choose_edge(p_box, is_valid ? edge : 0u, is_valid, r_choice);
 }
 
-/// From all edges of the light, bundle by bundle. Edges p_first .. p_end, whole bundles.
+/// Collects edges from all bundles of the light, from edge p_first on, which starts a bundle. Ends when the slice may
+/// be full. p_end: number of edges of the light.
 CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle_count = find_bundle_count(p_end);
@@ -104,15 +107,15 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 		uvec4 needed = subgroup_ballot(is_needed);
 		choice.next += SUBGROUP_SIZE * size;
 		do {
-			const bool is_there = subgroupBallotBitCount(needed) != 0u;
-			const uint lane = is_there ? subgroupBallotFindLSB(needed) : 0u;
+			const bool is_valid = subgroupBallotBitCount(needed) != 0u;
+			const uint lane = is_valid ? subgroupBallotFindLSB(needed) : 0u;
 			const bool has_room = has_choice_room(choice, size);
-			if (is_there && !has_room) {
-				choice.next = (first_bundle + lane) * size; // from here on the next time
+			if (is_valid && !has_room) {
+				choice.next = (first_bundle + lane) * size; // continue here next time
 			}
 			needed[lane / 32u] &= ~(1u << (lane & 31u));
 			needed = has_room ? needed : uvec4(0u);
-			const uint end = is_there && has_room ? p_end : 0u;
+			const uint end = is_valid && has_room ? p_end : 0u;
 			uint i = gl_SubgroupInvocationID;
 			do {
 				choose_edge_of_bundle(p_box, first_bundle + lane, i, end, choice);
@@ -126,8 +129,9 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 	return choice;
 }
 
-/// False: the part of the edge that is between a receiver and its disc hides nothing of it. Wider than
-/// what find_edge_sector does by more than rounding.
+/// False if the part of the edge between the receiver and the disc cannot change which part of the
+/// disc is hidden. The tolerances exceed the rounding errors of find_edge_sector, so that no edge
+/// with an effect is rejected. p_to_light: see CountReceiver.
 bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const float ROUNDING = 4e-6;
 	const float radius = 1.001 * light.disc_radius;
@@ -137,224 +141,238 @@ bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const float d_b = dot(p_to_light, b);
 	const float length_a = length(a);
 	const float length_b = length(b);
-	const float inverse = length(p_to_light);
-	// The edge on the disc's plane goes along `way`, at least `aside` from the centre.
-	const vec3 way = b * d_a - a * d_b;
-	const float length_way = length(way);
-	const float aside = abs(dot(p_to_light, cross(a, b)));
-	const bool is_aside = aside > inverse * (radius * length_way + ROUNDING * length_a * length_b);
+	const float inverse_distance = length(p_to_light); // 1 / distance of the light; directional: 1
+	// Projected to the disc's plane, the edge runs along edge_direction. The distance of its line from the centre is
+	// scaled_distance / (inverse_distance * direction_length).
+	const vec3 edge_direction = b * d_a - a * d_b;
+	const float direction_length = length(edge_direction);
+	const float scaled_distance = abs(dot(p_to_light, cross(a, b)));
+	const bool is_outside_disc =
+			scaled_distance > inverse_distance * (radius * direction_length + ROUNDING * length_a * length_b);
 	const bool is_beyond = min(d_a, d_b) > 0.0 &&
-			(dot(a, way) > length_way * (radius * d_a + ROUNDING * length_a) ||
-					dot(b, way) < -length_way * (radius * d_b + ROUNDING * length_b));
+			(dot(a, edge_direction) > direction_length * (radius * d_a + ROUNDING * length_a) ||
+					dot(b, edge_direction) < -direction_length * (radius * d_b + ROUNDING * length_b));
 	const bool is_below = max(d_a, d_b) <= 0.0;
 	const bool is_above = light.is_directional == 0u && min(d_a, d_b) > 1.001;
-	return !is_aside && !is_beyond && !is_below && !is_above;
+	return !is_outside_disc && !is_beyond && !is_below && !is_above;
 }
 
-// A slice is counted in rounds of so many edges. Each invocation holds at most four of them, and hands them on to those
-// that test or count them: software drivers take longer to read what all invocations need.
+// A slice is counted in rounds of ROUND_SIZE edges. Each invocation loads up to four of them and passes them to the
+// others by shuffles: on software drivers this is faster than if each invocation loads all edges.
 const uint ROUND_SIZE = SUBGROUP_SIZE < 8u ? 4u * SUBGROUP_SIZE : 32u;
-const uint HELD_AT_ONCE = SUBGROUP_SIZE < 32u ? SUBGROUP_SIZE : 32u; // edges that one variable of all invocations holds
+const uint BATCH_SIZE = SUBGROUP_SIZE < 32u ? SUBGROUP_SIZE : 32u; // edges of a round that are loaded at a time
 
-/// What the list of an edge knows of it, and its ends.
-struct HeldEdge {
+/// The list entry of an edge, and its ends.
+struct LoadedEdge {
 	uint entry;
 	vec3 a;
 	vec3 b;
 };
 
-/// Edges i x HELD_AT_ONCE .. (i + 1) x HELD_AT_ONCE of a round in part i.
-struct HeldRound {
-	HeldEdge part0;
-	HeldEdge part1;
-	HeldEdge part2;
-	HeldEdge part3;
+/// The edges of a round. Batch i has edges i * BATCH_SIZE .. (i + 1) * BATCH_SIZE - 1, one per invocation.
+struct LoadedRound {
+	LoadedEdge batch0;
+	LoadedEdge batch1;
+	LoadedEdge batch2;
+	LoadedEdge batch3;
 };
 
-/// Of a round's edges those that the invocation's receiver has to count, a bit for each.
-struct CountShare {
-	uint own;
-	uint is_negative; // its weight
-	uint is_twice;
+/// Bit masks of the edges of a round, for the invocation's receiver.
+struct CountEdgeMasks {
+	uint own; // edges that it has to count
+	uint is_negative; // their weight is negative
+	uint is_twice; // their weight is 2 or -2
 };
 
-/// One of the slice's edges from p_first on, or one that adds nothing.
-HeldEdge hold_edge(uint p_first, uint p_end) {
+/// Loads one edge per invocation: those of the slice from p_first to p_end - 1, and beyond that edges that add nothing.
+LoadedEdge load_edge(uint p_first, uint p_end) {
 	const uint item = p_first + gl_SubgroupInvocationID;
 	const uint entry = item < p_end ? chosen_edges[gl_SubgroupID * SLICE_SIZE + item]
-									: COUNT_ADDS_NOTHING << COUNT_KNOWN_SHIFT;
+									: COUNT_ADDS_NOTHING << COUNT_PACKED_WEIGHT_SHIFT;
 	const CountEdgeRecord edge = load_count_edge(entry & COUNT_EDGE_MASK);
-	return HeldEdge(entry, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
+	return LoadedEdge(entry, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
 }
 
-HeldEdge hand_on(HeldEdge p_held, uint p_lane) {
-	return HeldEdge(subgroupShuffle(p_held.entry, p_lane), subgroupShuffle(p_held.a, p_lane),
-			subgroupShuffle(p_held.b, p_lane));
+/// Passes the edge of invocation p_lane to all others.
+LoadedEdge shuffle_edge(LoadedEdge p_loaded, uint p_lane) {
+	return LoadedEdge(subgroupShuffle(p_loaded.entry, p_lane), subgroupShuffle(p_loaded.a, p_lane),
+			subgroupShuffle(p_loaded.b, p_lane));
 }
 
-/// Adds one of the held edges if the receiver may have to count it; its weight, if the list knows that.
-void share_edge(HeldEdge p_held, uint p_lane, uint p_first_slot, CountReceiver p_receiver, inout CountShare r_share) {
-	const HeldEdge edge = hand_on(p_held, p_lane);
-	const uint known = edge.entry >> COUNT_KNOWN_SHIFT;
-	const int weight = (known & COUNT_KNOWS_WEIGHT) != 0u ? get_known_weight(known) : 0;
-	const bool is_own = known != COUNT_ADDS_NOTHING && may_hide(p_receiver.position, p_receiver.to_light, edge.a, edge.b);
+/// Marks the edge of invocation p_lane if the receiver may have to count it, and its weight if the list entry has one.
+void test_round_edge(LoadedEdge p_loaded, uint p_lane, uint p_first_slot, CountReceiver p_receiver,
+		inout CountEdgeMasks r_edge_masks) {
+	const LoadedEdge edge = shuffle_edge(p_loaded, p_lane);
+	const uint packed_weight = edge.entry >> COUNT_PACKED_WEIGHT_SHIFT;
+	const int weight = (packed_weight & COUNT_HAS_WEIGHT) != 0u ? unpack_weight(packed_weight) : 0;
+	const bool is_own = packed_weight != COUNT_ADDS_NOTHING &&
+			may_hide(p_receiver.position, p_receiver.to_light, edge.a, edge.b);
 	const uint bit = is_own ? 1u << (p_first_slot + p_lane) : 0u;
-	r_share.own |= bit;
-	r_share.is_negative |= weight < 0 ? bit : 0u;
-	r_share.is_twice |= abs(weight) == 2 ? bit : 0u;
+	r_edge_masks.own |= bit;
+	r_edge_masks.is_negative |= weight < 0 ? bit : 0u;
+	r_edge_masks.is_twice |= abs(weight) == 2 ? bit : 0u;
 }
 
-/// What decides the weight of an edge; see count_weight.
-struct HeldFaces {
-	uvec2 words;
+/// The faces of an edge, which determine its weight, see count_weight.
+struct LoadedFaces {
+	uvec2 words; // face words of CountEdgeRecord
 	vec4 plane0;
 	vec4 plane1;
 };
 
-/// The weight of a held edge as the receiver sees it, where the list does not know it.
-void share_weight(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_first_slot, CountReceiver p_receiver,
-		inout CountShare r_share) {
+/// Marks the weight of the edge of invocation p_lane as seen by the receiver, if its list entry has none. An edge of
+/// weight 0 need not be counted.
+void compute_round_weight(LoadedEdge p_loaded, LoadedFaces p_faces, uint p_lane, uint p_first_slot,
+		CountReceiver p_receiver, inout CountEdgeMasks r_edge_masks) {
 	const uvec2 words = subgroupShuffle(p_faces.words, p_lane);
 	const int weight = count_weight(p_receiver.position, subgroupShuffle(p_faces.plane0, p_lane),
 			subgroupShuffle(p_faces.plane1, p_lane), make_count_kind(words.x, words.y));
-	const uint known = subgroupShuffle(p_held.entry, p_lane) >> COUNT_KNOWN_SHIFT;
-	const uint bit = (known & COUNT_KNOWS_WEIGHT) == 0u ? 1u << (p_first_slot + p_lane) : 0u;
-	r_share.own &= ~(weight == 0 ? bit : 0u);
-	r_share.is_negative |= weight < 0 ? bit : 0u;
-	r_share.is_twice |= abs(weight) == 2 ? bit : 0u;
+	const uint packed_weight = subgroupShuffle(p_loaded.entry, p_lane) >> COUNT_PACKED_WEIGHT_SHIFT;
+	const uint bit = (packed_weight & COUNT_HAS_WEIGHT) == 0u ? 1u << (p_first_slot + p_lane) : 0u;
+	r_edge_masks.own &= ~(weight == 0 ? bit : 0u);
+	r_edge_masks.is_negative |= weight < 0 ? bit : 0u;
+	r_edge_masks.is_twice |= abs(weight) == 2 ? bit : 0u;
 }
 
-HeldEdge choose_held(bool p_is_second, HeldEdge p_first, HeldEdge p_second) {
-	return HeldEdge(p_is_second ? p_second.entry : p_first.entry, p_is_second ? p_second.a : p_first.a,
+LoadedEdge select_edge(bool p_is_second, LoadedEdge p_first, LoadedEdge p_second) {
+	return LoadedEdge(p_is_second ? p_second.entry : p_first.entry, p_is_second ? p_second.a : p_first.a,
 			p_is_second ? p_second.b : p_first.b);
 }
 
-HeldEdge get_part(HeldRound p_held, uint p_part) {
-	const HeldEdge low = choose_held(p_part == 1u, p_held.part0, p_held.part1);
-	const HeldEdge high = choose_held(p_part == 3u, p_held.part2, p_held.part3);
-	return choose_held(p_part >= 2u, low, high);
+LoadedEdge get_batch(LoadedRound p_loaded, uint p_batch) {
+	const LoadedEdge low = select_edge(p_batch == 1u, p_loaded.batch0, p_loaded.batch1);
+	const LoadedEdge high = select_edge(p_batch == 3u, p_loaded.batch2, p_loaded.batch3);
+	return select_edge(p_batch >= 2u, low, high);
 }
 
-/// Tests edges p_lane .. p_lane + 3 of a part of a round, which have the slots from p_first_slot + p_lane on.
-void share_four(HeldEdge p_held, uint p_lane, uint p_first_slot, CountReceiver p_receiver, inout CountShare r_share) {
-	share_edge(p_held, p_lane, p_first_slot, p_receiver, r_share);
-	share_edge(p_held, p_lane + 1u, p_first_slot, p_receiver, r_share);
-	share_edge(p_held, p_lane + 2u, p_first_slot, p_receiver, r_share);
-	share_edge(p_held, p_lane + 3u, p_first_slot, p_receiver, r_share);
+/// Tests edges p_lane .. p_lane + 3 of a batch of a round. Their bits start at p_first_slot + p_lane.
+void test_four_edges(LoadedEdge p_loaded, uint p_lane, uint p_first_slot, CountReceiver p_receiver,
+		inout CountEdgeMasks r_edge_masks) {
+	test_round_edge(p_loaded, p_lane, p_first_slot, p_receiver, r_edge_masks);
+	test_round_edge(p_loaded, p_lane + 1u, p_first_slot, p_receiver, r_edge_masks);
+	test_round_edge(p_loaded, p_lane + 2u, p_first_slot, p_receiver, r_edge_masks);
+	test_round_edge(p_loaded, p_lane + 3u, p_first_slot, p_receiver, r_edge_masks);
 }
 
-void share_four_weights(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_first_slot, CountReceiver p_receiver,
-		inout CountShare r_share) {
-	share_weight(p_held, p_faces, p_lane, p_first_slot, p_receiver, r_share);
-	share_weight(p_held, p_faces, p_lane + 1u, p_first_slot, p_receiver, r_share);
-	share_weight(p_held, p_faces, p_lane + 2u, p_first_slot, p_receiver, r_share);
-	share_weight(p_held, p_faces, p_lane + 3u, p_first_slot, p_receiver, r_share);
+void compute_four_weights(LoadedEdge p_loaded, LoadedFaces p_faces, uint p_lane, uint p_first_slot,
+		CountReceiver p_receiver, inout CountEdgeMasks r_edge_masks) {
+	compute_round_weight(p_loaded, p_faces, p_lane, p_first_slot, p_receiver, r_edge_masks);
+	compute_round_weight(p_loaded, p_faces, p_lane + 1u, p_first_slot, p_receiver, r_edge_masks);
+	compute_round_weight(p_loaded, p_faces, p_lane + 2u, p_first_slot, p_receiver, r_edge_masks);
+	compute_round_weight(p_loaded, p_faces, p_lane + 3u, p_first_slot, p_receiver, r_edge_masks);
 }
 
-/// Edges of a part of a round that has p_count.
-uint find_held_count(uint p_part, uint p_count) {
-	return min(p_count - min(p_count, p_part * HELD_AT_ONCE), HELD_AT_ONCE);
+/// Number of edges in a batch of a round that has p_count edges.
+uint find_loaded_count(uint p_batch, uint p_count) {
+	return min(p_count - min(p_count, p_batch * BATCH_SIZE), BATCH_SIZE);
 }
 
-// The edges that one iteration tests: llvmpipe ends every loop once an invocation has made 65535 iterations, of all its
-// loops together.
-const uint SHARED_AT_ONCE = HELD_AT_ONCE < 8u ? 4u : 8u;
+// Edges that one iteration tests. Larger numbers need fewer iterations: llvmpipe ends every loop after an invocation
+// has made 65535 iterations in all its loops together.
+const uint EDGES_PER_ITERATION = BATCH_SIZE < 8u ? 4u : 8u;
 
-/// Takes a round of the slice's edges, p_first and p_count - 1 more, and finds those that the receiver has to count.
-/// r_held: parts that the round does not have stay as they were; no bit of the share is theirs.
-CountShare share_round(uint p_first, uint p_count, CountReceiver p_receiver, inout HeldRound r_held) {
-	CountShare share = CountShare(0u, 0u, 0u);
-	uint open_parts = 0u; // that have an edge whose weight the list does not know
-	uint part = 0u;
+/// Loads a round of p_count edges of the slice, from p_first on, and finds those that the receiver
+/// has to count. Batches of r_loaded without edges of this round are unchanged, and have no bits in
+/// the result.
+CountEdgeMasks test_round(uint p_first, uint p_count, CountReceiver p_receiver, inout LoadedRound r_loaded) {
+	CountEdgeMasks edge_masks = CountEdgeMasks(0u, 0u, 0u);
+	uint batches_without_weight = 0u; // bit per batch of the round: it has an edge whose list entry has no weight
+	uint batch = 0u;
 	do {
-		const HeldEdge held = hold_edge(p_first + part * HELD_AT_ONCE, p_first + p_count);
-		r_held.part0 = choose_held(part == 0u, r_held.part0, held);
-		r_held.part1 = choose_held(part == 1u, r_held.part1, held);
-		r_held.part2 = choose_held(part == 2u, r_held.part2, held);
-		r_held.part3 = choose_held(part == 3u, r_held.part3, held);
+		const LoadedEdge loaded = load_edge(p_first + batch * BATCH_SIZE, p_first + p_count);
+		r_loaded.batch0 = select_edge(batch == 0u, r_loaded.batch0, loaded);
+		r_loaded.batch1 = select_edge(batch == 1u, r_loaded.batch1, loaded);
+		r_loaded.batch2 = select_edge(batch == 2u, r_loaded.batch2, loaded);
+		r_loaded.batch3 = select_edge(batch == 3u, r_loaded.batch3, loaded);
 		uint i = 0u;
 		do {
-			share_four(held, i, part * HELD_AT_ONCE, p_receiver, share);
-			if (SHARED_AT_ONCE == 8u) {
-				share_four(held, i + 4u, part * HELD_AT_ONCE, p_receiver, share);
+			test_four_edges(loaded, i, batch * BATCH_SIZE, p_receiver, edge_masks);
+			if (EDGES_PER_ITERATION == 8u) {
+				test_four_edges(loaded, i + 4u, batch * BATCH_SIZE, p_receiver, edge_masks);
 			}
-			i += SHARED_AT_ONCE;
-		} while (HELD_AT_ONCE > SHARED_AT_ONCE && i < find_held_count(part, p_count));
-		open_parts |= subgroup_any((held.entry >> COUNT_KNOWN_SHIFT & COUNT_KNOWS_WEIGHT) == 0u) ? 1u << part : 0u;
-		++part;
-	} while (part * HELD_AT_ONCE < p_count);
+			i += EDGES_PER_ITERATION;
+		} while (BATCH_SIZE > EDGES_PER_ITERATION && i < find_loaded_count(batch, p_count));
+		const bool lacks_weight = (loaded.entry >> COUNT_PACKED_WEIGHT_SHIFT & COUNT_HAS_WEIGHT) == 0u;
+		batches_without_weight |= subgroup_any(lacks_weight) ? 1u << batch : 0u;
+		++batch;
+	} while (batch * BATCH_SIZE < p_count);
 	do {
-		part = open_parts != 0u ? uint(findLSB(open_parts)) : 0u; // without any the weights are all known
-		open_parts &= open_parts - 1u;
-		const HeldEdge held = get_part(r_held, part);
-		const CountEdgeRecord edge = load_count_edge(held.entry & COUNT_EDGE_MASK);
-		const HeldFaces faces = HeldFaces(
+		// If none is left, this iteration has no effect.
+		batch = batches_without_weight != 0u ? uint(findLSB(batches_without_weight)) : 0u;
+		batches_without_weight &= batches_without_weight - 1u;
+		const LoadedEdge loaded = get_batch(r_loaded, batch);
+		const CountEdgeRecord edge = load_count_edge(loaded.entry & COUNT_EDGE_MASK);
+		const LoadedFaces faces = LoadedFaces(
 				uvec2(edge.a_face0.w, edge.b_face1.w), load_count_plane0(edge), load_count_plane1(edge));
 		uint i = 0u;
 		do {
-			share_four_weights(held, faces, i, part * HELD_AT_ONCE, p_receiver, share);
-			if (SHARED_AT_ONCE == 8u) {
-				share_four_weights(held, faces, i + 4u, part * HELD_AT_ONCE, p_receiver, share);
+			compute_four_weights(loaded, faces, i, batch * BATCH_SIZE, p_receiver, edge_masks);
+			if (EDGES_PER_ITERATION == 8u) {
+				compute_four_weights(loaded, faces, i + 4u, batch * BATCH_SIZE, p_receiver, edge_masks);
 			}
-			i += SHARED_AT_ONCE;
-		} while (HELD_AT_ONCE > SHARED_AT_ONCE && i < find_held_count(part, p_count));
-	} while (open_parts != 0u);
-	return share;
+			i += EDGES_PER_ITERATION;
+		} while (BATCH_SIZE > EDGES_PER_ITERATION && i < find_loaded_count(batch, p_count));
+	} while (batches_without_weight != 0u);
+	return edge_masks;
 }
 
-/// What the next of the edges that the invocation's receiver has adds, if there is one.
-CountSector find_next_sector(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout uint r_left) {
-	const bool is_there = r_left != 0u;
+/// Removes the next edge from r_left, the edges that remain to be counted, and returns its sector. Empty if none is
+/// left.
+CountSector find_next_sector(LoadedRound p_loaded, CountReceiver p_receiver,
+		CountEdgeMasks p_edge_masks, inout uint r_left) {
+	const bool is_valid = r_left != 0u;
 	const uint slot = uint(findLSB(r_left)) & 31u;
 	r_left &= r_left - 1u;
-	const uint lane = slot % HELD_AT_ONCE;
-	HeldEdge edge = hand_on(p_held.part0, lane);
-	if (ROUND_SIZE > HELD_AT_ONCE) {
-		edge = choose_held((slot & HELD_AT_ONCE) != 0u, edge, hand_on(p_held.part1, lane));
+	const uint lane = slot % BATCH_SIZE;
+	LoadedEdge edge = shuffle_edge(p_loaded.batch0, lane);
+	if (ROUND_SIZE > BATCH_SIZE) {
+		edge = select_edge((slot & BATCH_SIZE) != 0u, edge, shuffle_edge(p_loaded.batch1, lane));
 	}
-	if (ROUND_SIZE > 2u * HELD_AT_ONCE) {
-		const HeldEdge other = choose_held(
-				(slot & HELD_AT_ONCE) != 0u, hand_on(p_held.part2, lane), hand_on(p_held.part3, lane));
-		edge = choose_held((slot & 2u * HELD_AT_ONCE) != 0u, edge, other);
+	if (ROUND_SIZE > 2u * BATCH_SIZE) {
+		const LoadedEdge other = select_edge(
+				(slot & BATCH_SIZE) != 0u, shuffle_edge(p_loaded.batch2, lane), shuffle_edge(p_loaded.batch3, lane));
+		edge = select_edge((slot & 2u * BATCH_SIZE) != 0u, edge, other);
 	}
-	const int weight = (p_share.is_twice >> slot & 1u) != 0u ? 2 : 1;
+	const int weight = (p_edge_masks.is_twice >> slot & 1u) != 0u ? 2 : 1;
 	return find_edge_sector(p_receiver, edge.a, edge.b,
-			is_there ? ((p_share.is_negative >> slot & 1u) != 0u ? -weight : weight) : 0);
+			is_valid ? ((p_edge_masks.is_negative >> slot & 1u) != 0u ? -weight : weight) : 0);
 }
 
-/// Counts the next two edges of each invocation's receiver, one behind the other, so that processors deal with both at
-/// once.
-void count_two(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout uint r_left,
+/// Counts the next two edges of each invocation's receiver. Their sectors are independent, so that processors compute
+/// them in parallel.
+void count_two(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks p_edge_masks, inout uint r_left,
 		inout CountState r_state) {
-	const CountSector first = find_next_sector(p_held, p_receiver, p_share, r_left);
-	const CountSector second = find_next_sector(p_held, p_receiver, p_share, r_left);
+	const CountSector first = find_next_sector(p_loaded, p_receiver, p_edge_masks, r_left);
+	const CountSector second = find_next_sector(p_loaded, p_receiver, p_edge_masks, r_left);
 	count_sectors(first, second, r_state);
 }
 
-/// Counts the edges that each invocation's receiver has.
-void count_share(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout CountState r_state) {
-	const uint most = subgroup_max(uint(bitCount(p_share.own)));
-	uint left = p_share.own;
+/// Counts the edges of a round that each invocation's receiver has to count.
+void count_round(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks p_edge_masks,
+		inout CountState r_state) {
+	const uint max_count = subgroup_max(uint(bitCount(p_edge_masks.own)));
+	uint left = p_edge_masks.own;
 	uint i = 0u;
 	do {
-		count_two(p_held, p_receiver, p_share, left, r_state);
-		if (HAS_NO_LIST) { // fewer iterations: see SHARED_AT_ONCE
-			count_two(p_held, p_receiver, p_share, left, r_state);
+		count_two(p_loaded, p_receiver, p_edge_masks, left, r_state);
+		if (HAS_NO_LIST) { // fewer iterations: see EDGES_PER_ITERATION
+			count_two(p_loaded, p_receiver, p_edge_masks, left, r_state);
 		}
 		i += HAS_NO_LIST ? 4u : 2u;
-	} while (i < most);
+	} while (i < max_count);
 }
 
-/// The bounds of those receivers of a subgroup that are in it.
-CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_here, vec2 p_slope) {
+/// The bounds of the receivers of a subgroup for which p_is_selected is true.
+CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_selected, vec2 p_slope) {
 	const float range = p_point.warped.z - dot(p_slope, p_point.warped.xy);
-	return CountBounds(subgroup_min(p_is_here ? p_point.warped.xy : vec2(COUNT_FAR)),
-			subgroup_max(p_is_here ? p_point.warped.xy : vec2(-COUNT_FAR)), p_slope,
-			vec2(subgroup_min(p_is_here ? range : COUNT_FAR), subgroup_max(p_is_here ? range : -COUNT_FAR)));
+	return CountBounds(subgroup_min(p_is_selected ? p_point.warped.xy : vec2(COUNT_FAR)),
+			subgroup_max(p_is_selected ? p_point.warped.xy : vec2(-COUNT_FAR)), p_slope,
+			vec2(subgroup_min(p_is_selected ? range : COUNT_FAR), subgroup_max(p_is_selected ? range : -COUNT_FAR)));
 }
 
-/// Each invocation counts one of the block's pixels, p_pixel in the block. p_parts: the first of the words of
-/// EDGE_COUNT_RECEIVES_*. p_sorted_part: its receiver's, where they are sorted.
+/// Each invocation counts the edges of one pixel and computes its visibility. The pixel is at position p_pixel in the
+/// block. p_parts: the block's word EDGE_COUNT_RECEIVERS_PARTS. p_sorted_part: the receiver's part, if the block is
+/// sorted.
 CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
 	const bool is_sorted = (p_parts & EDGE_COUNT_IS_SORTED) != 0u;
 	CountPixel result;
@@ -375,39 +393,40 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	for (uint i = 0u; i < cut_face_count; ++i) {
 		const uint face = load_cut_face(i);
 		const vec4 plane = load_count_plane(face);
-		const bool is_before = is_count_before(plane, receiver.position);
-		if (is_before != is_count_light_before(light.is_directional != 0u, plane)) {
-			count_face(receiver, load_count_face(face), is_before, crossings);
+		const bool is_in_front = is_count_in_front(plane, receiver.position);
+		if (is_in_front != is_count_light_in_front(light.is_directional != 0u, plane)) {
+			count_face(receiver, load_count_face(face), is_in_front, crossings);
 		}
 	}
 	CountState state = make_count_state(sum_crossings(crossings));
 	for (uint i = 0u; i < cut_face_count; ++i) {
 		const uint face = load_cut_face(i);
-		count_add_cut(receiver, load_count_face(face), load_count_plane(face), crossings.away >= crossings.toward, state);
+		count_add_cut(receiver, load_count_face(face), load_count_plane(face),
+				crossings.back_facing >= crossings.light_facing, state);
 	}
 	const uint own_part = is_sorted ? p_sorted_part : point.view;
 	bool waits = is_counted;
 	do {
-		// Those of one part: what is between parts would make them read edges that none of them needs.
+		// Process the receivers of one part at a time: a box around several parts needs many more edges.
 		const uvec4 waiting = subgroup_ballot(waits);
 		const bool is_any = subgroupBallotBitCount(waiting) > 0u;
 		const uint leader = is_any ? subgroupBallotFindLSB(waiting) : 0u;
 		const uint part = subgroupShuffle(own_part, leader);
 		const uint view = find_part_view(p_parts, part);
-		const bool is_here = waits && own_part == part;
+		const bool is_selected = waits && own_part == part;
 		const CountBox box = make_count_box(light, load_count_view(view),
-				find_subgroup_bounds(point, is_here, subgroupShuffle(point.slope, leader)));
+				find_subgroup_bounds(point, is_selected, subgroupShuffle(point.slope, leader)));
 		uint end = is_any ? find_edge_count() : 0u;
 		uint chunk = 0u;
 		if (!HAS_NO_LIST) {
 			const uint chain = (p_block * PART_COUNT + part) * uint(EDGE_COUNT_CHAIN_WORDS);
-			// Of a part that is not there nothing is written.
+			// A part without receivers has no chain.
 			end = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_COUNT)] : 0u;
 			chunk = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
 		}
 		uint next = 0u; // in the list
-		const HeldEdge none = HeldEdge(COUNT_ADDS_NOTHING << COUNT_KNOWN_SHIFT, vec3(0.0), vec3(0.0));
-		HeldRound held = HeldRound(none, none, none, none);
+		const LoadedEdge none = LoadedEdge(COUNT_ADDS_NOTHING << COUNT_PACKED_WEIGHT_SHIFT, vec3(0.0), vec3(0.0));
+		LoadedRound loaded = LoadedRound(none, none, none, none);
 		do {
 			CountChoice choice;
 			if (HAS_NO_LIST) {
@@ -420,33 +439,33 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 			uint first = 0u;
 			do {
 				const uint count = min(choice.count - first, ROUND_SIZE);
-				CountShare share = share_round(first, count, receiver, held);
-				share.own = is_here ? share.own : 0u;
-				count_share(held, receiver, share, state);
-				result.edge_count += uint(bitCount(share.own));
+				CountEdgeMasks edge_masks = test_round(first, count, receiver, loaded);
+				edge_masks.own = is_selected ? edge_masks.own : 0u;
+				count_round(loaded, receiver, edge_masks, state);
+				result.edge_count += uint(bitCount(edge_masks.own));
 				first += ROUND_SIZE;
 			} while (first < choice.count);
 			sync_subgroup_memory();
 		} while (next < end);
-		waits = waits && !is_here;
+		waits = waits && !is_selected;
 	} while (subgroup_any(waits));
 	result.solid_count = state.solid_count;
 	result.visibility = is_counted ? count_resolve(state) : (is_receiver ? 1.0 : 0.0);
 	return result;
 }
 
-/// The invocation's index among those of the work group.
+/// The invocation's index in the work group.
 uint find_invocation_index() {
 	return gl_SubgroupID * SUBGROUP_SIZE + gl_SubgroupInvocationID;
 }
 
-/// Each invocation counts one pixel of the work group's block.
+/// Each invocation computes one pixel of the work group's block.
 CountPixel count_pixel() {
 	const uint block = find_block();
-	const uint first = block * uint(EDGE_COUNT_RECEIVES_WORDS);
-	const uint parts = receives[first + uint(EDGE_COUNT_RECEIVES_PARTS)];
+	const uint first = block * uint(EDGE_COUNT_RECEIVERS_WORDS);
+	const uint parts = block_receivers[first + uint(EDGE_COUNT_RECEIVERS_PARTS)];
 	const uint invocation = find_invocation_index();
-	const uint order = receives[first + uint(EDGE_COUNT_RECEIVES_ORDER) + invocation / 4u];
+	const uint order = block_receivers[first + uint(EDGE_COUNT_RECEIVERS_ORDER) + invocation / 4u];
 	const uint own_order = order >> (8u * (invocation % 4u)) & 0xffu;
 	const uint index = (parts & EDGE_COUNT_IS_SORTED) != 0u ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : invocation;
 	return count_pixel_of_block(block, parts, find_pixel_in_block(index), own_order >> EDGE_COUNT_ORDER_PART_SHIFT);

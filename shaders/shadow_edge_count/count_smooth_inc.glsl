@@ -1,9 +1,10 @@
-// Writes the mask in blocks whose edges are all far from all receivers: resolve_smooth.comp and
-// resolve_smooth_fine.comp.
+// The entry point of resolve_smooth.comp and resolve_smooth_fine.comp, which write the mask in blocks whose edges are
+// all far from all receivers.
 //
-// There the image of each edge on the light's disc moves by a small part of R from one side of the block to the other,
-// so that the visibility is nearly a polynomial of the pixel's position. 16 of the 64 pixels are counted, and a polynomial
-// of degree 3 with least squares gives all: its 10 coefficients also even out the noise of the points on the disc.
+// In such a block the image of each edge on the light's disc moves by a small fraction of R from one side of the block
+// to the other, so the visibility is nearly a polynomial of the pixel's position. 16 of the 64 pixels are counted, and
+// a least-squares polynomial of degree 3 gives the values of all 64. Its 10 coefficients also smooth the noise of the
+// points on the disc.
 #ifndef COUNT_SMOOTH_INC_GLSL
 #define COUNT_SMOOTH_INC_GLSL
 
@@ -12,14 +13,15 @@
 
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
-const uint SIDE = 4u; // lines of the block that are counted, and columns
-const int MOST_DEGREE = 3;
+const uint SIDE = 4u; // number of the block's rows, and of its columns, that are counted
+const int MAX_DEGREE = 3;
 const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX / COUNT_GROUP_SIZE);
 
 shared float counted[SIDE * SIDE]; // visibility
 shared float coefficients[SIDE * SIDE];
 
-/// 0, 2, 5 and 7: they are symmetric about the middle, and the outermost are among them, so that nothing is extrapolated.
+/// Counted rows and columns: 0, 2, 5 and 7. They are symmetric about the middle and include the outermost ones, so that
+/// nothing is extrapolated.
 uint find_counted_line(uint p_index) {
 	return 2u * p_index + (p_index > 1u ? 1u : 0u);
 }
@@ -28,12 +30,12 @@ uvec2 find_counted_pixel(uint p_index) {
 	return uvec2(find_counted_line(p_index % SIDE), find_counted_line(p_index / SIDE));
 }
 
-/// Polynomials of degree 0 to 3 of a position in the block: orthonormal over the four lines that are counted.
+/// Polynomials of degree 0 to 3 at a row or column p_line of the block, orthonormal over the four counted ones.
 vec4 find_basis(uint p_line) {
 	const float HALF = 3.5;
-	const float NEAR = 1.5 / HALF; // the inner lines, where the outer ones are at 1
+	const float NEAR = 1.5 / HALF; // |u| of the two inner lines; the outer ones have 1
 	const float SQUARE = NEAR * NEAR;
-	const float SUM = 1.0 + SQUARE; // half the sum of the lines' squares
+	const float SUM = 1.0 + SQUARE; // half the sum of u^2 over the lines
 	const float SLOPE = (1.0 + SQUARE * SQUARE) / SUM;
 	const float CUBIC = (1.0 - SLOPE) * (1.0 - SLOPE) + SQUARE * (SQUARE - SLOPE) * (SQUARE - SLOPE);
 	const float u = float(p_line) / HALF - 1.0;
@@ -41,7 +43,7 @@ vec4 find_basis(uint p_line) {
 			u * (u * u - SLOPE) * inversesqrt(2.0 * CUBIC));
 }
 
-/// The polynomial's coefficient of basis p_index % SIDE along x and p_index / SIDE along y.
+/// The coefficient of the product of basis p_index % SIDE along x and basis p_index / SIDE along y.
 float find_coefficient(uint p_index) {
 	float sum = 0.0;
 	for (uint i = 0u; i < SIDE * SIDE; ++i) {
@@ -51,12 +53,13 @@ float find_coefficient(uint p_index) {
 	return sum;
 }
 
+/// The polynomial's value at a pixel, 0..1.
 float find_fitted(uvec2 p_pixel) {
 	const vec4 x = find_basis(p_pixel.x);
 	const vec4 y = find_basis(p_pixel.y);
 	float sum = 0.0;
-	for (int row = 0; row <= MOST_DEGREE; ++row) {
-		for (int column = 0; column <= MOST_DEGREE - row; ++column) {
+	for (int row = 0; row <= MAX_DEGREE; ++row) {
+		for (int column = 0; column <= MAX_DEGREE - row; ++column) {
 			sum += coefficients[row * int(SIDE) + column] * x[column] * y[row];
 		}
 	}
@@ -66,7 +69,7 @@ float find_fitted(uvec2 p_pixel) {
 void main() {
 	load_count_constants();
 	const uint block = find_block();
-	const uint parts = receives[block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_PARTS)];
+	const uint parts = block_receivers[block * uint(EDGE_COUNT_RECEIVERS_WORDS) + uint(EDGE_COUNT_RECEIVERS_PARTS)];
 	const uint invocation = find_invocation_index();
 	counted[invocation] = count_pixel_of_block(block, parts, find_counted_pixel(invocation), 0u).visibility;
 	barrier();

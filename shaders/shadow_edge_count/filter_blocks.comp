@@ -4,7 +4,7 @@
 #include "common/pcss_inc.glsl"
 #include "shadow_edge_count/count_blocks_inc.glsl"
 
-// Resolves blocks that have more edges than the budget by percentage-closer soft shadows.
+// Resolves blocks that have more edges than the budget with percentage-closer soft shadows.
 layout(set = 0, binding = COUNT_BINDING_DEPTH_MAP) uniform texture2DArray map_texture;
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
@@ -19,8 +19,8 @@ void main() {
 		const ReceiverPixel receiver = load_receiver(pixel);
 		const uint view = find_view(light_views, receiver.position);
 		const MapPoint point = project_to_map(light_views.views[view], receiver.position, receiver.normal);
-		const bool is_surely_lit = (light.empty_views & (1u << view)) != 0u || point.w <= 0.0;
-		visibility = is_surely_lit
+		const bool is_trivially_lit = (light.empty_views & (1u << view)) != 0u || point.w <= 0.0;
+		visibility = is_trivially_lit
 				? 1.0
 				: pcss(map_texture, light.empty_views, light_views.views[view], point, light.disc_radius,
 						  push.nearest_w, EDGE_COUNT_FILTER_TAPS, interleaved_noise(pixel) * TWO_PI);

@@ -12,16 +12,17 @@
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_parts_inc.glsl"
 
-// For each part of a block's receivers the edges that may matter to any of them, in their own order; then the block
-// goes to those of its kind. One subgroup deals with one tile of blocks: first it finds the bundles of edges that may
-// matter to the tile. Where there are few parts, all of like depth, it tests the edges of these for the tile, and those
-// that are left for the box of each part; else the bundles for each part, and the edges of those that are left.
-layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
+// Lists, for each part of a block's receivers, the edges that may matter to any of them, in the order of the light's
+// list. Then adds the block to the list of its kind. One subgroup processes one tile of blocks. First it finds the
+// bundles of edges that may matter to the tile. If no block has several parts, it tests the edges of these bundles
+// against the tile, and the remaining ones against the box of each part. Otherwise it tests the bundles against each
+// part's box, and then the edges of the remaining ones.
+layout(local_size_x_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) readonly buffer Boxes {
 	CountBlockBox boxes[];
 };
-layout(std430, set = 0, binding = COUNT_BINDING_RECEIVES) readonly buffer Receives {
-	uint receives[]; // of each block, EDGE_COUNT_RECEIVES_*
+layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) readonly buffer BlockReceivers {
+	uint block_receivers[]; // per block, EDGE_COUNT_RECEIVERS_*
 };
 layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) writeonly buffer Chains {
 	uint chains[];
@@ -36,7 +37,7 @@ layout(std430, set = 0, binding = COUNT_BINDING_DISPATCHES) buffer Dispatches {
 	uint dispatches[];
 };
 
-const uint GROUP_SIZE = gl_WorkGroupSize.x;
+const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
 #include "common/subgroup_inc.glsl"
 
@@ -44,62 +45,63 @@ const uint BLOCKS_PER_TILE = uint(EDGE_COUNT_BLOCKS_PER_TILE_SIDE * EDGE_COUNT_B
 const uint PARTS_PER_TILE = BLOCKS_PER_TILE * PART_COUNT;
 const uint NO_BLOCK = 0xffffffffu;
 
-// llvmpipe ends every loop once an invocation has made 65535 iterations, of all its loops together. A tile that would
-// need more gets no lists. The margin is more than what is done between two checks.
-const uint MOST_ITERATIONS = 40000u;
+// llvmpipe ends every loop after an invocation has made 65535 iterations in all its loops together. A tile that would
+// need more than this limit gets no lists. The margin covers the iterations between two checks.
+const uint MAX_ITERATIONS = 40000u;
 uint iteration_count = 0u;
 
-/// Receivers in one view: in either of two boxes, or in the first alone.
+/// The tile's receivers in one view, divided into two boxes by w. If count is 1, both boxes are the same.
 struct BoxPair {
 	CountBox near;
 	CountBox far;
 	uint count;
 };
 
+/// The block with index p_index in a tile, or NO_BLOCK if it is outside the image.
 uint find_block(uvec2 p_tile, uint p_index) {
 	const uint side = uint(EDGE_COUNT_BLOCKS_PER_TILE_SIDE);
 	const uvec2 block = p_tile * side + uvec2(p_index % side, p_index / side);
 	return all(lessThan(block, light.block_count)) ? block.y * light.block_count.x + block.x : NO_BLOCK;
 }
 
-/// The first of the words of EDGE_COUNT_RECEIVES_*.
+/// The block's word EDGE_COUNT_RECEIVERS_PARTS; 0 for NO_BLOCK.
 uint load_parts(uint p_block) {
 	return p_block != NO_BLOCK
-			? receives[p_block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_PARTS)]
+			? block_receivers[p_block * uint(EDGE_COUNT_RECEIVERS_WORDS) + uint(EDGE_COUNT_RECEIVERS_PARTS)]
 			: 0u;
 }
 
-/// Part i of the tile is part i / BLOCKS_PER_TILE of block i % BLOCKS_PER_TILE; a bit for each that is in the view.
+/// Bit mask of the tile's parts in a view. Part i of a tile is part i / BLOCKS_PER_TILE of block i % BLOCKS_PER_TILE.
 uint find_parts_of_tile(uvec2 p_tile, uint p_view) {
 	uint parts_of_tile = 0u;
 	for (uint i = gl_SubgroupInvocationID; i < BLOCKS_PER_TILE; i += GROUP_SIZE) {
 		const uint parts = load_parts(find_block(p_tile, i));
 		for (uint part = 0u; part < PART_COUNT; ++part) {
-			const bool is_there = (parts >> part & 1u) != 0u && find_part_view(parts, part) == p_view;
-			parts_of_tile |= is_there ? 1u << (part * BLOCKS_PER_TILE + i) : 0u;
+			const bool is_valid = (parts >> part & 1u) != 0u && find_part_view(parts, part) == p_view;
+			parts_of_tile |= is_valid ? 1u << (part * BLOCKS_PER_TILE + i) : 0u;
 		}
 	}
 	return subgroup_or(parts_of_tile);
 }
 
-/// The index of a part of the tile in the buffers that have one item for each.
+/// The index of a part of the tile in the buffers that have one item per block and part.
 uint find_part_index(uvec2 p_tile, uint p_index) {
 	return find_block(p_tile, p_index % BLOCKS_PER_TILE) * PART_COUNT + p_index / BLOCKS_PER_TILE;
 }
 
-/// The box of one of the parts of the tile; empty where p_parts does not have it.
+/// The bounds of a part of the tile; empty if the bit mask p_parts does not contain the part.
 CountBounds load_box(uvec2 p_tile, uint p_parts, uint p_index) {
-	const bool is_there = p_index < PARTS_PER_TILE && (p_parts >> p_index & 1u) != 0u;
-	const CountBlockBox loaded = boxes[is_there ? find_part_index(p_tile, p_index) : 0u];
-	return is_there ? unpack_count_bounds(loaded) : make_count_bounds();
+	const bool is_valid = p_index < PARTS_PER_TILE && (p_parts >> p_index & 1u) != 0u;
+	const CountBlockBox loaded = boxes[is_valid ? find_part_index(p_tile, p_index) : 0u];
+	return is_valid ? unpack_count_bounds(loaded) : make_count_bounds();
 }
 
-/// True while a loop over the parts, a group of them an iteration, has more of them from p_first on.
+/// True if the bit mask p_parts contains a part from p_first on. Loops process GROUP_SIZE parts per iteration.
 bool is_part_left(uint p_parts, uint p_first) {
 	return p_first < PARTS_PER_TILE && p_parts >> p_first != 0u;
 }
 
-/// Least and greatest w of parts.
+/// The range of w of the parts in the bit mask p_parts.
 vec2 find_w_range_of_tile(uvec2 p_tile, uint p_parts) {
 	vec2 w = vec2(COUNT_FAR, -COUNT_FAR);
 	uint first = 0u;
@@ -112,18 +114,18 @@ vec2 find_w_range_of_tile(uvec2 p_tile, uint p_parts) {
 	return vec2(subgroup_min(w.x), subgroup_max(w.y));
 }
 
-/// The bounds of those boxes of parts whose middle w is in a range, about the plane of the first; each
-/// invocation has some of the boxes.
-CountBounds find_bounds(uvec2 p_tile, uint p_parts, float p_least_w, float p_greatest_w) {
+/// The joint bounds of the parts whose middle w is in p_min_w .. p_max_w, relative to the plane of one of them.
+/// The parts are distributed over the invocations.
+CountBounds find_bounds(uvec2 p_tile, uint p_parts, float p_min_w, float p_max_w) {
 	CountBounds bounds = make_count_bounds();
 	uint first = 0u;
 	do {
 		const CountBounds box = load_box(p_tile, p_parts, first + gl_SubgroupInvocationID);
 		const vec2 w = find_w_range(box);
 		const float middle = 0.5 * (w.x + w.y);
-		const bool is_here =
-				!is_count_bounds_empty(box) && middle >= p_least_w && middle < p_greatest_w;
-		bounds = is_here ? join_count_bounds(bounds, box) : bounds;
+		const bool is_selected =
+				!is_count_bounds_empty(box) && middle >= p_min_w && middle < p_max_w;
+		bounds = is_selected ? join_count_bounds(bounds, box) : bounds;
 		first += GROUP_SIZE;
 	} while (is_part_left(p_parts, first));
 	const bool is_empty = is_count_bounds_empty(bounds);
@@ -131,7 +133,7 @@ CountBounds find_bounds(uvec2 p_tile, uint p_parts, float p_least_w, float p_gre
 	const uint leader = subgroupBallotBitCount(filled) > 0u ? subgroupBallotFindLSB(filled) : 0u;
 	const vec2 slope = subgroupShuffle(bounds.slope, leader);
 	const vec2 range = is_empty ? bounds.range : find_range_about(bounds, slope);
-	return CountBounds(subgroup_min(bounds.least), subgroup_max(bounds.greatest), slope,
+	return CountBounds(subgroup_min(bounds.minimum), subgroup_max(bounds.maximum), slope,
 			vec2(subgroup_min(range.x), subgroup_max(range.y)));
 }
 
@@ -144,6 +146,7 @@ BoxPair make_pair(uint p_view, CountBounds p_near, CountBounds p_far) {
 	return pair;
 }
 
+/// Divides the tile's parts in a view at the middle of their range of w.
 BoxPair find_tile_pair(uvec2 p_tile, uint p_view, uint p_parts) {
 	const vec2 w = find_w_range_of_tile(p_tile, p_parts);
 	const float middle = 0.5 * (w.x + w.y);
@@ -151,22 +154,24 @@ BoxPair find_tile_pair(uvec2 p_tile, uint p_view, uint p_parts) {
 			find_bounds(p_tile, p_parts, -COUNT_FAR, middle));
 }
 
-// Bundles that may matter to the tile, in their order; and edges of them that may.
-const uint MOST_NEEDED = 512u;
-shared uint needed_bundles[MOST_NEEDED];
-const uint MOST_HELD = 1024u;
-shared uint held_items[MOST_HELD];
+// Bundles that may matter to the tile, in order. candidates: edges of them that may matter to the tile, or bundles that
+// may matter to one part.
+const uint MAX_NEEDED_BUNDLES = 512u;
+shared uint needed_bundles[MAX_NEEDED_BUNDLES];
+const uint MAX_CANDIDATES = 1024u;
+shared uint candidates[MAX_CANDIDATES];
 
-/// The list of a part that is being written.
+/// The list of a part while it is written.
 struct Chain {
-	uint first;
-	uint chunk; // the last one
+	uint first; // first chunk
+	uint chunk; // last chunk
 	uint edge_count;
-	bool is_smooth; // no edge is near, see EDGE_COUNT_BLOCKS_SMOOTH
+	bool is_smooth; // all edges are far, see EDGE_COUNT_BLOCKS_SMOOTH
 };
-shared Chain part_chains[PARTS_PER_TILE]; // in one view
-shared uint block_edge_counts[BLOCKS_PER_TILE]; // in all views
-// A sum of what is known of the solids between a block's receivers and the light's centre.
+shared Chain part_chains[PARTS_PER_TILE]; // of the current view
+shared uint block_edge_counts[BLOCKS_PER_TILE]; // of all views
+// Flags of block_solids: whether solids are between a block's receivers and the light's centre, for parts without
+// edges. MAY_VARY: a face may separate receivers of one part.
 const uint SOME_ARE_LIT = 1u;
 const uint SOME_ARE_DARK = 2u;
 const uint MAY_VARY = 4u;
@@ -179,8 +184,8 @@ bool may_use_bundle(BoxPair p_pair, uint p_bundle) {
 	return may_use_bundle(p_pair.near, bundle) || (p_pair.count > 1u && may_use_bundle(p_pair.far, bundle));
 }
 
-/// Puts bundles from r_next on, whole groups, into needed_bundles, until all are tested or there may be no room, and
-/// returns how many.
+/// Collects in needed_bundles the bundles from r_next on that the tile may need, until all are tested or the next group
+/// may not fit. Returns their number. r_next becomes the bundle to continue from.
 uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 	const uint size = uint(EDGE_COUNT_BUNDLES_PER_GROUP);
 	const uint group_count = (p_bundle_count + size - 1u) / size;
@@ -191,20 +196,20 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 		const uint group = first_group + gl_SubgroupInvocationID;
 		const bool is_group = group < group_count;
 		const bool is_group_needed =
-				is_group && may_use_bundle(p_pair, is_group ? light.most_bundles + group : 0u);
+				is_group && may_use_bundle(p_pair, is_group ? light.max_bundle_count + group : 0u);
 		uvec4 groups = subgroup_ballot(is_group_needed);
 		r_next += GROUP_SIZE * size;
 		do {
-			const bool is_there = subgroupBallotBitCount(groups) != 0u;
-			const uint lane = is_there ? subgroupBallotFindLSB(groups) : 0u;
+			const bool is_valid = subgroupBallotBitCount(groups) != 0u;
+			const uint lane = is_valid ? subgroupBallotFindLSB(groups) : 0u;
 			groups[lane / 32u] &= ~(1u << (lane & 31u));
-			has_room = count + size <= MOST_NEEDED;
-			if (is_there && !has_room) {
-				r_next = (first_group + lane) * size; // from here on the next time
+			has_room = count + size <= MAX_NEEDED_BUNDLES;
+			if (is_valid && !has_room) {
+				r_next = (first_group + lane) * size; // continue here next time
 				groups = uvec4(0u);
 			}
 			uint first = (first_group + lane) * size;
-			const uint end = is_there && has_room ? min(first + size, p_bundle_count) : 0u;
+			const uint end = is_valid && has_room ? min(first + size, p_bundle_count) : 0u;
 			do {
 				const uint bundle = first + gl_SubgroupInvocationID;
 				const bool is_needed = bundle < end && may_use_bundle(p_pair, bundle < end ? bundle : 0u);
@@ -218,35 +223,36 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 			} while (first < end);
 		} while (subgroupBallotBitCount(groups) != 0u);
 		++iteration_count;
-	} while (r_next < p_bundle_count && has_room && iteration_count < MOST_ITERATIONS);
+	} while (r_next < p_bundle_count && has_room && iteration_count < MAX_ITERATIONS);
 	sync_subgroup_memory();
 	return count;
 }
 
-/// An edge, as a list has it. r_is_used: false where it adds nothing to any receiver of the box. r_least_share: the
-/// least of find_least_share.
-uint test_edge(CountBox p_box, uint p_index, out bool r_is_used, inout float r_least_share) {
+/// Tests an edge against a part's box and returns its list entry. r_is_used: false if it adds nothing to any receiver
+/// of the box. r_min_fraction: lowered to find_min_fraction of the edge, if that is used.
+uint test_edge(CountBox p_box, uint p_index, out bool r_is_used, inout float r_min_fraction) {
 	const CountEdgeRecord edge = load_count_edge(p_index);
 	const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
 	const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
 	const bool is_in_reach = is_edge_in_reach(p_box, a, b) &&
 			max(find_light_side(p_box, a), find_light_side(p_box, b)) >= 0;
-	const uint known = find_known_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
+	const uint packed_weight = find_packed_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
 			load_count_plane0(edge), load_count_plane1(edge));
-	r_is_used = is_in_reach && known != COUNT_ADDS_NOTHING;
-	r_least_share = r_is_used ? min(r_least_share, find_least_share(p_box, a, b)) : r_least_share;
-	return p_index | known << COUNT_KNOWN_SHIFT;
+	r_is_used = is_in_reach && packed_weight != COUNT_ADDS_NOTHING;
+	r_min_fraction = r_is_used ? min(r_min_fraction, find_min_fraction(p_box, a, b)) : r_min_fraction;
+	return p_index | packed_weight << COUNT_PACKED_WEIGHT_SHIFT;
 }
 
-/// Appends the entries of those invocations that use theirs.
+/// Appends the entries of all invocations with p_is_used to the list.
 void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
 	const uvec4 used = subgroup_ballot(p_is_used);
 	const uint begin = r_chain.edge_count % size;
 	const uint end = begin + subgroupBallotBitCount(used);
 	uint chunk = r_chain.chunk;
-	const bool is_full = end > begin && (begin == 0u || end > size);
-	if (is_full) {
+	// The chain needs another chunk.
+	const bool needs_chunk = end > begin && (begin == 0u || end > size);
+	if (needs_chunk) {
 		if (subgroupElect()) {
 			chunk = atomicAdd(dispatches[EDGE_COUNT_DISPATCH_CHUNKS], 1u);
 			if (r_chain.edge_count > 0u && max(r_chain.chunk, chunk) < light.chunk_capacity) {
@@ -265,8 +271,8 @@ void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 	r_chain.edge_count += end - begin;
 }
 
-/// Puts those of the chosen bundles that a part needs into held_items, and returns how many.
-uint hold_bundles(CountBox p_box, uint p_needed_count) {
+/// Collects in candidates those of the tile's needed bundles that a part may need. Returns their number.
+uint collect_part_bundles(CountBox p_box, uint p_needed_count) {
 	uint count = 0u;
 	uint first = 0u;
 	do {
@@ -275,7 +281,7 @@ uint hold_bundles(CountBox p_box, uint p_needed_count) {
 		const bool is_used = item < p_needed_count && may_use_bundle(p_box, load_count_bundle(bundle));
 		const uvec4 used = subgroup_ballot(is_used);
 		if (is_used) {
-			held_items[count + subgroupBallotExclusiveBitCount(used)] = bundle;
+			candidates[count + subgroupBallotExclusiveBitCount(used)] = bundle;
 		}
 		count += subgroupBallotBitCount(used);
 		first += GROUP_SIZE;
@@ -285,118 +291,122 @@ uint hold_bundles(CountBox p_box, uint p_needed_count) {
 	return count;
 }
 
-/// Lists the edges that a part needs of p_edge_count in held_items: these, or those of the bundles there.
-void list_held(CountBox p_box, bool p_has_bundles, uint p_edge_count, inout float r_least_share, inout Chain r_chain) {
+/// Tests p_edge_count edges and lists those that a part may need. candidates has these edges, or their bundles if
+/// p_has_bundles.
+void list_candidates(CountBox p_box, bool p_has_bundles, uint p_edge_count,
+		inout float r_min_fraction, inout Chain r_chain) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	const uint most = find_edge_count();
+	const uint light_edge_count = find_edge_count();
 	uint first = 0u;
 	do {
 		const uint item = first + gl_SubgroupInvocationID;
-		const uint held_index = item < p_edge_count ? item : 0u;
-		const uint held = held_items[p_has_bundles ? held_index / size : held_index];
-		const uint index = p_has_bundles ? held * size + held_index % size : held;
-		const bool is_there = item < p_edge_count && index < most;
+		const uint candidate_index = item < p_edge_count ? item : 0u;
+		const uint candidate = candidates[p_has_bundles ? candidate_index / size : candidate_index];
+		const uint index = p_has_bundles ? candidate * size + candidate_index % size : candidate;
+		const bool is_valid = item < p_edge_count && index < light_edge_count;
 		bool is_used;
-		const uint entry = test_edge(p_box, is_there ? index : 0u, is_used, r_least_share);
-		append_edges(entry, is_there && is_used, r_chain);
+		const uint entry = test_edge(p_box, is_valid ? index : 0u, is_used, r_min_fraction);
+		append_edges(entry, is_valid && is_used, r_chain);
 		first += GROUP_SIZE;
 		++iteration_count;
 	} while (first < p_edge_count);
 }
 
-/// Lists what each part needs of the chosen bundles, or of p_held_count edges in held_items; one of both numbers is 0.
-void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count, uint p_held_count) {
+/// Lists for each part the edges that it may need, out of p_needed_count bundles in needed_bundles or of
+/// p_candidate_edge_count edges in candidates. One of the two numbers is 0.
+void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count, uint p_candidate_edge_count) {
 	sync_subgroup_memory();
 	const bool has_bundles = p_needed_count > 0u;
-	uint parts = p_needed_count + p_held_count > 0u ? p_parts : 0u;
+	uint parts = p_needed_count + p_candidate_edge_count > 0u ? p_parts : 0u;
 	do {
-		const bool is_there = parts != 0u;
-		const uint i = is_there ? uint(findLSB(parts)) : 0u;
+		const bool is_valid = parts != 0u;
+		const uint i = is_valid ? uint(findLSB(parts)) : 0u;
 		const CountBox box = make_count_box(light, load_count_view(p_view), load_box(p_tile, p_parts, i));
 		Chain chain = part_chains[i];
-		float least_share = COUNT_FAR;
-		const uint bundle_count = hold_bundles(box, is_there ? p_needed_count : 0u);
-		const uint edge_count = has_bundles ? bundle_count * uint(EDGE_COUNT_BUNDLE_SIZE) : p_held_count;
-		list_held(box, has_bundles, is_there ? edge_count : 0u, least_share, chain);
-		chain.is_smooth = chain.is_smooth && subgroup_all(least_share >= box.smooth_share);
-		if (is_there && gl_SubgroupInvocationID == 0u) {
+		float min_fraction = COUNT_FAR;
+		const uint bundle_count = collect_part_bundles(box, is_valid ? p_needed_count : 0u);
+		const uint edge_count = has_bundles ? bundle_count * uint(EDGE_COUNT_BUNDLE_SIZE) : p_candidate_edge_count;
+		list_candidates(box, has_bundles, is_valid ? edge_count : 0u, min_fraction, chain);
+		chain.is_smooth = chain.is_smooth && subgroup_all(min_fraction >= box.smooth_fraction);
+		if (is_valid && gl_SubgroupInvocationID == 0u) {
 			part_chains[i] = chain;
 		}
 		++iteration_count;
 		parts &= parts - 1u;
-	} while (parts != 0u && iteration_count < MOST_ITERATIONS);
+	} while (parts != 0u && iteration_count < MAX_ITERATIONS);
 	sync_subgroup_memory();
 }
 
-/// Puts edges of the chosen bundles that the tile needs into held_items, from r_first on until all are tested or there
-/// may be no room, and returns how many.
-uint hold_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
+/// Collects in candidates the edges of needed_bundles that the tile may need, from r_first on, until all are tested or
+/// the next ones may not fit. Returns their number. r_first becomes the edge to continue from.
+uint collect_tile_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	const uint most = find_edge_count();
+	const uint light_edge_count = find_edge_count();
 	uint count = 0u;
 	do {
 		const uint item = r_first + gl_SubgroupInvocationID;
-		const uint wanted_index = item < p_item_count ? item : 0u;
-		const uint index = needed_bundles[wanted_index / size] * size + wanted_index % size;
-		const bool is_there = item < p_item_count && index < most;
-		const CountEdgeRecord edge = load_count_edge(is_there ? index : 0u);
+		const uint item_index = item < p_item_count ? item : 0u;
+		const uint index = needed_bundles[item_index / size] * size + item_index % size;
+		const bool is_valid = item < p_item_count && index < light_edge_count;
+		const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
 		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
 		const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
-		const bool is_held = is_there &&
+		const bool is_candidate = is_valid &&
 				(is_edge_in_reach(p_pair.near, a, b) || (p_pair.count > 1u && is_edge_in_reach(p_pair.far, a, b)));
-		const uvec4 held = subgroup_ballot(is_held);
-		if (is_held) {
-			held_items[count + subgroupBallotExclusiveBitCount(held)] = index;
+		const uvec4 candidate = subgroup_ballot(is_candidate);
+		if (is_candidate) {
+			candidates[count + subgroupBallotExclusiveBitCount(candidate)] = index;
 		}
-		count += subgroupBallotBitCount(held);
+		count += subgroupBallotBitCount(candidate);
 		r_first += GROUP_SIZE;
 		++iteration_count;
-	} while (r_first < p_item_count && count + GROUP_SIZE <= MOST_HELD);
+	} while (r_first < p_item_count && count + GROUP_SIZE <= MAX_CANDIDATES);
 	return count;
 }
 
-/// Lists the edges of the chosen bundles that the tile's parts need.
+/// Lists for each part the edges of needed_bundles that it may need.
 void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count) {
-	const bool is_deep = uint(bitCount(p_parts)) > BLOCKS_PER_TILE;
-	const uint item_count = is_deep ? 0u : p_needed_count * uint(EDGE_COUNT_BUNDLE_SIZE);
+	const bool has_split_block = uint(bitCount(p_parts)) > BLOCKS_PER_TILE; // some block has several parts
+	const uint item_count = has_split_block ? 0u : p_needed_count * uint(EDGE_COUNT_BUNDLE_SIZE);
 	uint first = 0u;
 	do {
-		const uint held_count = hold_edges(p_pair, item_count, first);
-		list_parts(p_tile, p_view, p_parts, is_deep ? p_needed_count : 0u, held_count);
-	} while (first < item_count && iteration_count < MOST_ITERATIONS);
+		const uint candidate_edge_count = collect_tile_edges(p_pair, item_count, first);
+		list_parts(p_tile, p_view, p_parts, has_split_block ? p_needed_count : 0u, candidate_edge_count);
+	} while (first < item_count && iteration_count < MAX_ITERATIONS);
 }
 
-// Through lists of faces. So many that no size of the map reaches it in usual scenes: what a block is does not depend on
-// that. So few that the views of an omni light stay below llvmpipe's limit.
-const uint MOST_STEPS = 2048u;
+// Limit of steps through lists of faces. High enough that usual scenes do not reach it with any size of the map, so
+// that the kind of a block does not depend on the map. Low enough that the views of an omni light stay below llvmpipe's
+// limit of iterations.
+const uint MAX_STEPS = 2048u;
 uint step_count = 0u;
 
-/// True where the face is wholly before the receivers of the box, or wholly behind them.
-bool is_face_off(CountBox p_box, uint p_face) {
+/// True if the whole face is in front of all receivers of the box, towards the light, or behind all of them.
+bool is_face_irrelevant(CountBox p_box, uint p_face) {
 	const CountFaceRecord face = load_count_face(p_face);
 	const vec3 a = uintBitsToFloat(face.a_kind.xyz);
 	const vec3 b = uintBitsToFloat(face.b.xyz);
 	const vec3 c = uintBitsToFloat(face.c.xyz);
-	const float least_before =
+	const float min_in_front =
 			min(find_linear(p_box.below, a), min(find_linear(p_box.below, b), find_linear(p_box.below, c)));
-	const float most_behind =
+	const float max_behind =
 			max(find_linear(p_box.above, a), max(find_linear(p_box.above, b), find_linear(p_box.above, c)));
-	return least_before > p_box.margin || most_behind < -p_box.margin;
+	return min_in_front > p_box.margin || max_behind < -p_box.margin;
 }
 
-/// True where no receiver of the box can be on another side of a face than the others, of all faces that the texels
-/// p_first..p_last list.
-bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
+/// True if no face that the texels p_first..p_last list can separate receivers of the box: all are on the same side of
+/// its plane, or the face is entirely in front of them or behind them. False if the test takes too many steps.
+bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	uvec2 texel = p_first;
 	uint next = load_count_first_node(p_view, texel);
-	const uint end = step_count + MOST_STEPS;
-	bool is_aside = true;
-	// One loop over all lists: a loop takes as many iterations as its slowest invocation.
-	while (texel.y <= p_last.y && is_aside) {
+	const uint end = step_count + MAX_STEPS;
+	bool is_one_sided = true;
+	// A single loop over all lists, since each loop takes as many iterations as its slowest invocation.
+	while (texel.y <= p_last.y && is_one_sided) {
 		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
 		const vec4 plane = load_count_plane(node.x);
-		const bool is_known = next == 0u || find_count_side(p_box, plane) != 0 || is_face_off(p_box, node.x);
-		is_aside = is_known && step_count < end;
+		const bool is_known = next == 0u || find_count_side(p_box, plane) != 0 || is_face_irrelevant(p_box, node.x);
+		is_one_sided = is_known && step_count < end;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
 		texel.x = is_row_end ? p_first.x : (is_end ? texel.x + 1u : texel.x);
@@ -404,20 +414,20 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 		next = is_end ? load_count_first_node(p_view, min(texel, p_last)) : node.y;
 		++step_count;
 	}
-	return is_aside;
+	return is_one_sided;
 }
 
-/// What is known of the solids between all receivers of a box and the light's centre, where no edge passes between:
-/// their number changes only through a face. MAY_VARY: a face may part the receivers.
+/// The flag of block_solids for a box whose receivers need no edge: then the number of solids in front of the light's
+/// centre changes only across a face.
 uint find_box_solids(uint p_view, CountBounds p_bounds) {
 	const CountViewConstants view = load_count_view(p_view);
 	const CountBox box = make_count_box(light, view, p_bounds);
-	const vec2 least = box.center - box.half_size;
-	const vec2 greatest = box.center + box.half_size;
-	const bool is_inside = all(greaterThanEqual(least, -view.half_extent)) &&
-			all(lessThanEqual(greatest, view.half_extent));
+	const vec2 minimum = box.center - box.half_size;
+	const vec2 maximum = box.center + box.half_size;
+	const bool is_inside = all(greaterThanEqual(minimum, -view.half_extent)) &&
+			all(lessThanEqual(maximum, view.half_extent));
 	const bool is_even = is_inside &&
-			are_faces_aside(box, p_view, find_count_texel(p_view, least), find_count_texel(p_view, greatest));
+			has_no_separating_face(box, p_view, find_count_texel(p_view, minimum), find_count_texel(p_view, maximum));
 	// A receiver in the middle of the box.
 	const float w = dot(box.slope, box.center) + box.range.x;
 	const vec3 in_view = box.is_directional ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
@@ -429,8 +439,8 @@ uint find_box_solids(uint p_view, CountBounds p_bounds) {
 	return solids == 0 ? SOME_ARE_LIT : SOME_ARE_DARK;
 }
 
-/// Looks for faces that part receivers: adds what is known of parts that have no edges, and where there are edges,
-/// a block with such a face is not smooth. One invocation a part.
+/// Looks for faces that may separate receivers of a part. Sets the flags of block_solids from parts without edges. If
+/// such a face is in a part with edges, the block is not smooth. One invocation per part.
 void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 	uint first = 0u;
 	do {
@@ -438,8 +448,8 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 		const CountBounds bounds = load_box(p_tile, p_parts, i);
 		const uint block = i % BLOCKS_PER_TILE;
 		const bool has_edges = part_chains[min(i, PARTS_PER_TILE - 1u)].edge_count > 0u;
-		// Without edges a light of size 0 has borders all the same.
-		const bool is_needed = !is_count_bounds_empty(bounds) && light.most_edges > 0u &&
+		// A light of size 0 lists no edges, but its shadows have borders.
+		const bool is_needed = !is_count_bounds_empty(bounds) && light.max_edge_count > 0u &&
 				(!has_edges || blocks_are_smooth[block] != 0u);
 		if (is_needed) {
 			const uint solids = find_box_solids(p_view, bounds);
@@ -452,7 +462,7 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 	} while (is_part_left(p_parts, first));
 }
 
-/// Lists the edges of one view.
+/// Lists the edges that the tile's receivers in one view may need.
 void list_view(uvec2 p_tile, uint p_view) {
 	const uint bundle_count = find_bundle_count(find_edge_count());
 	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
@@ -465,7 +475,7 @@ void list_view(uvec2 p_tile, uint p_view) {
 	do {
 		const uint needed_count = choose_bundles(pair, bundle_count, next);
 		list_bundles(pair, p_tile, p_view, parts, needed_count);
-	} while (next < bundle_count && iteration_count < MOST_ITERATIONS);
+	} while (next < bundle_count && iteration_count < MAX_ITERATIONS);
 	for (uint first = 0u; first < PARTS_PER_TILE && parts >> first != 0u; first += GROUP_SIZE) {
 		const uint i = first + gl_SubgroupInvocationID;
 		if (i < PARTS_PER_TILE && (parts >> i & 1u) != 0u) {
@@ -474,7 +484,7 @@ void list_view(uvec2 p_tile, uint p_view) {
 			chains[first_word + uint(EDGE_COUNT_CHAIN_FIRST)] = chain.first;
 			chains[first_word + uint(EDGE_COUNT_CHAIN_COUNT)] = chain.edge_count;
 			atomicAdd(block_edge_counts[i % BLOCKS_PER_TILE], chain.edge_count);
-			// Chunks are taken in the order of their numbers: the last one has room where all have.
+			// Chunks are allocated in increasing order: if the last one fits, all do.
 			if (chain.edge_count > 0u && chain.chunk >= light.chunk_capacity) {
 				blocks_have_room[i % BLOCKS_PER_TILE] = 0u;
 			}
@@ -487,7 +497,7 @@ void list_view(uvec2 p_tile, uint p_view) {
 	check_faces_of_view(p_tile, p_view, parts);
 }
 
-/// Puts the block into the list of its kind. In no order: what a block's pixels get does not depend on it.
+/// Adds a block to the list of its kind. The order is arbitrary and does not affect the mask.
 void add_block(uint p_entry, uint p_kind) {
 	const uint first = 3u * p_kind;
 	const uint slot = atomicAdd(dispatches[first], 1u);
@@ -506,7 +516,7 @@ void main() {
 		views |= (parts & EDGE_COUNT_IS_SORTED) != 0u ? view : parts & EDGE_COUNT_PARTS_MASK;
 		block_edge_counts[i] = 0u;
 		blocks_have_room[i] = 1u;
-		// Where a face cuts the disc, its line there moves as the disc turns.
+		// A line along which a face cuts the disc moves as the disc turns to face other receivers.
 		blocks_are_smooth[i] = (parts & EDGE_COUNT_IS_SMOOTH) != 0u && find_cut_face_count() == 0u ? 1u : 0u;
 		block_solids[i] = (parts & EDGE_COUNT_IS_PARTLY_LIT) != 0u ? SOME_ARE_LIT : 0u;
 	}
@@ -514,18 +524,18 @@ void main() {
 	do {
 		list_view(tile, views != 0u ? uint(findLSB(views)) : 0u);
 		views &= views - 1u;
-	} while (views != 0u && iteration_count < MOST_ITERATIONS);
+	} while (views != 0u && iteration_count < MAX_ITERATIONS);
 	sync_subgroup_memory();
 	for (uint i = gl_SubgroupInvocationID; i < BLOCKS_PER_TILE; i += GROUP_SIZE) {
 		const uint block = find_block(tile, i);
 		if (block != NO_BLOCK) {
 			const uint edge_count = block_edge_counts[i];
 			const uint solids = block_solids[i];
-			const bool is_whole = iteration_count < MOST_ITERATIONS;
+			const bool is_whole = iteration_count < MAX_ITERATIONS;
 			uint kind = uint(blocks_are_smooth[i] != 0u ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
 			kind = is_whole && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);
 			kind = edge_count > light.budget ? uint(EDGE_COUNT_BLOCKS_FILTERED) : kind;
-			const bool is_even = light.most_edges > 0u && solids <= SOME_ARE_DARK;
+			const bool is_even = light.max_edge_count > 0u && solids <= SOME_ARE_DARK;
 			kind = is_whole && edge_count == 0u && find_cut_face_count() == 0u
 					? uint(is_even ? EDGE_COUNT_BLOCKS_EVEN : EDGE_COUNT_BLOCKS_PLAIN)
 					: kind;

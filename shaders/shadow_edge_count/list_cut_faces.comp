@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/cut_faces_inc.glsl"
 
-// Lists the faces that may cut the light's disc. One work group goes through all faces, so that the list has their order.
+// Lists the faces that may cut the light's disc. A single work group tests every face, so that the list has their
+// order.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -27,16 +28,16 @@ void main() {
 		const uint face = first + invocation;
 		are_cut[invocation] = face < light.face_count && is_cut_face(light, faces[face]) ? 1u : 0u;
 		barrier();
-		uint before = 0u;
-		uint all = 0u;
+		uint preceding_count = 0u;
+		uint total_count = 0u;
 		for (uint i = 0u; i < GROUP_SIZE; ++i) {
-			before += i < invocation ? are_cut[i] : 0u;
-			all += are_cut[i];
+			preceding_count += i < invocation ? are_cut[i] : 0u;
+			total_count += are_cut[i];
 		}
 		if (are_cut[invocation] != 0u) {
-			cut_faces[count + before] = face;
+			cut_faces[count + preceding_count] = face;
 		}
-		count += all;
+		count += total_count;
 		barrier();
 	}
 	if (invocation == 0u) {

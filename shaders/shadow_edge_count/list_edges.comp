@@ -3,9 +3,9 @@
 #include "common/ordered_list_inc.glsl"
 #include "shadow_edge_count/caster_positions_inc.glsl"
 
-// Records the marked edges of one caster in the list of all, behind those of the casters before, in
-// their own order, so that no sum depends on scheduling. One invocation per word. The last caster's
-// pass writes how many there are.
+// Writes the marked edges of one caster to the light's list, after those of the preceding casters
+// and in mesh order, so that no sum depends on scheduling. One invocation per word. The last
+// caster's pass writes the total number of edges.
 layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
 layout(std430, set = 0, binding = FIND_BINDING_MESH_EDGES) readonly buffer MeshEdges {
 	CountMeshEdge mesh_edges[];
@@ -46,7 +46,7 @@ void main() {
 	const uint word_count = (push.edge_count + uint(EDGE_COUNT_EDGES_PER_WORD) - 1u) /
 			uint(EDGE_COUNT_EDGES_PER_WORD);
 	const uint first_word = gl_WorkGroupID.x * uint(EDGE_COUNT_WORDS_PER_BLOCK);
-	// All blocks before, other casters' too: one list for all.
+	// Counts the edges of all preceding blocks, including those of other casters: there is one list for all.
 	uint index = find_list_index(uint(EDGE_COUNT_WORDS_PER_BLOCK), 0u, push.first_block + gl_WorkGroupID.x,
 			push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {

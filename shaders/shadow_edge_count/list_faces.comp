@@ -3,9 +3,9 @@
 #include "shadow_edge_count/cut_faces_inc.glsl"
 #include "shadow_edge_count/texel_rows_inc.glsl"
 
-// Lists the light's faces in the texels of one view's map that they may cover, each list linked, in no order:
-// what is counted does not depend on it. Nodes beyond the capacity are only counted: then a further attempt
-// with larger texels follows. One invocation per face; large faces are shared out among all of the group.
+// Adds each of the light's faces to the lists of the texels that it may cover in one view's map. The lists are linked
+// and unordered, which does not affect the count of solids. Nodes beyond the capacity are only counted, and a further
+// attempt with larger texels follows. One invocation per face; the whole work group processes the rows of large faces.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -26,7 +26,7 @@ layout(push_constant) uniform Push {
 	CountFaceListPush push;
 };
 
-const int LARGE_ROWS = 8; // a face that covers more is shared out
+const int LARGE_ROWS = 8; // faces that cover more rows are processed by the whole work group
 shared uint large_count;
 shared uint large_faces[FACE_LIST_GROUP_SIZE];
 
@@ -35,8 +35,9 @@ TexelRows find_rows(uint p_face, uint p_level) {
 			uintBitsToFloat(faces[p_face].b.xyz), uintBitsToFloat(faces[p_face].c.xyz));
 }
 
-void add_texel(uint p_face, uint p_head, uint p_node, bool p_is_there) {
-	const bool has_room = p_is_there && p_node < light.node_capacity;
+/// Inserts node p_node, with the face, at the head of a texel's list, if the node fits.
+void add_texel(uint p_face, uint p_head, uint p_node, bool p_is_valid) {
+	const bool has_room = p_is_valid && p_node < light.node_capacity;
 	if (has_room) {
 		nodes[push.view * light.node_capacity + p_node] = uvec2(p_face, atomicExchange(heads[p_head], p_node + 1u));
 	}
@@ -57,8 +58,8 @@ void add_small_face(uint p_face, TexelRows p_rows) {
 	}
 }
 
-/// Takes the nodes of a row at once, and extends the lists of four texels one behind the other: GPUs take long to
-/// answer, and a large face has thousands of texels.
+/// Allocates the nodes of a row with one atomic, and extends the lists of four texels in a row: atomics have a long
+/// latency on GPUs, and a large face covers thousands of texels.
 void add_row(uint p_face, int p_row, ivec2 p_columns) {
 	const uint head = find_head(p_row, p_columns.x);
 	const uint count = uint(max(p_columns.y - p_columns.x + 1, 0));

@@ -3,8 +3,8 @@
 #include "shadow_edge_count/caster_positions_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-// Marks the edges of one caster that receivers may have to count: one invocation makes one word of 32
-// edges, one work group counts those of its block.
+// Marks the edges of one caster that receivers may have to count. Each invocation writes one word of 32
+// edges, and each work group counts the marked edges of its block.
 layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
 layout(std430, set = 0, binding = FIND_BINDING_MESH_EDGES) readonly buffer MeshEdges {
 	CountMeshEdge mesh_edges[];
@@ -26,8 +26,8 @@ int find_side(uint p_face) {
 			push.side_tolerance, planes[push.first_face + (p_face & EDGE_COUNT_FACE_MASK)]);
 }
 
-/// False where the whole light is on one side of both faces: no point of it sees a silhouette. A boundary
-/// edge always is one.
+/// False if the whole light is on the same side of both faces, so that no point of it sees a silhouette. Always
+/// true for a boundary edge.
 bool may_be_silhouette(CountMeshEdge p_edge) {
 	const CountEdgeKind kind = make_count_kind(p_edge.face0, p_edge.face1);
 	if (!kind.has_face1) {

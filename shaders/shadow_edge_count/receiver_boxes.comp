@@ -10,15 +10,15 @@
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
 // Splits each block's receivers into parts and computes their bounds. One subgroup per block.
-layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
+layout(local_size_x_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) writeonly buffer Boxes {
 	CountBlockBox boxes[];
 };
-layout(std430, set = 0, binding = COUNT_BINDING_RECEIVES) writeonly buffer Receives {
-	uint receives[]; // of each block, EDGE_COUNT_RECEIVES_*
+layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) writeonly buffer BlockReceivers {
+	uint block_receivers[]; // per block, EDGE_COUNT_RECEIVERS_*
 };
 
-const uint GROUP_SIZE = gl_WorkGroupSize.x;
+const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
 #include "common/subgroup_inc.glsl"
 
@@ -26,8 +26,8 @@ const uint PIXEL_COUNT = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
 const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
 const uint NO_VIEW = 0xffffffffu;
 
-/// The receiver of one of the block's pixels. Its view is NO_VIEW where there is none, or none that a caster
-/// can hide; then r_is_lit states which.
+/// The receiver of one of the block's pixels. Its view is NO_VIEW if there is none, or if no caster can hide it. In the
+/// latter case r_is_lit becomes true.
 CountPoint load_point(uint p_index, inout bool r_is_lit) {
 	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * uint(EDGE_COUNT_BLOCK_PX) +
 			find_pixel_in_block(p_index));
@@ -43,25 +43,26 @@ CountPoint load_point(uint p_index, inout bool r_is_lit) {
 	return point;
 }
 
-/// How far a receiver is from the camera in metres.
+/// Distance of a receiver from the camera in metres.
 float find_depth(CountPoint p_point) {
 	return distance(p_point.position, light_from_camera[3].xyz);
 }
 
-/// Receivers at such depths are far apart.
-bool is_apart(vec2 p_depth_range) {
-	const float APART_SIZES = 0.05; // of S
-	return p_depth_range.y - p_depth_range.x > APART_SIZES * light.scene_size_m;
+/// True if distances from the camera differ so much that the receivers are sorted by distance.
+bool needs_sorting(vec2 p_depth_range) {
+	const float MIN_SORTED_RANGE_SIZES = 0.05; // of S
+	return p_depth_range.y - p_depth_range.x > MIN_SORTED_RANGE_SIZES * light.scene_size_m;
 }
 
-/// The bounds of some of the block's receivers, about the plane of one of them. Empty where there is none.
-CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_here[PIXELS_PER_INVOCATION]) {
+/// The bounds of the receivers for which p_is_selected is true, relative to the plane of one of them. Empty if there is
+/// none.
+CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_selected[PIXELS_PER_INVOCATION]) {
 	CountBounds bounds = make_count_bounds();
 	bool is_any = false;
 	vec2 slope = vec2(0.0);
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-		slope = p_is_here[i] && !is_any ? p_points[i].slope : slope;
-		is_any = is_any || p_is_here[i];
+		slope = p_is_selected[i] && !is_any ? p_points[i].slope : slope;
+		is_any = is_any || p_is_selected[i];
 	}
 	const uvec4 lanes = subgroup_ballot(is_any);
 	const uint leader = subgroup_any(is_any) ? subgroupBallotFindLSB(lanes) : 0u;
@@ -69,39 +70,39 @@ CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_he
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const vec3 warped = p_points[i].warped;
 		const float range = warped.z - dot(slope, warped.xy);
-		bounds.least = p_is_here[i] ? min(bounds.least, warped.xy) : bounds.least;
-		bounds.greatest = p_is_here[i] ? max(bounds.greatest, warped.xy) : bounds.greatest;
-		bounds.range.x = p_is_here[i] ? min(bounds.range.x, range) : bounds.range.x;
-		bounds.range.y = p_is_here[i] ? max(bounds.range.y, range) : bounds.range.y;
+		bounds.minimum = p_is_selected[i] ? min(bounds.minimum, warped.xy) : bounds.minimum;
+		bounds.maximum = p_is_selected[i] ? max(bounds.maximum, warped.xy) : bounds.maximum;
+		bounds.range.x = p_is_selected[i] ? min(bounds.range.x, range) : bounds.range.x;
+		bounds.range.y = p_is_selected[i] ? max(bounds.range.y, range) : bounds.range.y;
 	}
-	return CountBounds(subgroup_min(bounds.least), subgroup_max(bounds.greatest), slope,
+	return CountBounds(subgroup_min(bounds.minimum), subgroup_max(bounds.maximum), slope,
 			vec2(subgroup_min(bounds.range.x), subgroup_max(bounds.range.y)));
 }
 
 void write_box(uint p_block, uint p_part, CountBounds p_bounds) {
 	if (subgroupElect()) {
 		boxes[p_block * PART_COUNT + p_part] = CountBlockBox(
-				vec4(p_bounds.least, p_bounds.greatest), vec4(p_bounds.slope, p_bounds.range));
+				vec4(p_bounds.minimum, p_bounds.maximum), vec4(p_bounds.slope, p_bounds.range));
 	}
 }
 
 shared float sort_keys[PIXEL_COUNT];
 shared uint sorted_pixels[PIXEL_COUNT];
 
-/// Sorts the block's pixels from the camera on, those without a receiver to the end, and writes their order and
-/// the boxes of their parts, each of which has the same range of distances from the camera. All receivers are in one
-/// view. Returns the parts that are there.
+/// Sorts the block's pixels by distance from the camera, those without a receiver last. Writes their order, and the
+/// boxes of their parts, which divide the range of distances evenly. All receivers must be in one view. Returns the bit
+/// mask of parts that have receivers.
 uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2 p_depth_range) {
-	const float PART_COUNTED = float(EDGE_COUNT_SORTED_PARTS);
-	const float parts_per_m = PART_COUNTED / (p_depth_range.y - p_depth_range.x);
+	const float SORTED_PART_COUNT = float(EDGE_COUNT_SORTED_PARTS);
+	const float parts_per_m = SORTED_PART_COUNT / (p_depth_range.y - p_depth_range.x);
 	float depths[PIXELS_PER_INVOCATION];
 	uint parts[PIXELS_PER_INVOCATION];
 	uint ranks[PIXELS_PER_INVOCATION];
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
-		const bool is_here = p_points[i].view != NO_VIEW;
-		depths[i] = is_here ? find_depth(p_points[i]) : COUNT_FAR;
-		parts[i] = is_here ? uint(clamp((depths[i] - p_depth_range.x) * parts_per_m, 0.0, PART_COUNTED - 1.0)) : 0u;
+		const bool is_selected = p_points[i].view != NO_VIEW;
+		depths[i] = is_selected ? find_depth(p_points[i]) : COUNT_FAR;
+		parts[i] = is_selected ? uint(clamp((depths[i] - p_depth_range.x) * parts_per_m, 0.0, SORTED_PART_COUNT - 1.0)) : 0u;
 		ranks[i] = 0u;
 		if (pixel < PIXEL_COUNT) {
 			sort_keys[pixel] = depths[i];
@@ -123,40 +124,41 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 	}
 	sync_subgroup_memory();
 	for (uint i = gl_SubgroupInvocationID; i < PIXEL_COUNT / 4u; i += GROUP_SIZE) {
-		receives[p_block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_ORDER) + i] =
+		block_receivers[p_block * uint(EDGE_COUNT_RECEIVERS_WORDS) + uint(EDGE_COUNT_RECEIVERS_ORDER) + i] =
 				sorted_pixels[4u * i] | sorted_pixels[4u * i + 1u] << 8 | sorted_pixels[4u * i + 2u] << 16 |
 				sorted_pixels[4u * i + 3u] << 24;
 	}
 	uint found = 0u;
 	for (uint part = 0u; part < uint(EDGE_COUNT_SORTED_PARTS); ++part) {
-		bool is_here[PIXELS_PER_INVOCATION];
+		bool is_selected[PIXELS_PER_INVOCATION];
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-			is_here[i] = p_points[i].view != NO_VIEW && parts[i] == part;
+			is_selected[i] = p_points[i].view != NO_VIEW && parts[i] == part;
 		}
-		const CountBounds bounds = find_bounds(p_points, is_here);
+		const CountBounds bounds = find_bounds(p_points, is_selected);
 		write_box(p_block, part, bounds);
 		found |= is_count_bounds_empty(bounds) ? 0u : 1u << part;
 	}
 	return found;
 }
 
-/// True where each pixel has a receiver, and its position changes evenly from pixel to pixel: by no more than a part
-/// of the block's size otherwise than over the plane through three corners. All receivers are in one view.
+/// True if each pixel has a receiver, and positions change evenly from pixel to pixel: they deviate from a linear
+/// function through three corners of the block by no more than MAX_DEVIATION of the block's size. All receivers must
+/// be in one view.
 bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
-	const float MOST_DEVIATION = 0.25;
-	const uint RIGHT = 21u; // as find_pixel_in_block has it: bits of x are the even ones
-	const uint TOP = 42u;
+	const float MAX_DEVIATION = 0.25;
+	const uint RIGHT = 21u; // indices of two corners, see find_pixel_in_block: the even bits are those of x
+	const uint BOTTOM = 42u;
 	const vec3 corner = subgroupShuffle(p_points[0].position, 0u);
 	const vec3 right = subgroupShuffle(p_points[RIGHT / GROUP_SIZE].position, RIGHT % GROUP_SIZE) - corner;
-	const vec3 top = subgroupShuffle(p_points[TOP / GROUP_SIZE].position, TOP % GROUP_SIZE) - corner;
-	const float most = MOST_DEVIATION * MOST_DEVIATION * max(dot(right, right), dot(top, top));
+	const vec3 bottom = subgroupShuffle(p_points[BOTTOM / GROUP_SIZE].position, BOTTOM % GROUP_SIZE) - corner;
+	const float max_square = MAX_DEVIATION * MAX_DEVIATION * max(dot(right, right), dot(bottom, bottom));
 	bool is_even = true;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
-		const vec2 share = vec2(find_pixel_in_block(pixel)) / float(EDGE_COUNT_BLOCK_PX - 1);
-		const vec3 deviation = p_points[i].position - corner - share.x * right - share.y * top;
+		const vec2 fraction = vec2(find_pixel_in_block(pixel)) / float(EDGE_COUNT_BLOCK_PX - 1);
+		const vec3 deviation = p_points[i].position - corner - fraction.x * right - fraction.y * bottom;
 		is_even = is_even &&
-				(pixel >= PIXEL_COUNT || (p_points[i].view != NO_VIEW && dot(deviation, deviation) <= most));
+				(pixel >= PIXEL_COUNT || (p_points[i].view != NO_VIEW && dot(deviation, deviation) <= max_square));
 	}
 	return subgroup_all(is_even);
 }
@@ -174,7 +176,7 @@ void main() {
 	bool is_deep = false;
 	vec2 depth_range = vec2(0.0);
 	while (true) {
-		// The first of the views that are left.
+		// The next view that contains a receiver.
 		uint next = NO_VIEW;
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 			next = points[i].view >= view ? min(next, points[i].view) : next;
@@ -183,18 +185,18 @@ void main() {
 		if (view == NO_VIEW) {
 			break;
 		}
-		bool is_here[PIXELS_PER_INVOCATION];
-		float least = COUNT_FAR;
-		float greatest = -COUNT_FAR;
+		bool is_selected[PIXELS_PER_INVOCATION];
+		float minimum = COUNT_FAR;
+		float maximum = -COUNT_FAR;
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-			is_here[i] = points[i].view == view;
+			is_selected[i] = points[i].view == view;
 			const float depth = find_depth(points[i]);
-			least = is_here[i] ? min(least, depth) : least;
-			greatest = is_here[i] ? max(greatest, depth) : greatest;
+			minimum = is_selected[i] ? min(minimum, depth) : minimum;
+			maximum = is_selected[i] ? max(maximum, depth) : maximum;
 		}
-		write_box(block, view, find_bounds(points, is_here));
-		depth_range = vec2(subgroup_min(least), subgroup_max(greatest));
-		is_deep = is_deep || is_apart(depth_range);
+		write_box(block, view, find_bounds(points, is_selected));
+		depth_range = vec2(subgroup_min(minimum), subgroup_max(maximum));
+		is_deep = is_deep || needs_sorting(depth_range);
 		parts |= 1u << view;
 		++view;
 	}
@@ -203,10 +205,11 @@ void main() {
 		parts |= is_smooth(points) ? EDGE_COUNT_IS_SMOOTH : 0u;
 	}
 	if (has_one_view && is_deep) {
-		parts = write_sorted(block, points, depth_range) | uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
+		parts = write_sorted(block, points, depth_range) |
+				uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
 	}
 	parts |= subgroup_any(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u;
 	if (subgroupElect()) {
-		receives[block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_PARTS)] = parts;
+		block_receivers[block * uint(EDGE_COUNT_RECEIVERS_WORDS) + uint(EDGE_COUNT_RECEIVERS_PARTS)] = parts;
 	}
 }

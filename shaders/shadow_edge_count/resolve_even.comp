@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/count_blocks_inc.glsl"
 
-// Resolves blocks whose receivers are known to be all lit, or all dark.
+// Resolves blocks whose receivers are either all lit or all dark.
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {

@@ -5,6 +5,6 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
-// As resolve.comp with 256 points of the light: four turns of 64.
-#define COUNT_TURN_COUNT 4
+// As resolve.comp, with 256 points of the light: four sets of 64.
+#define COUNT_SAMPLE_SET_COUNT 4
 #include "shadow_edge_count/count_mask_inc.glsl"

@@ -4,7 +4,7 @@
 #include "shadow_edge_count/count_blocks_inc.glsl"
 #include "shadow_edge_count/count_lists_inc.glsl"
 
-// Resolves blocks without edges: a receiver is lit when it sees the light's centre, else dark.
+// Resolves blocks without edges: a receiver is lit if it sees the light's centre, else dark.
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {

@@ -5,5 +5,5 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
-#define COUNT_TURN_COUNT 4
+#define COUNT_SAMPLE_SET_COUNT 4
 #include "shadow_edge_count/count_smooth_inc.glsl"

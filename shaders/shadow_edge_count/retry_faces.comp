@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// After an attempt to list a view's faces: where there was no room for all, the next one has larger texels.
-// Texels of twice the width hold about a quarter of the nodes; the last attempt has one texel, and a node a face.
+// Runs after an attempt to list a view's faces. If they did not fit, it prepares another attempt with larger texels:
+// twice the width needs about a quarter of the nodes. The final attempt has one texel, and needs one node per face.
 layout(local_size_x = 1) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -18,27 +18,27 @@ layout(push_constant) uniform Push {
 	CountFaceListPush push;
 };
 
-const uint MOST_LEVEL = 31u;
+const uint MAX_LEVEL = 31u;
 
 void main() {
 	const uint total = totals[EDGE_COUNT_TOTAL_NODES + push.view];
-	const bool is_short = total > light.node_capacity;
+	const bool has_overflowed = total > light.node_capacity;
 	const uvec2 size_px = light.views[push.view].map_size_px;
 	const uint group = uint(FACE_LIST_GROUP_SIZE);
-	if (is_short) {
+	if (has_overflowed) {
 		uint level = totals[EDGE_COUNT_TOTAL_LEVELS + push.view];
 		uint expected = total;
 		do {
 			++level;
 			expected /= 4u;
 		} while (expected > light.node_capacity);
-		totals[EDGE_COUNT_TOTAL_LEVELS + push.view] = push.is_last != 0u ? MOST_LEVEL : level;
+		totals[EDGE_COUNT_TOTAL_LEVELS + push.view] = push.is_next_final != 0u ? MAX_LEVEL : level;
 		totals[EDGE_COUNT_TOTAL_NODES + push.view] = 0u;
 	}
-	dispatches[FACE_LIST_DISPATCH_CLEAR] = is_short ? (size_px.x * size_px.y + group - 1u) / group : 0u;
+	dispatches[FACE_LIST_DISPATCH_CLEAR] = has_overflowed ? (size_px.x * size_px.y + group - 1u) / group : 0u;
 	dispatches[FACE_LIST_DISPATCH_CLEAR + 1] = 1u;
 	dispatches[FACE_LIST_DISPATCH_CLEAR + 2] = 1u;
-	dispatches[FACE_LIST_DISPATCH_LIST] = is_short ? (light.face_count + group - 1u) / group : 0u;
+	dispatches[FACE_LIST_DISPATCH_LIST] = has_overflowed ? (light.face_count + group - 1u) / group : 0u;
 	dispatches[FACE_LIST_DISPATCH_LIST + 1] = 1u;
 	dispatches[FACE_LIST_DISPATCH_LIST + 2] = 1u;
 }

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_map/bindings_inc.glsl"
 
-// Counts how many light points see each receiver, one point a pass; the last divides. Counts up to
-// 2^24 are exact in a float, so that the result does not depend on the order.
+// Counts how many of the light's points each receiver sees, one point per pass. The last pass divides by the number of
+// points. Counts up to 2^24 are exact in a float, so the result does not depend on the order.
 layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r32f) uniform image2D mask_image;
 
 void main() {
@@ -16,7 +16,7 @@ void main() {
 	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		seen = is_surely_lit(point, view, push.empty_views)
+		seen = is_trivially_lit(point, view, push.empty_views)
 				? 1.0
 				: lookup_hard(map_texture, light_views.views[view], point);
 	}

@@ -1,4 +1,4 @@
-// What resolve.comp and accumulate.comp both read in addition to the receivers: the maps of one light.
+// Bindings and push constants that resolve.comp and accumulate.comp have in common: the depth maps of one light.
 #ifndef BINDINGS_INC_GLSL
 #define BINDINGS_INC_GLSL
 

@@ -6,13 +6,13 @@
 
 /// Percentage-closer filter: the mean over a box of p_width x p_width texels around the receiver.
 /// Each texel is weighted by the fraction of it that the box covers, so that the result is
-/// continuous.
+/// continuous. Texels outside the map count as lit.
 float lookup_filtered(
 		texture2DArray p_map, LightViewConstants p_view, MapPoint p_point, int p_width) {
 	const vec2 low = texels_from_map(p_view, p_point.xy) - 0.5 * float(p_width);
 	const ivec2 first = ivec2(floor(low));
 	float lit = 0.0;
-	float total = 0.0; // in the same order, so that all lit is 1 and all hidden 0 exactly
+	float total = 0.0; // summed in the same order as `lit`, so that all lit is exactly 1
 	for (int y = 0; y <= p_width; ++y) {
 		for (int x = 0; x <= p_width; ++x) {
 			const ivec2 texel = first + ivec2(x, y);

@@ -3,8 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_map/bindings_inc.glsl"
 
+// Compares each receiver with the depth map: hard, or percentage-closer filtered.
 layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
-layout(constant_id = SHADOW_MAP_CONSTANT_FILTER_WIDTH) const int FILTER_WIDTH = 0; // 0 = hard
+layout(constant_id = SHADOW_MAP_CONSTANT_FILTER_WIDTH) const int FILTER_WIDTH = 0; // in texels; 0 = hard
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -15,7 +16,7 @@ void main() {
 	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		if (is_surely_lit(point, view, push.empty_views)) {
+		if (is_trivially_lit(point, view, push.empty_views)) {
 			visibility = 1.0;
 		} else if (FILTER_WIDTH == 0) {
 			visibility = lookup_hard(map_texture, light_views.views[view], point);

@@ -10,6 +10,7 @@ layout(push_constant) uniform Push {
 	ShadowPcssPush push;
 };
 
+// Percentage-closer soft shadows, one pixel per invocation.
 void main() {
 	const ivec2 pixel = find_pixel();
 	if (!is_in_image(pixel)) {
@@ -19,10 +20,10 @@ void main() {
 	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		visibility = point.w <= 0.0
+		visibility = point.w <= 0.0 // behind its view, or beyond the far plane
 				? 1.0
 				: pcss(map_texture, push.empty_views, light_views.views[view], point,
-						  push.disc_radius, push.nearest_w[view], push.tap_count,
+						  push.light_radius, push.nearest_w[view], push.tap_count,
 						  interleaved_noise(pixel) * TWO_PI);
 	}
 	imageStore(mask_image, pixel, vec4(visibility));

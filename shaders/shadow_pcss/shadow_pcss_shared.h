@@ -5,11 +5,11 @@
 
 /// Push constants of resolve.comp.
 struct SHARED_ALIGN ShadowPcssPush {
-	uint empty_views;  // bit i: view i has no casters, its layer was not drawn
-	uint tap_count;	   // of each of both steps
-	float disc_radius; // R in metres; directional: tangent of half the angular distance
+	uint empty_views;	// bit i: view i was not drawn, for lack of casters or receivers
+	uint tap_count;		// of the blocker search, and of the filter
+	float light_radius; // R in metres; directional: tangent of half the angular distance
 	float padding;
-	float nearest_w[8]; // of each view: no caster of it has a greater w, see LightViewConstants
+	float nearest_w[8]; // per view, at most 6: maximum w of its casters, see LightViewConstants
 };
 SHARED_SIZE(ShadowPcssPush, 48);
 

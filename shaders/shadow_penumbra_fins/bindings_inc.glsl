@@ -1,4 +1,4 @@
-// What resolve.comp, cases.comp and hard.comp read in addition to the receivers.
+// Bindings of resolve.comp, cases.comp and hard.comp in addition to those of common/map_resolve_inc.glsl.
 #ifndef BINDINGS_INC_GLSL
 #define BINDINGS_INC_GLSL
 

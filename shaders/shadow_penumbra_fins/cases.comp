@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/resolve_inc.glsl"
 
-// Debug view: the case, 1 to 6, of each pixel; 0 for pixels that are not receivers.
+// Debug view: writes the case of each pixel, 1 to 6 (CASE_* in resolve_inc.glsl), or 0 for pixels that are not
+// receivers.
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D case_image;
 
 void main() {

@@ -3,7 +3,8 @@
 #include "shadow_penumbra_fins/fin_inc.glsl"
 #include "shared/topology_shared.h"
 
-// Fins of the listed edges without a geometry shader: 6 or 12 vertices an edge, no vertex buffer.
+// Extrudes fins from the listed silhouette edges, without a geometry shader and vertex buffers. Each edge has 6
+// vertices, or 12 with both outer and inner fins.
 layout(location = 0) out float out_theta;
 layout(location = 1) flat out uint out_is_outer;
 layout(std140, set = 0, binding = FINS_BINDING_CONSTANTS) uniform Constants {
@@ -28,9 +29,9 @@ layout(constant_id = FINS_CONSTANT_HAS_OUTER) const bool HAS_OUTER = true;
 layout(constant_id = FINS_CONSTANT_HAS_INNER) const bool HAS_INNER = true;
 
 void main() {
-	const uint side_count = (HAS_OUTER ? 1u : 0u) + (HAS_INNER ? 1u : 0u);
-	const uint per_edge = FIN_SIDE_CORNER_COUNT * side_count;
-	const uint first = HAS_OUTER ? FIN_OUTER_CORNERS : FIN_INNER_CORNERS;
+	const uint half_count = (HAS_OUTER ? 1u : 0u) + (HAS_INNER ? 1u : 0u);
+	const uint per_edge = FIN_HALF_CORNER_COUNT * half_count;
+	const uint first = HAS_OUTER ? FIN_FIRST_OUTER_CORNER : FIN_FIRST_INNER_CORNER;
 	const TopologyEdge edge =
 			edges[edge_list[push.first_in_list + uint(gl_VertexIndex) / per_edge]];
 	const uint corner_index = first + uint(gl_VertexIndex) % per_edge;
@@ -39,5 +40,5 @@ void main() {
 	gl_Position = fin_position_clip(
 			view, push, corner, positions_node[vertex].xyz, normals_node[vertex].xyz);
 	out_theta = fin_theta(corner);
-	out_is_outer = corner_index < FIN_INNER_CORNERS ? 1u : 0u;
+	out_is_outer = corner_index < FIN_FIRST_INNER_CORNER ? 1u : 0u;
 }

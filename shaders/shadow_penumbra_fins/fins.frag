@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/penumbra_inc.glsl"
 
-// Sun et al. 2010, sections 2.1.2 and 2.1.3: drops fins of edges that the light does not see, and
-// writes transition, class and depth of the rest.
+// Sun et al. 2010, sections 2.1.2 and 2.1.3: discards fragments of fins whose edge is hidden from the light, and writes
+// visibility, class (outer or inner) and depth of the others.
 layout(location = 0) in float in_theta;
 layout(location = 1) flat in uint in_is_outer;
 layout(location = 0) out vec2 out_color;
@@ -28,7 +28,7 @@ void main() {
 		is_visible = stored > layer_1; // z < Z1
 	} else {
 		const float layer_2 = LAYER_COUNT > 1u ? texelFetch(layer_2_texture, texel, 0).r : 0.0;
-		const bool is_near = layer_1 == 0.0 || // nothing is stored: Z1 is infinite
+		const bool is_near = layer_1 == 0.0 || // empty layer: Z1 is infinite
 				distance_m <= fin_distance(view, layer_1) + view.beta_m;
 		is_visible = stored >= layer_2 && is_near; // z <= Z2 and z <= Z1 + beta
 	}

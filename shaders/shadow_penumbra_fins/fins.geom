@@ -4,7 +4,7 @@
 #include "shadow_penumbra_fins/fin_inc.glsl"
 
 // Sun et al. 2010, section 2.1.1: finds the silhouette edges of one triangle from its neighbours and
-// makes their fins.
+// emits their fins.
 layout(triangles_adjacency) in;
 layout(triangle_strip, max_vertices = 36) out;
 layout(location = 0) in vec3 in_position_node[];
@@ -24,14 +24,14 @@ layout(push_constant) uniform Push {
 layout(constant_id = FINS_CONSTANT_HAS_OUTER) const bool HAS_OUTER = true;
 layout(constant_id = FINS_CONSTANT_HAS_INNER) const bool HAS_INNER = true;
 
-void emit_side(uint p_b, uint p_c, uint p_first_corner) {
-	for (uint i = 0u; i < FIN_SIDE_CORNER_COUNT; ++i) {
+void emit_half(uint p_b, uint p_c, uint p_first_corner) {
+	for (uint i = 0u; i < FIN_HALF_CORNER_COUNT; ++i) {
 		const uint corner = FIN_CORNERS[p_first_corner + i];
 		const uint vertex = (corner & 1u) != 0u ? p_c : p_b;
 		gl_Position = fin_position_clip(
 				view, push, corner, in_position_node[vertex], in_normal_node[vertex]);
 		out_theta = fin_theta(corner);
-		out_is_outer = p_first_corner == FIN_OUTER_CORNERS ? 1u : 0u;
+		out_is_outer = p_first_corner == FIN_FIRST_OUTER_CORNER ? 1u : 0u;
 		EmitVertex();
 		if (i % 3u == 2u) {
 			EndPrimitive();
@@ -46,8 +46,8 @@ void main() {
 		ids[i] = in_vertex[i];
 		positions[i] = in_position_node[i];
 	}
-	const uint found = find_own_silhouettes(
-			push.light_node, face_flags[gl_PrimitiveIDIn], ids, positions);
+	const uint found = find_owned_silhouettes(
+			push.light_position_node, face_flags[gl_PrimitiveIDIn], ids, positions);
 	for (uint edge = 0u; edge < 3u; ++edge) {
 		if ((found & (1u << edge)) == 0u) {
 			continue;
@@ -55,10 +55,10 @@ void main() {
 		const uint b = 2u * edge;
 		const uint c = (b + 2u) % 6u;
 		if (HAS_OUTER) {
-			emit_side(b, c, FIN_OUTER_CORNERS);
+			emit_half(b, c, FIN_FIRST_OUTER_CORNER);
 		}
 		if (HAS_INNER) {
-			emit_side(b, c, FIN_INNER_CORNERS);
+			emit_half(b, c, FIN_FIRST_INNER_CORNER);
 		}
 	}
 }

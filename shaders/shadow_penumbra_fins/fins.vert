@@ -1,5 +1,5 @@
 #version 460
-// For fins.geom: a welded vertex as it is.
+// Passes welded vertices unchanged to fins.geom.
 layout(location = 0) in vec4 in_position_node;
 layout(location = 1) in vec4 in_normal_node;
 layout(location = 0) out vec3 out_position_node;

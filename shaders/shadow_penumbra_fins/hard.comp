@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/bindings_inc.glsl"
 
-// Resolve for r = t = 0: without fins only cases 2 and 3 remain, a plain shadow map.
+// Resolves the mask for r = t = 0. Without fins only cases 2 and 3 remain, which is a plain shadow map.
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
@@ -15,7 +15,7 @@ void main() {
 	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		visibility = is_surely_lit(point, view, push.empty_views)
+		visibility = is_trivially_lit(point, view, push.empty_views)
 				? 1.0
 				: lookup_hard(layer_1_texture, light_views.views[view], point);
 	}

@@ -3,12 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
 
-// The three nearest distinct depths of each texel in one pass. Each slot keeps the nearest value
-// that came to it and hands the other on, so that the slots end as peeling's layers, bit for bit,
-// whatever the order: slot i gets every value that i others are nearer than. Reversed depth in
-// 0..1, whose bits are ordered as the numbers are.
+// Finds up to three nearest distinct depths of each texel in one pass. Each texel has one slot per layer. A slot keeps
+// the nearest depth that reaches it and passes the other one on to the next slot. The slots therefore end with the same
+// layers as depth peeling, bit for bit, whatever the order of fragments. Depths are reversed and in 0..1, so that their
+// bits have the same order as their values.
 layout(std430, set = 0, binding = LAYERS_BINDING_TEXELS) buffer Texels {
-	uint depth_bits[]; // one plane per layer
+	uint depth_bits[]; // all texels of the nearest layer, then of the next
 };
 layout(constant_id = LAYERS_CONSTANT_WIDTH_PX) const uint WIDTH_PX = 1u;
 layout(constant_id = LAYERS_CONSTANT_TEXEL_COUNT) const uint TEXEL_COUNT = 1u;
@@ -19,11 +19,11 @@ void main() {
 	uint slot = texel.y * WIDTH_PX + texel.x;
 	const uint end = slot + LAYER_COUNT * TEXEL_COUNT;
 	uint depth = floatBitsToUint(clamp(gl_FragCoord.z, 0.0, 1.0)) & 0x7fffffffu; // -0 is 0
-	// Slots only grow: what the last one hides already can be dropped without an atomic.
+	// Slots only grow, so a depth that is not nearer than the last slot's can be dropped without an atomic.
 	depth = depth > depth_bits[end - TEXEL_COUNT] ? depth : 0u;
 	[[dont_unroll]] while (depth != 0u && slot < end) {
 		const uint before = atomicMax(depth_bits[slot], depth);
-		// The same surface twice ends here; so does the first value of a slot, handing on nothing.
+		// Ends when the depth is stored already, or when the slot was empty (before = 0): nothing is passed on.
 		depth = before == depth ? 0u : min(before, depth);
 		slot += TEXEL_COUNT;
 	}

@@ -4,7 +4,7 @@
 #include "shadow_penumbra_fins/peel_inc.glsl"
 
 void main() {
-	if (!is_deeper_than_nearer_layer()) {
+	if (!is_behind_previous_layer()) {
 		discard;
 	}
 }

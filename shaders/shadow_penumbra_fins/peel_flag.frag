@@ -4,16 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/peel_inc.glsl"
 
-// As peel.frag, and sets a flag when the layer holds anything: behind an empty one there is nothing.
+// Like peel.frag, but also sets a flag when the layer has a fragment. Without any, the layers behind it are empty too.
 layout(std430, set = 0, binding = PEEL_BINDING_FOUND) buffer Found {
-	uint is_found; // not 0 once it does
+	uint is_found; // not 0: the layer has a fragment
 };
 
 void main() {
-	if (!is_deeper_than_nearer_layer()) {
+	if (!is_behind_previous_layer()) {
 		discard;
 	}
-	// A loop and not a branch: software drivers run what a branch skips, but leave a loop.
+	// A loop instead of a branch: software drivers execute the code that a branch skips, but not a loop's body.
 	[[dont_unroll]] for (uint seen = is_found; seen == 0u; seen = 1u) {
 		atomicOr(is_found, 1u);
 	}

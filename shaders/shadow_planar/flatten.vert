@@ -2,11 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_planar/shadow_planar_shared.h"
 
-// A caster flattened onto a plane along the light's rays (Blinn 1988).
+// Projects a caster onto a plane, along the rays from the light's centre (Blinn 1988).
 layout(location = 0) in vec3 in_position_node;
 layout(location = 0) out float out_height_m;
 layout(push_constant) uniform Push {
-	PlanarPush push;
+	FlattenPush push;
 };
 
 void main() {

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_planar/shadow_planar_shared.h"
 
-// The mask of receivers that nothing hides.
+// Initializes the mask: 1 at receivers, 0 elsewhere.
 layout(set = 0, binding = PLANAR_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(location = 0) out float out_visibility;
 

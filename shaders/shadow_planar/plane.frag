@@ -5,7 +5,7 @@
 #include "common/normal_inc.glsl"
 #include "shadow_planar/shadow_planar_shared.h"
 
-// Marks in the stencil where a plane is seen.
+// Marks the pixels of one receiver plane in the stencil, by discarding all others.
 layout(std140, set = 0, binding = PLANAR_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
@@ -16,7 +16,7 @@ layout(push_constant) uniform Push {
 	PlanePush push;
 };
 
-const float SAME_NORMAL = 0.9999;
+const float MIN_COSINE = 0.9999; // minimum cosine between the pixel's normal and the plane's
 
 void main() {
 	const ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -27,7 +27,7 @@ void main() {
 	const vec3 normal = unpack_normal(texelFetch(normal_texture, pixel, 0).r);
 	const float height_m = dot(push.plane.xyz, position) + push.plane.w;
 	const float tolerance_m = push.tolerance_m + push.tolerance_per_distance * length(position);
-	if (abs(height_m) > tolerance_m || dot(normal, push.plane.xyz) < SAME_NORMAL) {
+	if (abs(height_m) > tolerance_m || dot(normal, push.plane.xyz) < MIN_COSINE) {
 		discard;
 	}
 }

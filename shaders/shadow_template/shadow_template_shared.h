@@ -5,7 +5,7 @@
 
 /// Push constants of resolve.comp.
 struct SHARED_ALIGN ShadowTemplatePush {
-	float strength; // 0..1: 1 = hidden is black
+	float strength; // 0..1: how dark hidden points are; 1 = no light
 	uint padding0;
 	uint padding1;
 	uint padding2;

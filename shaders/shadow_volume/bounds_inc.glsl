@@ -1,9 +1,10 @@
-// Index of a texel of a view's level in the array of bounds.
+// Layout of the bounds buffer: for each view, the levels of its depth pyramid, the finest first, row by row.
 #ifndef BOUNDS_INC_GLSL
 #define BOUNDS_INC_GLSL
 
 #include "shadow_volume/culling_shared.h"
 
+/// Width and height of a level.
 uint bounds_size_px(uint p_level) {
 	uint size_px = uint(CULLING_MAP_SIZE_PX);
 	for (uint level = 0u; level < p_level; ++level) {
@@ -12,6 +13,7 @@ uint bounds_size_px(uint p_level) {
 	return size_px;
 }
 
+/// Index of a texel in the bounds buffer.
 uint bounds_index(uint p_view, uint p_level, uvec2 p_texel) {
 	uint index = p_view * uint(CULLING_BOUNDS_PER_VIEW);
 	for (uint level = 0u; level < p_level; ++level) {

@@ -2,13 +2,15 @@
 #define CULLING_SHARED_H
 #include "shared/shared_begin.h"
 
-// Occlusion culling in the light's view: occluders.vert, occluder_edges.vert, bounds.comp, cull.comp.
+// Occlusion culling in the light's view: occluders.vert, occluder_edges.vert, bounds.comp,
+// cull.comp.
 
-// The map of a view: for each texel the least reversed depth (the farthest) at which every ray of the
-// texel has met an occluder. Each further level is 4 times as coarse.
+// The occluder map of a view: for each texel the smallest reversed depth (the farthest) at which
+// every ray through the texel has met an occluder. Each further level is 4 times as coarse. The
+// texels of all levels, the depth pyramid, are called bounds.
 #define CULLING_MAP_SIZE_PX 256
 #define CULLING_LEVEL_FACTOR 4
-#define CULLING_LEVEL_COUNT 4 // 256, 64, 16, 4
+#define CULLING_LEVEL_COUNT 4		  // 256, 64, 16, 4
 #define CULLING_BOUNDS_PER_VIEW 69904 // texels of all levels
 #define CULLING_MAX_VIEWS 6
 
@@ -21,16 +23,18 @@
 #define CULLING_BINDING_BOXES 6
 #define CULLING_BINDING_WORDS 7
 
-// One workgroup of cull.comp looks at one subtree and its casters.
+// One workgroup of cull.comp tests one subtree and its casters.
 #define CULLING_CASTERS_PER_SUBTREE 64
-// Before the casters' words: whose result it is.
+// Words before those of the casters: key_low and key_high, which identify the tested views and
+// casters.
 #define CULLING_HEADER_WORDS 2
 
-/// Push constants of occluders.vert, occluders.frag and occluder_edges.vert: one occluder in one view.
+/// Push constants of occluders.vert, occluders.frag and occluder_edges.vert: one occluder in one
+/// view.
 struct SHARED_ALIGN OccluderPush {
 	mat4 clip_from_node;
-	vec4 light_node; // xyz / w: the light's centre; w = 0: the direction towards it
-	float near_m;	 // of the view; 0: orthographic
+	vec4 light_position_node; // xyz / w: the light's centre; w = 0: xyz is the direction towards it
+	float near_m;			  // near plane of the view; 0: orthographic
 	float padding0;
 	float padding1;
 	float padding2;
@@ -40,14 +44,15 @@ SHARED_SIZE(OccluderPush, 96);
 /// Push constants of bounds.comp.
 struct SHARED_ALIGN BoundsPush {
 	uint view_index;
-	uint level; // that is made, from 1
+	uint level; // to build, 1..CULLING_LEVEL_COUNT - 1
 	uint padding0;
 	uint padding1;
 };
 SHARED_SIZE(BoundsPush, 16);
 
+/// One of the light's views.
 struct SHARED_ALIGN CullingView {
-	mat4 view_from_relative; // from metres along the world's axes, relative to the view's position
+	mat4 view_from_relative; // from metres along the world's axes, relative to view 0's position
 	vec2 half_extent;		 // tangents; orthographic: metres
 	float near_m;
 	float far_m;
@@ -58,22 +63,24 @@ struct SHARED_ALIGN CullingView {
 };
 SHARED_SIZE(CullingView, 96);
 
-/// Uniform buffer of cull.comp.
+/// Constants of cull.comp.
 struct SHARED_ALIGN CullingConstants {
 	CullingView views[CULLING_MAX_VIEWS];
 	uint view_count;
 	uint subtree_count;
-	uint key_low; // goes into the header
+	uint key_low; // copied to the header of the words
 	uint key_high;
 };
 SHARED_SIZE(CullingConstants, 592);
 
-/// A box round a subtree of casters, or round one. Relative as CullingView.
+/// Bounding box of a subtree of casters or of one caster, in metres along the world's axes,
+/// relative to the origin of CullingView::view_from_relative.
 struct SHARED_ALIGN CullingBox {
 	vec4 center_m;		// xyz
 	vec4 half_extent_m; // xyz
-	uint first;			// subtree: its first caster's box; caster: its index among the words
-	uint count;			// subtree: of its casters
+	uint first; // subtree: index of its first caster's box; caster: index of its word after the
+				// header
+	uint count; // subtree: number of its casters; caster: 1
 	uint padding0;
 	uint padding1;
 };

@@ -1,5 +1,5 @@
 #version 460
-// Drawn where the stencil counts a volume.
+// Writes shadow into the mask; drawn where the stencil count is not 0.
 layout(location = 0) out float out_visibility;
 
 void main() {

@@ -2,12 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_volume/culling_shared.h"
 
-// An occluder's triangles, drawn from the light.
+// Draws an occluder's triangles from the light.
 layout(std430, set = 0, binding = CULLING_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];
 };
 layout(std430, set = 0, binding = CULLING_BINDING_TRIANGLES) readonly buffer Triangles {
-	uint triangles[]; // three corners a face
+	uint triangles[]; // three vertex indices per face
 };
 layout(push_constant) uniform Push {
 	OccluderPush push;

@@ -5,8 +5,8 @@
 #include "common/receiver_inc.glsl"
 #include "shadow_volume/shadow_volume_shared.h"
 
-// The depth that volumes are compared with: that of each receiver, moved off its surface. What does not
-// receive stays at infinity. The mask begins as lit.
+// Writes the depths against which volumes are tested: those of the receivers, moved off their surfaces. Pixels that are
+// not receivers stay at infinity. Initialises the mask of receivers to lit (1).
 layout(std140, set = 0, binding = RECEIVERS_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
@@ -18,34 +18,34 @@ layout(std140, set = 0, binding = RECEIVERS_BINDING_LIGHT) restrict readonly buf
 };
 layout(location = 0) out float out_visibility;
 
-// Heights of the position over the surface, in parts of the offset.
-const float LEAST_HEIGHT = 0.25; // where the light is steep; the nearer to the plane, the higher
-const float GREATEST_HEIGHT = 4.0;
-// A grazing view finds a height far in front of the receiver: no farther than so many offsets, as long as
-// that is higher than the rasteriser's rounding, 1/256 pixel.
-const float FARTHEST = 8.0;
+// Limits of the height over the surface, in multiples of the receiver offset (RECEIVER_OFFSET * S).
+const float MIN_HEIGHT = 0.25; // for light along the normal; the limit rises to 1 for grazing light
+const float MAX_HEIGHT = 4.0;
+// For a grazing view ray, the position can be far in front of the receiver. Its distance from the receiver is at most
+// this many offsets, unless the height is then below the rasteriser's rounding, 1/256 of a pixel.
+const float MAX_DISTANCE = 8.0;
 const float ROUNDING_PX = 1.0 / 256.0;
-const float GREATEST_SHIFT = 0.5; // of the distance, in any case
+const float MAX_SHIFT = 0.5; // maximum shift, as a fraction of the distance to the camera
 
-/// The height over the surface, in offsets, of the position on the pixel's ray that is nearest to the
-/// light's ray through the moved receiver: volumes are compared there, as every point of the light's ray
-/// has the receiver's shadow, but only positions on the pixel's ray are seen by this pixel. The volumes'
-/// camera is moved by one offset along an axis, which has the effect that volumes and the light's ray are
-/// moved back by as much: for a receiver with that normal the two rays meet in the receiver itself.
+/// Height over the surface, in multiples of the receiver offset, of the position whose depth is tested against volumes.
+/// Near the moved receiver, every point of the light's ray through it has its shadow, but only positions on the
+/// pixel's view ray project to this pixel. So the position is the point of the view ray nearest to the light's ray. The
+/// volumes' camera is moved by one offset along VOLUMES_OFFSET_AXIS, so relative to it volumes and the light's ray are
+/// moved back by one offset. For a receiver whose normal is that axis, both rays then meet in the receiver itself.
 float find_height(vec3 p_normal, vec3 p_to_camera, vec3 p_to_light) {
 	vec3 camera_move = vec3(0.0);
-	camera_move[VOLUMES_MOVED_AXIS] = 1.0;
+	camera_move[VOLUMES_OFFSET_AXIS] = 1.0;
 	const vec3 offset = p_normal - camera_move;
 	const float facing = dot(p_normal, p_to_camera);
-	const float between = dot(p_to_camera, p_to_light);
-	const float sine2 = 1.0 - between * between;
+	const float view_dot_light = dot(p_to_camera, p_to_light);
+	const float sine2 = 1.0 - view_dot_light * view_dot_light;
 	const float nearest = sine2 > 1e-6
-			? facing * (dot(offset, p_to_camera) - between * dot(offset, p_to_light)) / sine2
+			? facing * (dot(offset, p_to_camera) - view_dot_light * dot(offset, p_to_light)) / sine2
 			: 1.0;
-	// The surface as a caster is moved back, too: the limits are over that.
+	// As a caster, the surface is moved back too. The limits apply to the height over the moved surface.
 	const float caster_height = -dot(p_normal, camera_move);
-	const float least = max(LEAST_HEIGHT, 1.0 - dot(p_normal, p_to_light));
-	return clamp(nearest, caster_height + least, caster_height + GREATEST_HEIGHT);
+	const float min_height = max(MIN_HEIGHT, 1.0 - dot(p_normal, p_to_light));
+	return clamp(nearest, caster_height + min_height, caster_height + MAX_HEIGHT);
 }
 
 void main() {
@@ -60,14 +60,14 @@ void main() {
 	const vec3 to_camera = -position / distance_m;
 	const float offset_m = RECEIVER_OFFSET * frame.scene_size_m;
 	const float facing = dot(normal, to_camera);
-	float shift = FARTHEST * offset_m / distance_m;
+	float shift = MAX_DISTANCE * offset_m / distance_m;
 	if (facing > 1e-6) {
 		const vec3 to_light = normalize(vector_to_light(light, position + normal * offset_m));
 		const float pixel_m = distance_m * 2.0 * length(frame.up_tangent.xyz) / float(frame.size_px.y);
 		const float height_m = find_height(normal, to_camera, to_light) * offset_m;
-		const float farthest_m = max(FARTHEST * facing * offset_m, ROUNDING_PX * pixel_m);
+		const float farthest_m = max(MAX_DISTANCE * facing * offset_m, ROUNDING_PX * pixel_m);
 		shift = clamp(height_m, -farthest_m, farthest_m) / (facing * distance_m);
 	}
-	gl_FragDepth = min(depth / (1.0 - min(shift, GREATEST_SHIFT)), 1.0);
+	gl_FragDepth = min(depth / (1.0 - min(shift, MAX_SHIFT)), 1.0);
 	out_visibility = 1.0;
 }

@@ -9,9 +9,10 @@
 #define RECEIVERS_BINDING_RECEIVERS 3
 #define RECEIVERS_BINDING_LIGHT 4
 
-// Volumes are drawn for a camera that is moved by the receivers' offset along this axis of the world, Y: so
-// what is compared is exact for receivers with that normal, floors, and as near as otherwise for the rest.
-#define VOLUMES_MOVED_AXIS 1
+// Volumes are drawn for a camera that is moved by the receiver offset along this axis of the world,
+// Y. The depth test is then exact for receivers with that normal, such as floors, and as accurate
+// as without the move for all others.
+#define VOLUMES_OFFSET_AXIS 1
 
 // volumes.geom, sides.vert, caps.vert
 #define VOLUMES_BINDING_FACE_FLAGS 0
@@ -20,23 +21,23 @@
 #define VOLUMES_BINDING_LIST 3
 #define VOLUMES_BINDING_TRIANGLES 4
 
-// Specialization constants of the same
+// Specialization constants of the same shaders
 #define VOLUMES_CONSTANT_ROBUST_FACES 0
 #define VOLUMES_CONSTANT_HAS_FAR_CAP 1
 
-// Values of the first, as VolumeFaces of volume_shape.h
+// Values of VOLUMES_CONSTANT_ROBUST_FACES, the same as in VolumeFaces of volume_shape.h
 #define VOLUMES_FACES_NONE 0
 #define VOLUMES_FACES_NOT_SOLID 1
 #define VOLUMES_FACES_ALL 2
 
-// Vertices of one side: two triangles from the edge to where the light's rays through it end.
+// Vertices of one side: two triangles between the edge and its projection to infinity.
 #define VOLUMES_VERTICES_PER_SIDE 6
 
 /// Push constants of the draws: one caster.
 struct SHARED_ALIGN VolumePush {
 	mat4 clip_from_node;
-	vec4 light_node;	// xyz / w: the light's centre; w = 0: the direction towards it
-	uint first_in_list; // where the caster's edges begin in the list
+	vec4 light_position_node; // xyz / w: the light's centre; w = 0: xyz is the direction towards it
+	uint first_in_list;		  // index of the caster's first edge in the list
 	uint padding0;
 	uint padding1;
 	uint padding2;

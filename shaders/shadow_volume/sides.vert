@@ -3,8 +3,8 @@
 #include "common/silhouette_inc.glsl"
 #include "shadow_volume/volume_inc.glsl"
 
-// Sides of the listed edges without a geometry shader: one side an edge, robust two, of which the
-// second collapses where the edge has one face or its part is not robust.
+// Extrudes the sides of the listed silhouette edges without a geometry shader: one side per edge or, with robust faces,
+// two. The second side collapses to a point where the edge has one face only, or where its faces are not robust.
 layout(std430, set = 0, binding = VOLUMES_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];
 };
@@ -19,7 +19,7 @@ void main() {
 	const uint per_edge = VOLUMES_VERTICES_PER_SIDE * (ROBUST_FACES != VOLUMES_FACES_NONE ? 2u : 1u);
 	const uint index = uint(gl_VertexIndex);
 	const TopologyEdge edge = edges[edge_list[push.first_in_list + index / per_edge]];
-	const bool is_facing = is_light_facing(push.light_node, uvec3(edge.a, edge.b, edge.opposite0),
+	const bool is_facing = is_light_facing(push.light_position_node, uvec3(edge.a, edge.b, edge.opposite0),
 			positions_node[edge.a].xyz, positions_node[edge.b].xyz, positions_node[edge.opposite0].xyz);
 	const uint corner = VOLUME_SIDE_CORNERS[index % VOLUMES_VERTICES_PER_SIDE];
 	const bool is_second = index % per_edge >= VOLUMES_VERTICES_PER_SIDE;

@@ -3,9 +3,9 @@
 #include "common/silhouette_inc.glsl"
 #include "shadow_volume/volume_inc.glsl"
 
-// GPU Gems 3, chapter 11: the part of a caster's shadow volume that one triangle makes. Its caps where
-// it is light-facing (robust: wound the other way where it is not), and a side for each silhouette
-// edge of its own (robust: two sides, where the edge has two faces).
+// GPU Gems 3, chapter 11: emits the polygons of a caster's shadow volume that belong to one triangle. A light-facing
+// triangle has caps (a robust one also when it is back-facing, with the opposite winding). Each silhouette edge that
+// the triangle owns has a side (robust: two sides, if the edge has two faces).
 layout(triangles_adjacency) in;
 layout(triangle_strip, max_vertices = 42) out;
 layout(location = 0) in vec3 in_position_node[];
@@ -43,7 +43,7 @@ void main() {
 		ids[i] = in_vertex[i];
 		positions[i] = in_position_node[i];
 	}
-	const bool is_facing = is_light_facing(push.light_node, uvec3(ids[0], ids[2], ids[4]),
+	const bool is_facing = is_light_facing(push.light_position_node, uvec3(ids[0], ids[2], ids[4]),
 			positions[0], positions[2], positions[4]);
 	const uint flags = face_flags[gl_PrimitiveIDIn];
 	const bool is_solid = (flags & TOPOLOGY_FACE_NOT_SOLID) == 0u;
@@ -56,7 +56,7 @@ void main() {
 			emit_triangle(0u, c, b, true);
 		}
 	}
-	const uint found = find_own_silhouettes(push.light_node, flags, ids, positions);
+	const uint found = find_owned_silhouettes(push.light_position_node, flags, ids, positions);
 	for (uint edge = 0u; edge < 3u; ++edge) {
 		if ((found & (1u << edge)) == 0u) {
 			continue;

@@ -1,5 +1,5 @@
 #version 460
-// For volumes.geom: a welded vertex as it is.
+// Passes welded vertices unchanged to volumes.geom.
 layout(location = 0) in vec4 in_position_node;
 layout(location = 0) out vec3 out_position_node;
 layout(location = 1) flat out uint out_vertex;

@@ -1,4 +1,5 @@
-// Morph targets, then linear blend skinning, of one vertex (glTF 2.0, 3.7.2.2 and 3.7.3.3): deform_vertices in float32.
+// Applies morph targets, then linear blend skinning, to one vertex (glTF 2.0, 3.7.2.2 and 3.7.3.3). The CPU version is
+// deform_vertices.
 #ifndef DEFORM_INC_GLSL
 #define DEFORM_INC_GLSL
 
@@ -9,10 +10,10 @@ layout(std430, set = 0, binding = DEFORM_BINDING_INFLUENCES) readonly buffer Inf
 	uvec2 influences[]; // joint, weight as bits
 };
 layout(std430, set = 0, binding = DEFORM_BINDING_TARGETS) readonly buffer Targets {
-	float target_values[]; // of each target those of positions, of normals, of tangents
+	float target_values[]; // displacements, per target: of all positions, all normals, all tangents
 };
 layout(std430, set = 0, binding = DEFORM_BINDING_POSE) readonly buffer Pose {
-	vec4 pose[];
+	vec4 pose[]; // three matrix rows per joint, then the weights of the morph targets
 };
 layout(push_constant) uniform Push {
 	DeformPush push;
@@ -26,7 +27,8 @@ float load_target_weight(uint p_target) {
 	return pose[3u * push.joint_count + p_target / 4u][p_target % 4u];
 }
 
-/// A vertex's value with what the targets add to values of the kind.
+/// Adds the weighted displacements of all morph targets to a vertex's value. p_kind: DEFORM_POSITIONS, _NORMALS or
+/// _TANGENTS.
 vec3 add_targets(vec3 p_value, uint p_vertex, uint p_kind) {
 	vec3 value = p_value;
 	for (uint target = 0u; target < push.target_count; ++target) {
@@ -39,13 +41,14 @@ vec3 add_targets(vec3 p_value, uint p_vertex, uint p_kind) {
 	return value;
 }
 
-/// The weighted sum of the joints' matrices: its rows.
+/// Rows of a 3 x 4 matrix.
 struct DeformRows {
 	vec4 x;
 	vec4 y;
 	vec4 z;
 };
 
+/// Weighted sum of the matrices of the vertex's joints; the identity without a skin.
 DeformRows blend_joints(uint p_vertex) {
 	if (push.influence_count == 0u || push.joint_count == 0u) {
 		return DeformRows(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0));

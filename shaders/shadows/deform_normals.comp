@@ -2,14 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/shadows_shared.h"
 
-// Normals of a deformed mesh's welded vertices: the sums of their faces' normals by area, zero where those cancel, as
-// build_topology makes them.
+// Computes the normals of a deformed mesh's welded vertices: the normalized area-weighted sum of their faces'
+// normals, or zero where those cancel, as in build_topology.
 layout(local_size_x = DEFORM_GROUP_SIZE) in;
 layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 welded_positions[];
 };
 layout(std430, set = 0, binding = MOVE_BINDING_SOURCES) readonly buffer Sources {
-	uint faces[]; // where each vertex's begin, one more, then the faces
+	uint faces[]; // index of each vertex's first face, one end index, then the faces
 };
 layout(std430, set = 0, binding = MOVE_BINDING_TRIANGLES) readonly buffer Triangles {
 	uint triangles[];
@@ -22,7 +22,7 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-	const float ZERO_RATIO = 1e-6;
+	const float ZERO_RATIO = 1e-6; // of the sum of areas: normals whose sum is shorter cancel
 	const uint vertex = gl_GlobalInvocationID.x;
 	if (vertex >= push.vertex_count) {
 		return;

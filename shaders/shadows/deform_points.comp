@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/shadows_shared.h"
 
-// Computes vertices of a mesh that was cut out of a deformed one, from the vertices of their
-// triangles.
+// Computes the vertices of a mesh that was cut out of a deformed one, from the corners of the triangles that contain
+// them.
 layout(local_size_x = DEFORM_GROUP_SIZE) in;
 layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
 	float corner_positions[];
@@ -30,9 +30,9 @@ void main() {
 	}
 	const DeformPoint point = points[vertex];
 	const vec3 a = load_corner(point.corners.x);
-	// Relative to a vertex, so that a point that does not move keeps its position exactly.
-	const vec3 position = a + point.shares.y * (load_corner(point.corners.y) - a) +
-			point.shares.z * (load_corner(point.corners.z) - a);
+	// Relative to one corner, so that a point at rest keeps its position exactly.
+	const vec3 position = a + point.weights.y * (load_corner(point.corners.y) - a) +
+			point.weights.z * (load_corner(point.corners.z) - a);
 	positions[3u * vertex] = position.x;
 	positions[3u * vertex + 1u] = position.y;
 	positions[3u * vertex + 2u] = position.z;

@@ -19,6 +19,6 @@ void main() {
 	const vec3 along = add_targets(at_rest.xyz, vertex, DEFORM_TANGENTS);
 	const DeformRows rows = blend_joints(vertex);
 	const vec3 tangent = vec3(dot(rows.x.xyz, along), dot(rows.y.xyz, along), dot(rows.z.xyz, along));
-	const float greatest = max(abs(tangent.x), max(abs(tangent.y), abs(tangent.z)));
-	tangents[vertex] = vec4(greatest > 0.0 ? normalize(tangent / greatest) : at_rest.xyz, at_rest.w);
+	const float max_component = max(abs(tangent.x), max(abs(tangent.y), abs(tangent.z)));
+	tangents[vertex] = vec4(max_component > 0.0 ? normalize(tangent / max_component) : at_rest.xyz, at_rest.w);
 }

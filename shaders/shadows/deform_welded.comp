@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/shadows_shared.h"
 
-// Welded positions of a deformed mesh, from one of the vertices that each represents.
+// Copies the positions of a deformed mesh to its welded vertices, each from one of the vertices that it replaces.
 layout(local_size_x = DEFORM_GROUP_SIZE) in;
 layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
 	float positions[];

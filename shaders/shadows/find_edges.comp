@@ -3,8 +3,8 @@
 #include "common/silhouette_inc.glsl"
 #include "shared/silhouette_shared.h"
 
-// Marks one caster's silhouette edges: one invocation makes one word of 32 edges and adds its count
-// to the word's block.
+// Marks one caster's silhouette edges. One invocation writes the word of 32 edges and adds the number of silhouettes in
+// it to the count of the word's block.
 layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];
@@ -24,7 +24,7 @@ layout(push_constant) uniform Push {
 
 bool is_silhouette(TopologyEdge p_edge) {
 	return p_edge.opposite1 == TOPOLOGY_NO_VERTEX ||
-			is_edge_record_silhouette(push.light_node, p_edge, positions_node[p_edge.a].xyz,
+			is_edge_record_silhouette(push.light_position_node, p_edge, positions_node[p_edge.a].xyz,
 					positions_node[p_edge.b].xyz, positions_node[p_edge.opposite0].xyz,
 					positions_node[get_second_opposite(p_edge)].xyz);
 }

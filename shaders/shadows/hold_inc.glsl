@@ -1,4 +1,4 @@
-// Copies a mask into a layer of an array that outlives the frame.
+// Copies a light's mask into one layer of a texture array that outlives the frame, see ShadowFrame::hold.
 #ifndef HOLD_INC_GLSL
 #define HOLD_INC_GLSL
 
@@ -16,7 +16,7 @@ layout(push_constant) uniform Push {
 vec3 load_visibility(ivec2 p_pixel) {
 	const vec4 mask = texelFetch(mask_texture, p_pixel, 0);
 	const vec3 visibility = IS_COLORED != 0u ? mask.rgb : mask.rrr;
-	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0 ? visibility : vec3(push.elsewhere);
+	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0 ? visibility : vec3(push.no_receiver_value);
 }
 
 #endif

@@ -3,8 +3,8 @@
 #include "common/ordered_list_inc.glsl"
 #include "shared/silhouette_shared.h"
 
-// Writes one caster's silhouette edges into a list, in their own order, so that the image never
-// depends on scheduling, and the arguments of the draw that follows. One invocation per word.
+// Writes the indices of one caster's silhouette edges into a list, and the arguments of the indirect draw that uses it.
+// The order is ascending, so that the image does not depend on scheduling. One invocation per word of 32 edges.
 layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_WORDS) readonly buffer Words {
 	uint edge_words[];

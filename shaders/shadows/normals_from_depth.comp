@@ -5,9 +5,10 @@
 #include "common/normal_inc.glsl"
 #include "shadows/shadows_shared.h"
 
-// Geometric normals for a host that draws none: on each axis from the neighbours that are on the same
-// surface. Stored depth, near / z, is linear in pixels on a plane: of the three pixels ahead, around and
-// behind, those are taken whose depths are closest to a line; where none are, the side with the smaller step.
+// Computes geometric normals for a host that draws none, from the neighbours of each pixel on the same surface. On a
+// plane the stored depth, near / z, is linear in pixels. So on each axis three triples of pixels are compared: the
+// pixel with the next two, with the two before, and with one on each side. The triple whose depths are closest to
+// linear gives the tangent. When none is close enough, the neighbour with the smaller depth step does.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
@@ -15,8 +16,8 @@ layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffe
 layout(set = 0, binding = SURFACE_BINDING_DEPTH) uniform texture2D depth_texture;
 layout(set = 0, binding = SURFACE_BINDING_RESULT, r32ui) uniform writeonly uimage2D result_image;
 
-const float NOWHERE = 1e30; // larger than every bend and step
-const float MOST_BEND = 0.25; // of the smaller step: three pixels that bend more are on no surface together
+const float NO_NEIGHBOUR = 1e30; // larger than every bend and step
+const float MAX_BEND = 0.25; // times the smaller depth step: triples that bend more are not on one surface
 
 float load_depth(ivec2 p_pixel) {
 	const bool is_inside = all(greaterThanEqual(p_pixel, ivec2(0))) &&
@@ -24,36 +25,36 @@ float load_depth(ivec2 p_pixel) {
 	return is_inside ? texelFetch(depth_texture, p_pixel, 0).r : 0.0;
 }
 
-/// How far three depths in a row are from a line; NOWHERE where one is background.
+/// Second difference of three consecutive depths, 0 on a plane. NO_NEIGHBOUR if one is background.
 float compute_bend(vec3 p_depths) {
-	const bool is_there = min(min(p_depths.x, p_depths.y), p_depths.z) > 0.0;
-	return is_there ? abs(p_depths.x - 2.0 * p_depths.y + p_depths.z) : NOWHERE;
+	const bool is_surface = min(min(p_depths.x, p_depths.y), p_depths.z) > 0.0;
+	return is_surface ? abs(p_depths.x - 2.0 * p_depths.y + p_depths.z) : NO_NEIGHBOUR;
 }
 
-/// To a single neighbour; NOWHERE where it is background.
+/// Depth step to a neighbour. NO_NEIGHBOUR if that is background.
 float compute_step(float p_depth, float p_other) {
-	return p_other > 0.0 ? abs(p_other - p_depth) : NOWHERE;
+	return p_other > 0.0 ? abs(p_other - p_depth) : NO_NEIGHBOUR;
 }
 
 vec3 position_at(ivec2 p_pixel, float p_depth) {
 	return position_from_depth(frame, p_pixel, p_depth);
 }
 
-/// Along the surface, of any length; zero where no neighbour gives it.
+/// Tangent of the surface along p_step, not normalized; zero when no neighbour is on the surface.
 vec3 compute_tangent(ivec2 p_pixel, float p_depth, ivec2 p_step) {
 	const float ahead = load_depth(p_pixel + p_step);
 	const float behind = load_depth(p_pixel - p_step);
 	const float ahead_bend = compute_bend(vec3(p_depth, ahead, load_depth(p_pixel + 2 * p_step)));
 	const float behind_bend = compute_bend(vec3(p_depth, behind, load_depth(p_pixel - 2 * p_step)));
 	const float middle_bend = compute_bend(vec3(behind, p_depth, ahead));
-	const float least = min(min(ahead_bend, behind_bend), middle_bend);
-	bool uses_ahead = middle_bend == least || ahead_bend == least;
-	bool uses_behind = middle_bend == least || !uses_ahead;
+	const float min_bend = min(min(ahead_bend, behind_bend), middle_bend);
+	bool uses_ahead = middle_bend == min_bend || ahead_bend == min_bend;
+	bool uses_behind = middle_bend == min_bend || !uses_ahead;
 	const float ahead_step = compute_step(p_depth, ahead);
 	const float behind_step = compute_step(p_depth, behind);
-	if (least > MOST_BEND * min(ahead_step, behind_step)) { // the nearer neighbour, if there is one
-		uses_ahead = ahead_step < NOWHERE && ahead_step <= behind_step;
-		uses_behind = behind_step < NOWHERE && !uses_ahead;
+	if (min_bend > MAX_BEND * min(ahead_step, behind_step)) { // use the neighbour with the smaller step, if any
+		uses_ahead = ahead_step < NO_NEIGHBOUR && ahead_step <= behind_step;
+		uses_behind = behind_step < NO_NEIGHBOUR && !uses_ahead;
 	}
 	const vec3 here = position_at(p_pixel, p_depth);
 	const vec3 from = uses_behind ? position_at(p_pixel - p_step, behind) : here;

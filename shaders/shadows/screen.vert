@@ -1,5 +1,5 @@
 #version 460
-// One triangle over all of the image.
+// One triangle that covers the whole image.
 void main() {
 	gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }

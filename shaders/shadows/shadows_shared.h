@@ -12,8 +12,8 @@
 
 // Bindings of tint.comp.
 #define TINT_BINDING_OPAQUE 0 // the mask of the opaque casters
-#define TINT_BINDING_BOTH 1	  // of them and the group
-#define TINT_BINDING_BEFORE 2 // as coloured so far
+#define TINT_BINDING_BOTH 1	  // the mask of the opaque casters and the group
+#define TINT_BINDING_BEFORE 2 // the mask to be coloured, with earlier groups applied
 #define TINT_BINDING_RESULT 3
 
 // Bindings of hold_gray.comp and hold_color.comp.
@@ -21,8 +21,9 @@
 #define HOLD_BINDING_RECEIVERS 1
 #define HOLD_BINDING_RESULT 2
 
-// Bindings of deform.comp and deform_tangents.comp: of the mesh at rest three floats a vertex (of
-// tangents four), joints and weights of each vertex, what its morph targets add, and the pose.
+// Bindings of deform.comp and deform_tangents.comp. Inputs: positions and normals at rest, three
+// floats per vertex (tangents: four), joint influences, displacements of the morph targets, and the
+// pose.
 #define DEFORM_BINDING_POSITIONS 0
 #define DEFORM_BINDING_NORMALS 1
 #define DEFORM_BINDING_INFLUENCES 2
@@ -30,26 +31,28 @@
 #define DEFORM_BINDING_POSE 4
 #define DEFORM_BINDING_RESULT 5
 #define DEFORM_BINDING_NORMAL_RESULT 6
-// Bindings of deform_points.comp, deform_welded.comp and deform_normals.comp.
+// Bindings of deform_points.comp, deform_welded.comp and deform_normals.comp, which read deformed
+// positions.
 #define MOVE_BINDING_POSITIONS 0
 #define MOVE_BINDING_SOURCES 1
 #define MOVE_BINDING_RESULT 2
 #define MOVE_BINDING_TRIANGLES 3
 #define DEFORM_GROUP_SIZE 64
 
-/// Push constants of all of them.
+/// Push constants of all deform shaders. All but vertex_count are 0 where a shader does not need
+/// them.
 struct SHARED_ALIGN DeformPush {
 	uint vertex_count;
-	uint influence_count; // a vertex; 0: no skin
-	uint joint_count;	  // that the pose has, three rows of its matrix each; their weights follow
-	uint target_count;
+	uint influence_count; // per vertex; 0: no skin
+	uint joint_count;	  // in the pose: three matrix rows each, followed by the morph weights
+	uint target_count;	  // morph targets
 };
 SHARED_SIZE(DeformPush, 16);
 
-/// A point of a triangle, see TrianglePoint.
+/// A point on a triangle, see TrianglePoint in modules/scene/mesh.h.
 struct SHARED_ALIGN DeformPoint {
-	uvec4 corners; // x y z
-	vec4 shares;
+	uvec4 corners; // xyz: vertex indices
+	vec4 weights;  // xyz: barycentric weights
 };
 SHARED_SIZE(DeformPoint, 32);
 
@@ -67,8 +70,8 @@ SHARED_SIZE(TintPush, 16);
 
 /// Push constants of hold_gray.comp and hold_color.comp.
 struct SHARED_ALIGN HoldPush {
-	uint layer;		 // of the array
-	float elsewhere; // the value of pixels that are no receivers
+	uint layer;				 // of the texture array
+	float no_receiver_value; // the value of pixels without a receiver
 	uint padding1;
 	uint padding2;
 };

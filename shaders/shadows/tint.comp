@@ -4,16 +4,16 @@
 #include "shadows/shadows_shared.h"
 #include "shared/mask_shared.h"
 
-// Colours a mask by a group of translucent casters. The group hides the fraction by which the mask
-// of opaque casters plus group is darker than that of the opaque casters alone; its transmittance
-// times that fraction comes through. Exact for one group. Several groups are multiplied as if they
-// hid light independently: exact where each hides all of it or nothing.
+// Colours a mask by a group of translucent casters. The group covers the fraction of the light by which the mask of the
+// opaque casters plus the group is darker than the mask of the opaque casters alone. Its transmittance times that
+// fraction comes through. This is exact for one group. Several groups are multiplied as if they covered light
+// independently, which is exact where each covers all of it or nothing.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(set = 0, binding = TINT_BINDING_OPAQUE) uniform texture2D opaque_texture;
 layout(set = 0, binding = TINT_BINDING_BOTH) uniform texture2D both_texture;
 layout(set = 0, binding = TINT_BINDING_BEFORE) uniform texture2D before_texture;
 layout(set = 0, binding = TINT_BINDING_RESULT, rgba16f) uniform writeonly image2D result_image;
-layout(constant_id = MASK_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u; // what was before
+layout(constant_id = MASK_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u; // 1: before_texture has three channels
 layout(push_constant) uniform Push {
 	TintPush push;
 };

@@ -7,7 +7,9 @@ struct SHARED_ALIGN FrameConstants {
 	mat4 clip_from_camera_relative; // reversed depth: near / z, 1 near .. 0 far, far at infinity
 	vec4 right_tangent; // xyz: camera's right times the tangent of half the horizontal angle
 	vec4 up_tangent;	// xyz: camera's up times the tangent of half the vertical angle
-	vec4 forward;		// xyz: unit
+	// xyz: unit, plus the camera's shift (CameraSnapshot::shift) along the tangents above, so that
+	// the image's centre is along it.
+	vec4 forward;
 	uvec2 size_px;
 	float near_m;
 	float scene_size_m; // S

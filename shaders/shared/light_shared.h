@@ -5,17 +5,19 @@
 #define LIGHT_TYPE_OMNI 0u
 #define LIGHT_TYPE_SPOT 1u
 #define LIGHT_TYPE_DIRECTIONAL 2u
-/// A receiver is moved along its normal by this part of S before any test of what hides it: by
-/// the reference and by all techniques, so that all answer for one point.
+/// Receivers are moved along their normals by this fraction of the scene size S before their
+/// visibility is tested, by the reference and by all techniques, so that all results refer to the
+/// same point.
 #define RECEIVER_OFFSET 5e-5f
-/// Cosine between a surface's normal and the way to the light below which it does not face the
-/// light: closer to edge on, rounding decides.
-#define LIGHT_LEAST_COSINE 1e-5f
+/// Minimum cosine of the angle between a surface's normal and the direction to the light for the
+/// surface to face the light. For light that is more grazing, rounding would decide.
+#define LIGHT_MIN_COSINE 1e-5f
 
 /// One light in camera-relative space.
 struct SHARED_ALIGN LightConstants {
-	vec4 position_radius; // xyz: centre L; w: R in metres, directional: tangent of half the angle
-	vec4 direction;		  // xyz: unit, the way the light shines; w unused
+	vec4 position_radius; // xyz: centre L, 0 for directional; w: R in metres, for directional the
+						  // tangent of half the angular distance
+	vec4 direction;		  // xyz: unit, the direction in which the light shines; w unused
 	vec4 intensity;		  // rgb: cd (omni, spot) or lx (directional); w unused
 	float range_m;		  // 0 = unlimited
 	float cos_outer;	  // of the spot's outer half angle
@@ -44,7 +46,7 @@ SHARED_SIZE(LightViewConstants, 96);
 #define MAX_LIGHT_VIEWS 6
 struct SHARED_ALIGN LightViewsConstants {
 	LightViewConstants views[MAX_LIGHT_VIEWS];
-	mat4 light_from_camera_relative; // the light's own axes; picks the face of six views
+	mat4 light_from_camera_relative; // to the light's own axes; selects one of six views
 	uint view_count;
 	uint padding0;
 	uint padding1;

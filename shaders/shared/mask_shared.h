@@ -1,9 +1,10 @@
 #ifndef MASK_SHARED_H
 #define MASK_SHARED_H
 
-#define MASK_CONSTANT_IS_COLORED 0 // of shaders that read a mask; 1: it has three colours
+#define MASK_CONSTANT_IS_COLORED                                                                   \
+	0 // specialization constant of shaders that read a mask: 1 when it has three channels
 
-// Luminance of a coloured mask: the primaries of ITU-R BT.709, linear.
+// Weights of a coloured mask's luminance: linear, primaries of ITU-R BT.709.
 #define MASK_LUMINANCE_R 0.2126f
 #define MASK_LUMINANCE_G 0.7152f
 #define MASK_LUMINANCE_B 0.0722f

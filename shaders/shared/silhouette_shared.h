@@ -2,8 +2,8 @@
 #define SILHOUETTE_SHARED_H
 #include "shared/shared_begin.h"
 
-// Lists of silhouette edges: find_edges.comp and list_edges.comp of shadows. An edge word holds
-// one bit for each of 32 edges; a block counts the silhouettes of 64 words.
+// Constants of find_edges.comp and list_edges.comp, which list silhouette edges. An edge word has
+// one bit for each of 32 edges. For each block of 64 words the number of silhouettes is stored.
 #define SILHOUETTE_EDGES_PER_WORD 32
 #define SILHOUETTE_WORDS_PER_BLOCK 64
 
@@ -14,21 +14,21 @@
 #define SILHOUETTE_BINDING_LIST 4
 #define SILHOUETTE_BINDING_DRAWS 5
 
-/// Push constants: one caster.
+/// Push constants of both shaders: one caster.
 struct SHARED_ALIGN SilhouettePush {
-	vec4 light_node; // xyz / w: the light's centre; w = 0: the direction towards it
+	vec4 light_position_node; // xyz / w: the light's centre; w = 0: the direction towards it
 	uint edge_count;
-	uint first_word;
-	uint first_block;
-	uint first_in_list;
-	uint draw_index;
+	uint first_word;	// index of the caster's first edge word
+	uint first_block;	// index of its first block
+	uint first_in_list; // index of its first entry in the list of silhouette edges
+	uint draw_index;	// index of its SilhouetteDraw
 	uint vertices_per_edge;
 	uint padding0;
 	uint padding1;
 };
 SHARED_SIZE(SilhouettePush, 48);
 
-/// VkDrawIndirectCommand.
+/// Same layout as VkDrawIndirectCommand.
 struct SHARED_ALIGN SilhouetteDraw {
 	uint vertex_count;
 	uint instance_count;

@@ -1,5 +1,5 @@
-// How wrong is each technique? Masks of demo scenes against the reference, with limits from
-// tests/golden/accuracy.json. A technique without a limit must give a valid mask.
+// Compares each technique's masks of the demo scenes with the reference. The limits of the errors
+// are in tests/golden/accuracy.json. A technique without a limit must give a valid mask.
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
@@ -36,7 +36,7 @@ LightType parse_light_type(const std::string &p_name) {
 	fail("accuracy.json: light \"", p_name, "\", must be spot, omni or directional.");
 }
 
-/// A demo scene with its first light turned into another type; position and direction stay.
+/// A demo scene whose first light has the type of the case, at the same position and direction.
 struct AccuracyScene {
 	std::unique_ptr<Scene> scene;
 	Light3D *light = nullptr;
@@ -45,7 +45,7 @@ struct AccuracyScene {
 			scene(load_demo_scene(p_case.at("scene").get<std::string>())) {
 		light = scene->find_nodes<Light3D>().at(0);
 		light->type = parse_light_type(p_case.at("light").get<std::string>());
-		// Seen from the middle of the scene, 7.1 degrees is as wide as the sphere light.
+		// In degrees: about the angle under which a light of radius 0.4 m appears from the origin.
 		light->properties["light_angular_distance"] = 7.1;
 		apply_light_settings(*scene, p_settings);
 	}
@@ -63,22 +63,22 @@ struct AccuracyScene {
 	}
 };
 
-/// A case may have its own size: a larger one where at the common size too few pixels would show an
-/// error.
+/// Width and height of the masks in pixels. A case may override the common size with a larger one
+/// if too few pixels would show an error.
 uint32_t read_size_px(const nlohmann::json &p_limits, const nlohmann::json &p_case) {
 	return (p_case.contains("size_px") ? p_case : p_limits).at("size_px").get<uint32_t>();
 }
 
 MaskImage render_reference(RenderFixture &r_fixture, const nlohmann::json &p_limits,
-		const nlohmann::json &p_case, nlohmann::json p_more_settings = nlohmann::json::object()) {
-	p_more_settings.update(p_limits.at("reference_settings"));
-	AccuracyScene scene(p_case, p_more_settings);
+		const nlohmann::json &p_case, nlohmann::json p_extra_settings = nlohmann::json::object()) {
+	p_extra_settings.update(p_limits.at("reference_settings"));
+	AccuracyScene scene(p_case, p_extra_settings);
 	return scene.render(
 			r_fixture, ShadowRegistry::find_reference()->id, read_size_px(p_limits, p_case));
 }
 
-/// Of all receivers: even one wrong pixel is seen in an image.
-double find_greatest_error(const MaskImage &p_reference, const MaskImage &p_mask) {
+/// The largest absolute error of all receivers: even a single wrong pixel is visible in an image.
+double find_max_error(const MaskImage &p_reference, const MaskImage &p_mask) {
 	double greatest = 0;
 	for (size_t pixel = 0; pixel < p_reference.get_pixel_count(); ++pixel) {
 		if (p_reference.is_receiver(pixel)) {
@@ -89,7 +89,7 @@ double find_greatest_error(const MaskImage &p_reference, const MaskImage &p_mask
 	return greatest;
 }
 
-/// A build without the reference has nothing to measure against.
+/// False, with a message, in a build without the reference technique.
 bool has_reference() {
 	if (ShadowRegistry::find_reference() == nullptr) {
 		MESSAGE("No reference technique in this build: accuracy is not measured.");
@@ -115,7 +115,7 @@ TEST_CASE("[GPU][Accuracy] no technique is further from the reference than when 
 		CAPTURE(accuracy_case.at("scene").get<std::string>());
 		CAPTURE(accuracy_case.at("light").get<std::string>());
 		const MaskImage reference = render_reference(fixture, limits, accuracy_case);
-		double previous_mae = 0; // results of one case are listed from best to worst
+		double previous_mae = 0; // a case lists its results from the smallest to the largest MAE
 		for (const nlohmann::json &entry : accuracy_case.at("results")) {
 			const std::string id = entry.at("id").get<std::string>();
 			CAPTURE(id);
@@ -131,7 +131,7 @@ TEST_CASE("[GPU][Accuracy] no technique is further from the reference than when 
 			CHECK(metrics.receiver.mae <= entry.at("receiver_mae").get<double>());
 			CHECK(metrics.penumbra.mae <= entry.at("penumbra_mae").get<double>());
 			CHECK(metrics.umbra_over <= entry.value("umbra_over", 1.0));
-			CHECK(find_greatest_error(reference, mask) <= entry.value("greatest", 1.0));
+			CHECK(find_max_error(reference, mask) <= entry.value("greatest", 1.0));
 			CHECK(metrics.penumbra.mae > previous_mae);
 			previous_mae = metrics.penumbra.mae;
 		}
@@ -191,5 +191,5 @@ TEST_CASE("[GPU][Accuracy] canary: a light twice as large is seen as an error") 
 	const MaskImage reference = render_reference(fixture, limits, accuracy_case);
 	const MaskMetrics metrics = compute_mask_metrics(
 			reference, render_reference(fixture, limits, accuracy_case, { { "light_size", 0.8 } }));
-	CHECK(metrics.penumbra.mae > 0.05); // twice and more what good techniques have
+	CHECK(metrics.penumbra.mae > 0.05); // more than twice the error of good techniques
 }

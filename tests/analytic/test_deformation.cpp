@@ -1,5 +1,5 @@
-// Vertices of skins and morph targets on the GPU against a computation of our own, in double, from
-// the files' numbers alone.
+// Compares vertices that skins and morph targets deform on the GPU with an independent computation
+// in double precision, which reads the glTF files without the engine's importer.
 
 #include "modules/core/files.h"
 #include "modules/gltf_scene/gltf_scene.h"
@@ -25,7 +25,7 @@ const char MORPH[] = "/usr/share/assimp/models/glTF2/glTF-Sample-Models/Animated
 					 "AnimatedMorphCube.gltf";
 const char COURTYARD[] = "demo_project/scenes/courtyard.gltf";
 
-/// A file's numbers, with nothing of the program's reader.
+/// A glTF file and its buffers, read without the engine's importer.
 struct RawFile {
 	Json json;
 	std::vector<std::vector<uint8_t>> buffers;
@@ -35,11 +35,11 @@ struct RawFile {
 		for (const Json &buffer : json["buffers"]) {
 			const std::string uri = buffer["uri"];
 			const size_t comma = uri.find(',');
-			buffers.push_back(uri.starts_with("data:") ? decode(uri.substr(comma + 1))
+			buffers.push_back(uri.starts_with("data:") ? decode_base64(uri.substr(comma + 1))
 													   : load_file(p_path.parent_path() / uri));
 		}
 	}
-	static std::vector<uint8_t> decode(const std::string &p_text) {
+	static std::vector<uint8_t> decode_base64(const std::string &p_text) {
 		const std::string letters =
 				"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 		std::vector<uint8_t> bytes;
@@ -57,7 +57,8 @@ struct RawFile {
 		}
 		return bytes;
 	}
-	/// One row of numbers an element.
+	/// Returns one row of numbers per element of the accessor. Component types: 5126 float, 5123
+	/// 16-bit and 5121 8-bit unsigned integers.
 	std::vector<std::vector<double>> read(size_t p_accessor) const {
 		const Json &accessor = json["accessors"][p_accessor];
 		const Json &view = json["bufferViews"][size_t(accessor["bufferView"])];
@@ -76,17 +77,20 @@ struct RawFile {
 				const uint8_t *bytes_at =
 						first + row * (stride ? stride : width * bytes) + i * bytes;
 				float number = 0;
-				uint16_t half = 0;
+				uint16_t short_value = 0;
 				std::memcpy(&number, bytes_at, kind == 5126 ? 4 : 0);
-				std::memcpy(&half, bytes_at, kind == 5123 ? 2 : 0);
-				values.push_back(kind == 5126 ? double(number) : kind == 5123 ? half : *bytes_at);
+				std::memcpy(&short_value, bytes_at, kind == 5123 ? 2 : 0);
+				values.push_back(kind == 5126  ? double(number)
+								: kind == 5123 ? short_value
+											   : *bytes_at);
 			}
 		}
 		return rows;
 	}
 };
 
-/// The value of an animation's channel at a time.
+/// Returns the value of an animation channel at p_time (s). p_width: numbers per value. With
+/// CUBICSPLINE a key has three parts: in-tangent, value and out-tangent.
 std::vector<double> evaluate(
 		const RawFile &p_file, const Json &p_sampler, double p_time, size_t p_width) {
 	const auto times = p_file.read(p_sampler["input"]);
@@ -95,9 +99,9 @@ std::vector<double> evaluate(
 		flat.insert(flat.end(), row.begin(), row.end());
 	}
 	const std::string kind = p_sampler.value("interpolation", "LINEAR");
-	const size_t parts = kind == "CUBICSPLINE" ? 3 : 1;
+	const size_t values_per_key = kind == "CUBICSPLINE" ? 3 : 1;
 	const auto get = [&](size_t p_key, size_t p_part, size_t p_i) {
-		return flat[(p_key * parts + p_part) * p_width + p_i];
+		return flat[(p_key * values_per_key + p_part) * p_width + p_i];
 	};
 	size_t key = 0;
 	while (key + 1 < times.size() && times[key + 1][0] <= p_time) {
@@ -107,22 +111,24 @@ std::vector<double> evaluate(
 	const bool is_between = key + 1 < times.size() && p_time >= times[key][0];
 	const double h = is_between ? times[key + 1][0] - times[key][0] : 1;
 	const double t = is_between ? (p_time - times[key][0]) / h : 0;
-	const auto measure = [&](size_t p_key) { // of a quaternion, which should be unit
-		double square = 0;
-		for (size_t i = 0; i < p_width; ++i) {
-			square += get(p_key, parts / 2, i) * get(p_key, parts / 2, i);
-		}
-		return std::sqrt(square);
-	};
-	const bool is_turn = p_width == 4 && kind == "LINEAR" && is_between;
-	const double length_a = is_turn ? measure(key) : 1;
-	const double length_b = is_turn ? measure(key + 1) : 1;
+	const auto compute_length =
+			[&](size_t p_key) { // length of a key's quaternion, which should be 1
+				double square = 0;
+				for (size_t i = 0; i < p_width; ++i) {
+					square += get(p_key, values_per_key / 2, i) * get(p_key, values_per_key / 2, i);
+				}
+				return std::sqrt(square);
+			};
+	const bool is_rotation = p_width == 4 && kind == "LINEAR" && is_between;
+	const double length_a = is_rotation ? compute_length(key) : 1;
+	const double length_b = is_rotation ? compute_length(key + 1) : 1;
 	double dot = 0;
 	for (size_t i = 0; i < p_width; ++i) {
-		dot += is_between ? get(key, parts / 2, i) * get(key + 1, parts / 2, i) : 1;
+		dot += is_between ? get(key, values_per_key / 2, i) * get(key + 1, values_per_key / 2, i)
+						  : 1;
 	}
 	for (size_t i = 0; i < p_width; ++i) {
-		const double a = get(key, parts / 2, i);
+		const double a = get(key, values_per_key / 2, i);
 		if (!is_between || kind == "STEP") {
 			result[i] = a;
 		} else if (kind == "CUBICSPLINE") {
@@ -130,7 +136,7 @@ std::vector<double> evaluate(
 			result[i] = (1 + 2 * t) * (1 - t) * (1 - t) * a +
 					h * t * (1 - t) * (1 - t) * get(key, 2, i) + t * t * (3 - 2 * t) * b +
 					h * t * t * (t - 1) * get(key + 1, 0, i);
-		} else if (p_width == 4) { // along the great circle
+		} else if (p_width == 4) { // a rotation: along the great circle
 			const double angle = std::acos(std::min(std::abs(dot) / (length_a * length_b), 1.0));
 			const double unit_a = a / length_a;
 			const double b = (dot < 0 ? -1 : 1) * get(key + 1, 0, i) / length_b;
@@ -145,12 +151,12 @@ std::vector<double> evaluate(
 	return result;
 }
 
-glm::dmat4 compose(const std::vector<double> &p_move, const std::vector<double> &p_turn,
+glm::dmat4 compose(const std::vector<double> &p_translation, const std::vector<double> &p_rotation,
 		const std::vector<double> &p_scale) {
-	const double length = std::sqrt(p_turn[0] * p_turn[0] + p_turn[1] * p_turn[1] +
-			p_turn[2] * p_turn[2] + p_turn[3] * p_turn[3]);
-	const double x = p_turn[0] / length, y = p_turn[1] / length, z = p_turn[2] / length,
-				 w = p_turn[3] / length;
+	const double length = std::sqrt(p_rotation[0] * p_rotation[0] + p_rotation[1] * p_rotation[1] +
+			p_rotation[2] * p_rotation[2] + p_rotation[3] * p_rotation[3]);
+	const double x = p_rotation[0] / length, y = p_rotation[1] / length, z = p_rotation[2] / length,
+				 w = p_rotation[3] / length;
 	const glm::dvec3 columns[] = { { 1 - 2 * (y * y + z * z), 2 * (x * y + z * w),
 										   2 * (x * z - y * w) },
 		{ 2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w) },
@@ -158,18 +164,18 @@ glm::dmat4 compose(const std::vector<double> &p_move, const std::vector<double> 
 	glm::dmat4 matrix(1.0);
 	for (int axis = 0; axis < 3; ++axis) {
 		matrix[axis] = glm::dvec4(columns[axis] * p_scale[size_t(axis)], 0);
-		matrix[3][axis] = p_move[size_t(axis)];
+		matrix[3][axis] = p_translation[size_t(axis)];
 	}
 	return matrix;
 }
 
-/// World positions of a node's first primitive.
+/// Returns the world positions (m) of the vertices of a node's first primitive at p_time (s).
 std::vector<glm::dvec3> compute_expected(const RawFile &p_file, size_t p_node, double p_time) {
 	const Json &nodes = p_file.json["nodes"];
-	std::vector<std::vector<double>> moves, turns, scales;
+	std::vector<std::vector<double>> translations, rotations, scales;
 	for (const Json &node : nodes) {
-		moves.push_back(node.value("translation", std::vector<double>{ 0, 0, 0 }));
-		turns.push_back(node.value("rotation", std::vector<double>{ 0, 0, 0, 1 }));
+		translations.push_back(node.value("translation", std::vector<double>{ 0, 0, 0 }));
+		rotations.push_back(node.value("rotation", std::vector<double>{ 0, 0, 0, 1 }));
 		scales.push_back(node.value("scale", std::vector<double>{ 1, 1, 1 }));
 	}
 	const Json &node = nodes[p_node];
@@ -180,12 +186,13 @@ std::vector<glm::dvec3> compute_expected(const RawFile &p_file, size_t p_node, d
 		const size_t target = channel["target"]["node"];
 		const std::string path = channel["target"]["path"];
 		if (path == "rotation") {
-			turns[target] = evaluate(p_file, sampler, p_time, 4);
+			rotations[target] = evaluate(p_file, sampler, p_time, 4);
 		} else if (path == "weights") {
 			weights =
 					target == p_node ? evaluate(p_file, sampler, p_time, weights.size()) : weights;
 		} else {
-			(path == "scale" ? scales : moves)[target] = evaluate(p_file, sampler, p_time, 3);
+			(path == "scale" ? scales : translations)[target] =
+					evaluate(p_file, sampler, p_time, 3);
 		}
 	}
 	std::vector<size_t> parents(nodes.size(), SIZE_MAX);
@@ -197,7 +204,7 @@ std::vector<glm::dvec3> compute_expected(const RawFile &p_file, size_t p_node, d
 	const auto compute_world = [&](size_t p_index) {
 		glm::dmat4 world(1.0);
 		for (size_t index = p_index; index != SIZE_MAX; index = parents[index]) {
-			world = compose(moves[index], turns[index], scales[index]) * world;
+			world = compose(translations[index], rotations[index], scales[index]) * world;
 		}
 		return world;
 	};
@@ -218,21 +225,21 @@ std::vector<glm::dvec3> compute_expected(const RawFile &p_file, size_t p_node, d
 		return world;
 	}
 	const Json &skin = p_file.json["skins"][size_t(node["skin"])];
-	const auto binds = p_file.read(skin["inverseBindMatrices"]);
+	const auto inverse_binds = p_file.read(skin["inverseBindMatrices"]);
 	std::vector<glm::dmat4> joints;
 	for (size_t joint = 0; joint < skin["joints"].size(); ++joint) {
 		glm::dmat4 bind;
 		for (int element = 0; element < 16; ++element) {
-			bind[element / 4][element % 4] = binds[joint][size_t(element)];
+			bind[element / 4][element % 4] = inverse_binds[joint][size_t(element)];
 		}
 		joints.push_back(compute_world(skin["joints"][joint]) * bind);
 	}
 	const auto indices = p_file.read(primitive["attributes"]["JOINTS_0"]);
-	const auto shares = p_file.read(primitive["attributes"]["WEIGHTS_0"]);
+	const auto joint_weights = p_file.read(primitive["attributes"]["WEIGHTS_0"]);
 	for (size_t vertex = 0; vertex < points.size(); ++vertex) {
 		glm::dvec4 sum(0.0);
 		for (size_t i = 0; i < 4; ++i) {
-			sum += shares[vertex][i] *
+			sum += joint_weights[vertex][i] *
 					(joints[size_t(indices[vertex][i])] *
 							glm::dvec4(points[vertex][0], points[vertex][1], points[vertex][2], 1));
 		}
@@ -241,7 +248,7 @@ std::vector<glm::dvec3> compute_expected(const RawFile &p_file, size_t p_node, d
 	return world;
 }
 
-/// What the GPU has of the instance, in the world.
+/// Returns the world positions (m) of the instance's vertices, as deformed on the GPU.
 std::vector<glm::dvec3> read_gpu(
 		MaskFixture &r_fixture, const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance) {
 	RenderGraph graph(*r_fixture.device, *r_fixture.transients);
@@ -263,15 +270,17 @@ std::vector<glm::dvec3> read_gpu(
 	return world;
 }
 
-/// The greatest distance at ten times, as a share of the mesh's size.
+/// Checks at ten times from 0 to p_duration_s that vertices from the GPU and the CPU are within
+/// 1e-5 of the mesh's diagonal from the expected positions, and that the instance's bounds contain
+/// them. p_name: the node's name in the engine. p_node: its name in the file.
 void check_file(MaskFixture &r_fixture, const char *p_path, const std::string &p_name,
 		const char *p_node, double p_duration_s) {
 	const RawFile file(p_path);
 	size_t node_index = 0;
 	for (size_t index = 0; index < file.json["nodes"].size(); ++index) {
 		const Json &node = file.json["nodes"][index];
-		const bool is_it = node.contains("mesh") && node.value("name", "") == p_node;
-		node_index = is_it ? index : node_index;
+		const bool is_match = node.contains("mesh") && node.value("name", "") == p_node;
+		node_index = is_match ? index : node_index;
 	}
 	const std::unique_ptr<Scene> scene = load_gltf(p_path);
 	REQUIRE(scene->animations.size() == 1);
@@ -290,16 +299,17 @@ void check_file(MaskFixture &r_fixture, const char *p_path, const std::string &p
 			const std::shared_ptr<const Mesh> on_cpu = instance.get_posed_mesh();
 			REQUIRE(found.size() == expected.size());
 			Bounds bounds;
-			double farthest = 0;
+			double max_distance_m = 0;
 			for (size_t vertex = 0; vertex < found.size(); ++vertex) {
 				const glm::dvec3 cpu(instance.world_from_node *
 						glm::dvec4(glm::dvec3(on_cpu->positions_node[vertex]), 1.0));
 				bounds.add(expected[vertex]);
-				farthest = std::max({ farthest, glm::distance(found[vertex], expected[vertex]),
-						glm::distance(cpu, expected[vertex]) });
+				max_distance_m =
+						std::max({ max_distance_m, glm::distance(found[vertex], expected[vertex]),
+								glm::distance(cpu, expected[vertex]) });
 			}
-			CHECK(farthest <= 1e-5 * bounds.get_diagonal());
-			for (int corner = 0; corner < 8; ++corner) { // culling sees all of it
+			CHECK(max_distance_m <= 1e-5 * bounds.get_diagonal());
+			for (int corner = 0; corner < 8; ++corner) { // the culling bounds contain the mesh
 				CHECK(instance.bounds_world.compute_distance(bounds.get_corner(corner)) <=
 						1e-5 * bounds.get_diagonal());
 			}
@@ -311,16 +321,16 @@ void check_file(MaskFixture &r_fixture, const char *p_path, const std::string &p
 
 TEST_CASE("deformation: vertices agree with a computation in double at ten times") {
 	MaskFixture fixture;
-	if (fs::exists(SKIN)) { // assimp-testmodels
+	if (fs::exists(SKIN)) { // files of package assimp-testmodels
 		check_file(fixture, SKIN, "Node 0", "", 5.5);
 		check_file(fixture, MORPH, "AnimatedMorphCube", "AnimatedMorphCube", 4.2);
 	} else {
-		MESSAGE("assimp-testmodels are not there");
+		MESSAGE("Skipped: package assimp-testmodels is not installed.");
 	}
-	if (fs::exists(COURTYARD)) { // which the demo's scripts make
+	if (fs::exists(COURTYARD)) { // written by the demo's scripts
 		check_file(fixture, COURTYARD, "Figure", "Figure", 6);
 		check_file(fixture, COURTYARD, "Flag", "Flag", 6);
 	} else {
-		MESSAGE(COURTYARD, " is not there");
+		MESSAGE("Skipped: ", COURTYARD, " does not exist.");
 	}
 }

@@ -1,4 +1,4 @@
-// The renderer's error view against the error image of the same masks.
+// Compares the renderer's error view with the error image of the same masks.
 
 #include "modules/core/error.h"
 #include "modules/masks/mask_png.h"
@@ -12,7 +12,7 @@ using namespace gnomon;
 
 namespace {
 
-/// The mask of a scene, every third column of it wrong by up to half, and some pixels no receivers.
+/// The frame's mask with the receivers of every third column changed by up to 0.5.
 MaskImage make_wrong_reference(const RenderResult &p_frame, glm::uvec2 p_size_px) {
 	MaskImage reference = { p_size_px, p_frame.visibility, p_frame.receiver };
 	for (size_t pixel = 0; pixel < reference.get_pixel_count(); ++pixel) {
@@ -47,16 +47,16 @@ TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error image"
 	const std::vector<uint8_t> shown = fixture.renderer->render(request).image;
 	const std::vector<uint8_t> expected = compute_error_pixels(reference, mask);
 	REQUIRE(shown.size() == 4 * reference.get_pixel_count());
-	int greatest = 0;
+	int max_difference = 0;
 	size_t colored_count = 0;
 	for (size_t pixel = 0; pixel < reference.get_pixel_count(); ++pixel) {
 		for (size_t channel = 0; channel < 3; ++channel) {
-			greatest = std::max(greatest,
+			max_difference = std::max(max_difference,
 					std::abs(int(shown[4 * pixel + channel]) - int(expected[3 * pixel + channel])));
 		}
 		colored_count += shown[4 * pixel] != shown[4 * pixel + 2] ? 1 : 0;
 	}
-	CHECK(greatest <= 1);
+	CHECK(max_difference <= 1);
 	CHECK(colored_count > reference.get_pixel_count() / 5);
 }
 
@@ -68,7 +68,8 @@ TEST_CASE("[GPU][ErrorView] an error view without a reference, or with one of an
 	request.scene = scene.snap();
 	request.size_px = glm::uvec2(16);
 	request.debug_view = "error";
-	CHECK_THROWS_WITH_AS(fixture.renderer->render(request), doctest::Contains("--reference"), Error);
+	CHECK_THROWS_WITH_AS(
+			fixture.renderer->render(request), doctest::Contains("--reference"), Error);
 	const std::vector<float> values(12, 1.0f);
 	request.reference = std::make_shared<ReferenceMask>(glm::uvec2(4, 3), values, values);
 	CHECK_THROWS_WITH_AS(fixture.renderer->render(request),

@@ -5,8 +5,8 @@
                            [--set PROPERTY=VALUE]...
     compare_masks.py compare BEFORE AFTER
 
-For a change that must leave every mask as it is: store with the program before the change and with the one after it, on
-the same machine, then compare. The last line states how many masks differ; exit code 1 when any does.
+For changes that must not alter any mask: run `store` with the program from before and from after the change, on the same
+machine, then `compare`. The last line states how many masks differ. The exit code is 1 if any does.
 """
 
 import argparse
@@ -27,7 +27,7 @@ from driver import PROGRAM, SCENES, TIMEOUT_S, run
 TYPES = ("spot", "point", "directional")
 LIGHTS = "KHR_lights_punctual"
 SPOT = {"innerConeAngle": 0.6, "outerConeAngle": 0.7}
-SIZE_M, ANGLE_DEGREES = 0.3, 5.0  # of lights that had another type
+SIZE_M, ANGLE_DEGREES = 0.3, 5.0  # for lights whose original type lacks the property
 
 
 def list_lights(root):
@@ -35,7 +35,7 @@ def list_lights(root):
 
 
 def change_type(light, kind):
-    """The light as one of another type, at the same position. A light that has the type stays as it is."""
+    """Change the light's type in place. A size that the new type needs and the light lacks is set. Does nothing if it has the type."""
     if light["type"] == kind:
         return
     extras = light.setdefault("extras", {})
@@ -51,7 +51,7 @@ def change_type(light, kind):
 
 
 def write_variants(folder, scenes):
-    """Return (path, light) of each scene with all its lights of one type."""
+    """Write each scene once per light type, with all its lights of that type. Yield (path, light name)."""
     for path in scenes:
         with open(path, encoding="utf-8") as file:
             root = json.load(file)
@@ -105,13 +105,13 @@ def store(options):
 
 
 def describe_difference(before, after):
-    """Empty when both files are equal byte for byte."""
+    """Return how two mask files differ, as text; "" if they are equal byte for byte."""
     with open(before, "rb") as left, open(after, "rb") as right:
         if left.read() == right.read():
             return ""
     try:
         old, new = load_mask(before), load_mask(after)
-    except ValueError:  # coloured: behind translucent casters
+    except ValueError:  # a coloured mask of translucent casters, which load_mask() refuses
         return "differs"
     if (old.width, old.height) != (new.width, new.height):
         return "has another size"
@@ -148,7 +148,7 @@ def main():
     storing.add_argument("--program", default=PROGRAM)
     storing.add_argument("--out", required=True)
     storing.add_argument("--size", default="200x200")
-    storing.add_argument("--scenes", default="", help="names, * for any text")
+    storing.add_argument("--scenes", default="", help="scene names; * matches any text")
     storing.add_argument("--techniques", default="")
     storing.add_argument("--jobs", type=int, default=os.cpu_count())
     storing.add_argument("--set", dest="settings", action="append", default=[])

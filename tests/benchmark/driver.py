@@ -1,4 +1,4 @@
-"""What the benchmarks share: running the program, tables, and writing them between the markers of a page."""
+"""Functions that the benchmarks share: run the program, format tables, and write them between the markers of a page."""
 
 import datetime
 import json
@@ -15,7 +15,7 @@ TIMEOUT_S = 3600
 
 
 def run(command, folder=ROOT, **options):
-    """The command's output. Ends the program when the command fails."""
+    """Run a command and return its stdout. Exits if the command fails."""
     result = subprocess.run(
         command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S, **options
     )
@@ -25,7 +25,7 @@ def run(command, folder=ROOT, **options):
 
 
 def run_gnomon(*arguments):
-    """The output of bin/gnomon, or of $GNOMON."""
+    """Run bin/gnomon, or $GNOMON, and return its stdout."""
     return run([PROGRAM, *map(str, arguments)])
 
 
@@ -37,7 +37,7 @@ def format_table(header, rows):
     return [format_row(*header), format_row(*("---" for _ in header))] + [format_row(*row) for row in rows]
 
 
-def answer(is_met):
+def format_yes_no(is_met):
     return "yes" if is_met else "no"
 
 
@@ -48,6 +48,7 @@ def describe_processor():
 
 
 def describe_machine(load):
+    """Describe date, processor, device and driver in one line. load: load average before the measurement began."""
     device, driver = "unknown", "unknown"
     with tempfile.TemporaryDirectory() as folder:
         times = os.path.join(folder, "time.json")
@@ -63,7 +64,7 @@ def describe_machine(load):
 
 
 def publish_tables(tables, measured, writes):
-    """Prints tables, lines by name, each with what was measured below it; writes them into the page if requested."""
+    """Print tables (name -> lines), each followed by `measured`, which describes the machine. Write them into the page if `writes`."""
     for name, lines in tables.items():
         lines += ["", measured]
         print("\n%s\n%s" % (name, "\n".join(lines)), flush=True)
@@ -72,7 +73,7 @@ def publish_tables(tables, measured, writes):
 
 
 def write_table(name, lines, page=PAGE):
-    """Replaces what is between the page's two markers of that name."""
+    """Replace the text between the page's two markers of that name."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
     begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name

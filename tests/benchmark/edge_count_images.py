@@ -1,4 +1,4 @@
-"""The images with which edge_count is measured: scenes, lights and sizes of the light, in groups."""
+"""Images on which edge_count is measured: combinations of scene, light and light size, in groups."""
 
 import json
 import math
@@ -19,37 +19,37 @@ from make_scenes import CORAL, SCENE_SIZE_M  # noqa: E402
 from shapes import make_box, make_torus  # noqa: E402
 
 STUDY, PLAIN, PACKAGES, ARTISTS = "study scenes", "one box, one torus", "package meshes", "kitbash, rigging, grass"
-GROUPS = {"study": STUDY, "plain": PLAIN, "packages": PACKAGES, "artists": ARTISTS}  # by their names on the command line
+GROUPS = {"study": STUDY, "plain": PLAIN, "packages": PACKAGES, "artists": ARTISTS}  # name on the command line -> group
 PLAIN_MESHES = {"plain_box": make_box((0.5, 0.5, 0.5)), "plain_torus": make_torus(0.7, 0.25, 48, 24)}
 PLAIN_HEIGHT_M = 0.8
 SUN = "Sun"
-SMALL_SHARE, LARGE_SHARE = 0.02, 0.1  # of S: sizes of a light
+SMALL_FRACTION, LARGE_FRACTION = 0.02, 0.1  # radius of a light as a fraction of the scene size S
 
 
 class Image:
-    """One scene, one of its lights and a size of it, with r = t = R."""
+    """A scene, one of its lights (None: its only light) and the light's radius R as a fraction of S, with widths r = t = R."""
 
-    def __init__(self, group, path, light, share):
-        self.group, self.path, self.light, self.share = group, path, light, share
+    def __init__(self, group, path, light, radius_fraction):
+        self.group, self.path, self.light, self.radius_fraction = group, path, light, radius_fraction
         self.scene = os.path.splitext(os.path.basename(path))[0]
         self.source = "%s, %s" % (self.scene, light) if light else self.scene
-        self.name = "%s, R = %g %%" % (self.source, 100 * share) if share else self.source
+        self.name = "%s, R = %g %%" % (self.source, 100 * radius_fraction) if radius_fraction else self.source
 
-    def get_words(self):
-        """Of the command line."""
+    def get_arguments(self):
+        """Return the command-line arguments that select the light and set its size and widths."""
         if self.light == SUN:
-            size = "light_angular_distance=%.6f" % (2 * math.degrees(math.atan(self.share)))
+            size = "light_angular_distance=%.6f" % (2 * math.degrees(math.atan(self.radius_fraction)))
         else:
-            size = "light_size=%g" % (self.share * SCENE_SIZE_M)
-        words = [word for setting in (size, "penumbra_outer_width=-1", "penumbra_inner_width=-1") for word in ("--set", setting)]
-        return words + (["--light", self.light] if self.light else [])
+            size = "light_size=%g" % (self.radius_fraction * SCENE_SIZE_M)
+        arguments = [word for setting in (size, "penumbra_outer_width=-1", "penumbra_inner_width=-1") for word in ("--set", setting)]
+        return arguments + (["--light", self.light] if self.light else [])
 
     def draw(self, program, technique, settings, size, out, *more):
-        """Writes the mask; returns what `--time` writes, if requested."""
-        words = [word for setting in settings for word in ("--set", setting)]
+        """Write the light's mask to `out`. Return the JSON of `--time` if `more` has --timed-frames, else None."""
+        arguments = [word for setting in settings for word in ("--set", setting)]
         times = out + ".json"
         is_timed = "--timed-frames" in more
-        run([program, "visibility", self.path, "--technique", technique, "--size", size, "--out", out, *self.get_words(), *words,
+        run([program, "visibility", self.path, "--technique", technique, "--size", size, "--out", out, *self.get_arguments(), *arguments,
              *(("--time", times) if is_timed else ()), *more])  # fmt: skip
         if is_timed:
             with open(times, encoding="utf-8") as file:
@@ -65,30 +65,32 @@ def make_plain_scenes(folder):
 
 
 def make_images(groups, folder):
-    """All images of the groups; scenes that the repository does not have are made in the folder. Ends the program if a
-    package mesh cannot be converted: the goals are means over all of them."""
+    """Return all images of the groups. Scenes that the repository lacks are written to the folder. Exits if a package mesh
+    cannot be converted, because the goals are means over all of them."""
     images = []
     if STUDY in groups:
         paths = [os.path.join(driver.SCENES, name + ".gltf") for name in STUDY_SCENES]
         images += [Image(STUDY, path, None, size_m / SCENE_SIZE_M) for path in paths for size_m in SIZES_M]
 
-    def add(group, names, lights, shares):
+    def add(group, names, lights, radius_fractions):
         paths = [os.path.join(folder, name + ".gltf") for name in names]
-        images.extend(Image(group, path, light, share) for path in paths for light in lights for share in shares)
+        images.extend(
+            Image(group, path, light, radius_fraction) for path in paths for light in lights for radius_fraction in radius_fractions
+        )
 
     if PLAIN in groups:
         make_plain_scenes(folder)
-        add(PLAIN, PLAIN_MESHES, ("Omni", "Spot", SUN), (LARGE_SHARE,))
+        add(PLAIN, PLAIN_MESHES, ("Omni", "Spot", SUN), (LARGE_FRACTION,))
     if PACKAGES in groups:
         failed = make_scenes(MESHES, folder)
         if failed:
             raise SystemExit(
                 "ERROR: package meshes that could not be converted: %s. Run demo_project/run_demo.sh once, which installs "
-                "the packages, or leave them out with --groups." % ", ".join(failed)
+                "the packages, or omit them with --groups." % ", ".join(failed)
             )
-        add(PACKAGES, [PREFIX + name for name in MESHES], ("Spot", SUN), (SMALL_SHARE, LARGE_SHARE))
+        add(PACKAGES, [PREFIX + name for name in MESHES], ("Spot", SUN), (SMALL_FRACTION, LARGE_FRACTION))
     if ARTISTS in groups:
         for name in ARTIST_SCENES:
             save_files(build_scene_files(name), folder)
-        add(ARTISTS, ARTIST_SCENES, ("Spot", "Omni", SUN), (SMALL_SHARE, LARGE_SHARE))
+        add(ARTISTS, ARTIST_SCENES, ("Spot", "Omni", SUN), (SMALL_FRACTION, LARGE_FRACTION))
     return images

@@ -1,4 +1,4 @@
-"""Scenes in each of which one rule for skipping work has its effect; measure_lean.py renders them."""
+"""Scenes that measure_lean.py renders. In each of them a rule for skipping work takes effect."""
 
 import math
 import os
@@ -10,12 +10,13 @@ from shapes import make_box, make_icosphere, make_quad, make_torus_knot  # noqa:
 from volume_scenes import save  # noqa: E402
 
 GREY = (0.6, 0.6, 0.6)
-S_M = 4.0
+SCENE_SIZE_M = 4.0
 VISIBLE_COUNT = 4
 
 
 def begin(eye=(-3.2, 4.6, 4.6), target=(-0.3, 0.45, -0.2), fov_deg=40.0):
-    document = Document(S_M)
+    """Return a document with a camera, and the index of its grey material."""
+    document = Document(SCENE_SIZE_M)
     document.add_camera("Camera", eye, target, math.radians(fov_deg))
     return document, document.add_material("Grey", GREY)
 
@@ -42,7 +43,7 @@ def add_omni(document, name, position, range_m=None, **extras):
 
 
 def make_balls(folder, stem="balls"):
-    """Nine balls over a ground, one spot."""
+    """Nine balls above a ground, lit by one spot light."""
     document, material = begin()
     add_ground(document, material)
     ball = document.add_mesh("Ball", make_icosphere(3, 0.3), material)
@@ -53,8 +54,8 @@ def make_balls(folder, stem="balls"):
 
 
 def make_lights(hidden_count, folder):
-    """Four spots in view, and spots that point away and omni lights whose range ends too early. Maps are small, so that
-    those of all lights would fit into memory."""
+    """Four spot lights that light the view, and `hidden_count` lights that do not: spot lights that point upwards, and omni lights
+    with too short a range. Shadow maps are small, so that those of all lights would fit into memory."""
     small = {"shadow_map_size": 128}
     document, material = begin()
     add_ground(document, material)
@@ -73,7 +74,7 @@ def make_lights(hidden_count, folder):
 
 
 def make_tower(folder):
-    """An omni light so high that only its view downwards has casters."""
+    """An omni light so high that only its downward view has casters."""
     document, material = begin()
     add_ground(document, material, 2.5)
     document.add_object("Knot", make_torus_knot(0.3, 0.14, 160, 32), material, (0.0, 1.0, 0.0))
@@ -87,16 +88,16 @@ def make_room(folder):
     add_ground(document, material, 2.2)
     knot = document.add_mesh("Knot", make_torus_knot(0.12, 0.06, 160, 32), material)
     for index in range(4):
-        way = ((1, 0), (-1, 0), (0, 1), (0, -1))[index]
-        half = (0.1, 2.0, 2.0) if way[0] else (2.0, 2.0, 0.1)
-        document.add_object("Wall %d" % index, make_box(half), material, (2.1 * way[0], 1.9, 2.1 * way[1]))
-        document.add_node("Knot %d" % index, (1.1 * way[0], 1.0, 1.1 * way[1]), mesh=knot)
+        direction = ((1, 0), (-1, 0), (0, 1), (0, -1))[index]
+        half = (0.1, 2.0, 2.0) if direction[0] else (2.0, 2.0, 0.1)
+        document.add_object("Wall %d" % index, make_box(half), material, (2.1 * direction[0], 1.9, 2.1 * direction[1]))
+        document.add_node("Knot %d" % index, (1.1 * direction[0], 1.0, 1.1 * direction[1]), mesh=knot)
     add_omni(document, "Light", (0.0, 1.0, 0.0))
     return save(document, "room", folder)
 
 
 def make_quads(folder):
-    """Casters without a back, side by side: behind the first layer there is nothing."""
+    """Single quads side by side: there is no second depth layer behind the first."""
     document, material = begin()
     quad = document.add_mesh("Quad", make_quad(0.18, 0.18), material)
     for index in range(100):

@@ -1,5 +1,5 @@
-// Times of loading one scene file and building the adjacency of its meshes, as JSON. Built by
-// `scons benchmarks`, run by run_benchmarks.py.
+// Measures the time to load a scene file and to build the adjacency of its meshes, and prints it as
+// JSON. Built by `scons benchmarks`, run by run_benchmarks.py.
 //
 //     gnomon_benchmark SCENE.gltf [RUNS]
 
@@ -67,7 +67,7 @@ int main(int p_argument_count, char **p_arguments) {
 	const int run_count = p_argument_count > 2 ? std::atoi(p_arguments[2]) : DEFAULT_RUN_COUNT;
 	if (p_argument_count < 2 || p_argument_count > 3 || run_count < 1) {
 		std::fprintf(stderr,
-				"Usage: gnomon_benchmark SCENE.gltf [RUNS]   runs: 1 and more, default %d\n",
+				"Usage: gnomon_benchmark SCENE.gltf [RUNS]   runs: 1 or more, default %d\n",
 				DEFAULT_RUN_COUNT);
 		return 2;
 	}

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Packs a program that runs where nothing is installed: see usage. doc/benchmarks.md, "A portable program".
+# Packs the program with its libraries, so that it runs without installation. See usage below, and "A portable program" in
+# doc/benchmarks.md.
 set -euo pipefail
 
 usage() {
@@ -45,7 +46,7 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
-[ -x "$program" ] || fail "$program is not there. Build it: scons bin/gnomon."
+[ -x "$program" ] || fail "$program does not exist. Build it: scons bin/gnomon."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 bundle=$work/gnomon-linux-x86_64
@@ -55,8 +56,8 @@ echo "== Program"
 strip -o "$bundle/bin/gnomon" "$program"
 
 echo "== Libraries"
-# Those of the C library stay out: they and the driver must be of one make. What a driver may need too is a fallback, for
-# systems without it: a process has one version of each, and a driver of a newer system needs the newer one.
+# The C library is not packed: it must match the driver's. Libraries that a driver may need too are packed as fallbacks for
+# systems without them, because a process loads only one version of each, and the driver of a newer system needs the newer one.
 is_of_c_library() {
     case $1 in
         libc.so.* | libm.so.* | libdl.so.* | libpthread.so.* | librt.so.* | ld-linux*) return 0 ;;
@@ -99,10 +100,10 @@ chmod +x "$bundle/gnomon" "$bundle/measure.sh"
 echo "== References"
 "$bundle/measure.sh" --quick --out "$work/measured" "${measure_options[@]}" >"$work/log" 2>&1 || {
     cat "$work/log" >&2
-    fail "the bundle does not measure"
+    fail "measure.sh failed in the bundle"
 }
 
-rm -f "$bundle"/references/pipelines_* # of this machine's driver
+rm -f "$bundle"/references/pipelines_* # pipeline caches of this machine's driver
 
 echo "== Archive"
 mkdir -p "$(dirname "$out")"

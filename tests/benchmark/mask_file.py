@@ -7,7 +7,7 @@ import zlib
 
 ZIP_COMPRESSION = 3  # blocks of 16 lines
 LINES_PER_BLOCK = 16
-FLOAT = 2
+FLOAT = 2  # OpenEXR's pixel type of 32-bit floats
 
 
 class Mask:
@@ -17,7 +17,7 @@ class Mask:
         self.receiver = array.array("f", bytes(4 * width * height))
 
     def find_penumbra(self):
-        """Indices of receivers that are neither lit nor hidden (doc/glossary.md)."""
+        """Return the indices of receivers that are neither fully lit nor fully hidden (doc/glossary.md)."""
         return [i for i, v in enumerate(self.visibility) if self.receiver[i] >= 0.5 and 0.002 < v < 0.998]
 
 
@@ -27,7 +27,7 @@ def read_text(data, position):
 
 
 def undo_prediction(packed):
-    """OpenEXR stores each byte as its difference to the one before, even bytes before odd ones."""
+    """Undo OpenEXR's ZIP predictor, which stores each byte as its difference to the previous one, and even bytes before odd ones."""
     data = bytearray(packed)
     for i in range(1, len(data)):
         data[i] = (data[i - 1] + data[i] - 128) & 255
@@ -39,7 +39,7 @@ def undo_prediction(packed):
 
 
 def load_mask(path):
-    """A ZIP-compressed file with the float channels Y and receiver; anything else is a ValueError."""
+    """Load a ZIP-compressed OpenEXR file with the float channels Y and receiver. Raises ValueError for other channels."""
     with open(path, "rb") as file:
         data = file.read()
     position, attributes = 8, {}
@@ -62,9 +62,9 @@ def load_mask(path):
     for offset in struct.unpack_from("<%dQ" % block_count, data, position + 1):
         first, size = struct.unpack_from("<ii", data, offset)
         line_count = min(LINES_PER_BLOCK, mask.height - (first - top))
-        packed, whole = data[offset + 8 : offset + 8 + size], 8 * mask.width * line_count
+        packed, raw_size_bytes = data[offset + 8 : offset + 8 + size], 8 * mask.width * line_count
         block = array.array("f")
-        block.frombytes(packed if size == whole else undo_prediction(zlib.decompress(packed)))
+        block.frombytes(packed if size == raw_size_bytes else undo_prediction(zlib.decompress(packed)))
         if sys.byteorder != "little":
             block.byteswap()
         for line in range(line_count):
@@ -76,12 +76,12 @@ def load_mask(path):
 
 
 def compute_mean_error(reference, result, pixels):
-    """Mean of |result - reference| over the pixels."""
+    """Return the mean of |result - reference| over these pixel indices."""
     return sum(abs(result.visibility[i] - reference.visibility[i]) for i in pixels) / max(len(pixels), 1)
 
 
 def halve(mask):
-    """A mask of half the size: the mean of each four pixels that are all receivers; else none."""
+    """Return a mask of half the size. A pixel is the mean of the four that it covers, and a receiver only if all four are."""
     half = Mask(mask.width // 2, mask.height // 2)
     for y in range(half.height):
         for x in range(half.width):

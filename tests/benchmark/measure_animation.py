@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Measures deformed casters: the scene `courtyard` along its walk, and writes the tables of doc/animation.md.
+"""Measures deformed casters in the scene `courtyard` and writes the tables of doc/animation.md.
 
     measure_animation.py [--write] [--errors | --times] [--techniques A,B]
 
-Errors at eight times of the walk against 2304 rays a receiver, 512 x 512, from the camera that follows the figure, under
-the sun and the lamp. Times: a mesh of 70,000 triangles that a skin of 20 joints moves, against the same mesh that its node moves: ms of the
-mask's passes, medians of 20 frames in which all moves.
+Errors: at eight times of the walk, compared with 2304 rays per receiver, at 512 x 512 pixels, from the camera that follows the figure, for
+the sun and the lamp. Times: milliseconds of the mask's passes for a mesh of 69,800 triangles that a skin of 20 joints deforms, compared with
+the same mesh moved by its node. They are medians of 20 frames in which everything moves.
 """
 
 import argparse
@@ -23,18 +23,18 @@ from mask_file import load_mask
 PAGE = os.path.join(ROOT, "doc", "animation.md")
 SIZE = "512x512"
 SAMPLES = 2304
-WRONG = 0.2
+WRONG_ERROR = 0.2  # a receiver with a larger error counts as wrong
 TIMES_S = [0.3 + 0.75 * index for index in range(8)]
 LIGHTS = {"Sun": "light_angular_distance=2", "Lamp": "light_size=0.1"}
 CAMERA = "Walk camera"
 MOVING = ("Figure", "Flag")
 TECHNIQUES = ("edge_count", "pcss", "views", "jittered_pcf", "penumbra_fins", "shadow_volume", "planar", "shadow_map")
 TIMED = ("edge_count", "pcss", "penumbra_fins", "shadow_volume")
-RINGS, SIDES = 350, 100  # 70,000 triangles
+RINGS, SIDES = 350, 100  # 69,800 triangles
 
 
 def make_still_scene(folder):
-    """The scene without what moves."""
+    """Write the scene without the moving meshes and the animation. Return its path."""
     with open(os.path.join(SCENES, "courtyard.gltf"), encoding="utf-8") as file:
         document = json.load(file)
     for node in document["nodes"]:
@@ -57,10 +57,10 @@ def load_depths(folder):
     return struct.unpack("<%df" % (len(data) // 4), data)
 
 
-def find_moving_pixels(still, words, folder):
-    """Pixels that show the figure or the flag: those whose depth is another without them."""
+def find_moving_pixels(still, arguments, folder):
+    """Return the pixels that show the figure or the flag: those whose depth changes when both are removed."""
     depths = []
-    for scene in ([os.path.join(SCENES, "courtyard.gltf"), *words], [still]):
+    for scene in ([os.path.join(SCENES, "courtyard.gltf"), *arguments], [still]):
         run("visibility", *scene, "--camera", CAMERA, "--light", "Sun", "--size", SIZE, "--technique", "shadow_map",
             "--surfaces", folder, "--out", os.path.join(folder, "mask.exr"))
         depths.append(load_depths(folder))
@@ -68,9 +68,9 @@ def find_moving_pixels(still, words, folder):
 
 
 def measure_errors(techniques):
-    """Of each light and technique: the greatest of the eight times' penumbra MAE, wrong receivers in 100,000, and
-    those among what moves."""
-    greatest = {}
+    """Return the lines of a table. For each light and technique it has the maxima over the eight times of the penumbra MAE, of
+    wrong receivers per 100,000, and of wrong receivers per 100,000 on the moving meshes."""
+    maxima = {}
     with tempfile.TemporaryDirectory() as folder:
         still = make_still_scene(folder)
         reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
@@ -78,30 +78,30 @@ def measure_errors(techniques):
             at = ["--at", "%g" % time_s]
             moving = find_moving_pixels(still, at, folder)
             for light, setting in LIGHTS.items():
-                words = ["visibility", os.path.join(SCENES, "courtyard.gltf"), *at, "--camera", CAMERA, "--light", light,
+                arguments = ["visibility", os.path.join(SCENES, "courtyard.gltf"), *at, "--camera", CAMERA, "--light", light,
                          "--size", SIZE, "--set", setting]
-                run(*words, "--technique", "reference", "--set", "reference_samples=%d" % SAMPLES, "--out", reference)
+                run(*arguments, "--technique", "reference", "--set", "reference_samples=%d" % SAMPLES, "--out", reference)
                 reference_mask = load_mask(reference)
                 receivers = [index for index in moving if reference_mask.receiver[index] >= 0.5]
                 for technique in techniques:
-                    run(*words, "--technique", technique, "--out", mask)
+                    run(*arguments, "--technique", technique, "--out", mask)
                     error = json.loads(run("compare", reference, mask))
                     found = load_mask(mask)
-                    wrong = sum(abs(found.visibility[i] - reference_mask.visibility[i]) > WRONG for i in receivers)
+                    wrong = sum(abs(found.visibility[i] - reference_mask.visibility[i]) > WRONG_ERROR for i in receivers)
                     row = (error["penumbra"]["mae"], error["receiver"]["wrong"] * 1e5, wrong / len(receivers) * 1e5)
-                    before = greatest.get((light, technique), (0, 0, 0))
-                    greatest[light, technique] = tuple(map(max, before, row))
+                    before = maxima.get((light, technique), (0, 0, 0))
+                    maxima[light, technique] = tuple(map(max, before, row))
                     print("%.2f s, %s, %s: MAE %.4f, wrong %.1f, of %d that move %.1f" % (
                         time_s, light, technique, row[0], row[1], len(receivers), row[2]), flush=True)
     lines = ["| technique | %s |" % " | ".join(LIGHTS), "|---" * (1 + len(LIGHTS)) + "|"]
     for technique in techniques:
-        cells = ["%.4f, %.0f, %.0f" % greatest[light, technique] for light in LIGHTS]
+        cells = ["%.4f, %.0f, %.0f" % maxima[light, technique] for light in LIGHTS]
         lines.append("| `%s` | %s |" % (technique, " | ".join(cells)))
     return lines
 
 
 class Document:
-    """A glTF document whose buffer grows."""
+    """A glTF document under construction, with a single buffer."""
 
     def __init__(self):
         self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "bufferViews": [],
@@ -109,6 +109,7 @@ class Document:
         self.bytes = bytearray()
 
     def add(self, code, kind, type_name, values, width):
+        """Append an accessor and return its index. code: struct format, kind: glTF component type, width: numbers per element."""
         self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes),
                                          "byteLength": len(values) * struct.calcsize(code)})
         self.bytes += struct.pack("<%d%s" % (len(values), code), *values)
@@ -130,7 +131,7 @@ class Document:
 
 
 def make_tube(path, is_skinned):
-    """A tube of 70,000 triangles, turned by its node or by the joints of a skin, of which there are 20."""
+    """Write a tube of 69,800 triangles that is rotated by its node, or by the root joint of a skin of 20 joints."""
     document = Document()
     joint_count = 20
     points, normals, joints, weights = [], [], [], []
@@ -162,24 +163,25 @@ def make_tube(path, is_skinned):
     for joint in range(joint_count):
         nodes.append({"name": "Joint %d" % joint, "translation": [0, step if joint else 0, 0],
                       **({"children": [joint + 2]} if joint + 1 < joint_count else {})})
-    binds = []
+    inverse_binds = []
     for joint in range(joint_count):
-        binds += [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -step * joint, 0, 1]
+        inverse_binds += [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -step * joint, 0, 1]
     if is_skinned:
         document.json["skins"] = [{"joints": list(range(1, joint_count + 1)),
-                                   "inverseBindMatrices": document.add("f", 5126, "MAT4", binds, 16)}]
-    moved = 1 if is_skinned else 0  # the root joint, or the mesh itself: the same shape at the same position
+                                   "inverseBindMatrices": document.add("f", 5126, "MAT4", inverse_binds, 16)}]
+    moved = 1 if is_skinned else 0  # the root joint or the mesh's node: both give the same shape at the same position
     angle = 0.3
     times = document.add("f", 5126, "SCALAR", [0.0, 1.0], 1)
-    turns = document.add("f", 5126, "VEC4", [0, 0, 0, 1, math.sin(angle / 2), 0, 0, math.cos(angle / 2)], 4)
+    rotations = document.add("f", 5126, "VEC4", [0, 0, 0, 1, math.sin(angle / 2), 0, 0, math.cos(angle / 2)], 4)
     document.json["animations"] = [{
-        "samplers": [{"input": times, "output": turns}],
+        "samplers": [{"input": times, "output": rotations}],
         "channels": [{"sampler": 0, "target": {"node": moved, "path": "rotation"}}]}]
     document.json["scenes"][0]["nodes"] = [0, 1]
     document.save(path)
 
 
 def measure_time(path, technique, folder):
+    """Return the light's GPU time, and how much of it the pass `deform` takes, in ms."""
     times = os.path.join(folder, "times.json")
     run("visibility", path, "--at", "0.7", "--size", SIZE, "--technique", technique, "--time", times, "--out",
         os.path.join(folder, "timed.exr"))
@@ -207,8 +209,8 @@ def measure_times():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", action="store_true", help="writes the tables into doc/animation.md")
-    parser.add_argument("--errors", action="store_true", help="errors alone")
-    parser.add_argument("--times", action="store_true", help="times alone")
+    parser.add_argument("--errors", action="store_true", help="only the table of errors")
+    parser.add_argument("--times", action="store_true", help="only the table of times")
     parser.add_argument("--techniques", default=",".join(TECHNIQUES))
     options = parser.parse_args()
     if not options.times:

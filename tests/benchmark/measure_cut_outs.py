@@ -3,9 +3,10 @@
 
     measure_cut_outs.py [--write] [--scenes A,B] [--techniques A,B] [--times | --unseen]
 
-Errors are those of one light at a time against 2304 rays a receiver, 512 x 512, for lights of 2, 10 and 30 % of S. Times are medians
-of 20 frames in which all moves, as ratios to the same scene with opaque cards and to pcss, measured one after another. --unseen: masks
-and seeds that the outlines were not tuned for.
+Errors are those of one light at a time, compared with 2304 rays per receiver, at 512 x 512 pixels, for light radii of 2, 10 and 30 % of
+the scene size S; in courtyard for a sun of 2 degrees and a lamp of 0.1 m. --times: medians of 20 frames in which everything moves, compared
+with the same scene with opaque cards and with pcss, one measured right after the other. --unseen: errors with textures and seeds for which
+the outlines were not tuned; --scenes has no effect on them.
 """
 
 import argparse
@@ -30,7 +31,7 @@ PAGE = os.path.join(ROOT, "doc", "cut_outs.md")
 SIZE = "512x512"
 SAMPLES = 2304
 TECHNIQUES = ("edge_count", "pcss", "views", "shadow_map")
-SIZES = {"2 %": 0.02, "10 %": 0.1, "30 %": 0.3}
+RADIUS_FRACTIONS = {"2 %": 0.02, "10 %": 0.1, "30 %": 0.3}  # light radius as a fraction of the scene size S
 UNSEEN = {
     "plasma": "a card of plasma, 96 texels",
     "binary": "an oval leaf whose alpha is 0 and 1 alone",
@@ -40,26 +41,26 @@ UNSEEN = {
 
 
 def list_lights(scene):
-    """Return (light, size's name, setting) of each row."""
+    """Return (light, label of its size, setting of its size) for each row."""
     if scene == "courtyard":
         return [("Sun", "2 degrees", "light_angular_distance=2"), ("Lamp", "0.1 m", "light_size=0.1")]
     rows = []
     for light in ("Spot", "Omni", "Sun"):
-        for name, share in SIZES.items():
-            setting = "light_size=%g" % (share * SCENE_SIZE_M)
+        for name, fraction in RADIUS_FRACTIONS.items():
+            setting = "light_size=%g" % (fraction * SCENE_SIZE_M)
             if light == "Sun":
-                setting = "light_angular_distance=%g" % math.degrees(2.0 * math.atan(share))
+                setting = "light_angular_distance=%g" % math.degrees(2.0 * math.atan(fraction))
             rows.append((light, name, setting))
     return rows
 
 
 def measure_errors(path, light, setting, techniques, folder):
     reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
-    words = ["visibility", path, "--light", light, "--size", SIZE, "--set", setting]
-    run(*words, "--technique", "reference", "--set", "reference_samples=%d" % SAMPLES, "--out", reference)
+    arguments = ["visibility", path, "--light", light, "--size", SIZE, "--set", setting]
+    run(*arguments, "--technique", "reference", "--set", "reference_samples=%d" % SAMPLES, "--out", reference)
     cells = []
     for technique in techniques:
-        run(*words, "--technique", technique, "--out", mask)
+        run(*arguments, "--technique", technique, "--out", mask)
         error = json.loads(run("compare", reference, mask))
         wrong = error["receiver"]["wrong"] * 1e5
         cells.append("%.4f, %s" % (error["penumbra"]["mae"], "%.1f" % wrong if wrong < 10 else "%.0f" % wrong))
@@ -75,7 +76,7 @@ def measure_time(path, light, setting, technique, folder):
 
 
 def make_opaque(scene, folder):
-    """The scene with whole cards."""
+    """Write the scene with opaque instead of alpha-tested cards. Return its path."""
     for name in os.listdir(SCENES):
         if name.startswith(scene) and not name.endswith(".gltf"):
             shutil.copy(os.path.join(SCENES, name), folder)
@@ -115,11 +116,11 @@ def build_times(scenes):
 
 
 def make_plasma(generator, size_px):
-    """Alpha of some waves of random directions: borders of every curvature."""
+    """Return a PNG whose alpha is a sum of waves in random directions, so that its outlines have every curvature."""
     waves = [(generator.uniform(2, 24), generator.uniform(0, math.tau), generator.uniform(0, math.tau)) for _ in range(12)]
 
     def get_alpha(x, y):
-        total = sum(math.cos(rate * (x * math.cos(turn) + y * math.sin(turn)) + phase) / rate for rate, turn, phase in waves)
+        total = sum(math.cos(rate * (x * math.cos(angle) + y * math.sin(angle)) + phase) / rate for rate, angle, phase in waves)
         return 0.5 + 1.5 * total
 
     rows = []
@@ -133,7 +134,7 @@ def make_plasma(generator, size_px):
 
 
 def make_unseen(name, folder):
-    """The path of a scene, its light and setting."""
+    """Write a scene of UNSEEN. Return (path, light, setting)."""
     if name in ("leaves", "courtyard"):
         script = os.path.join(SCENES, "make_foliage_scenes.py")
         subprocess.run([sys.executable, script, "--scenes", name, "--seed", "7", "--out", folder], check=True, stdout=subprocess.DEVNULL)
@@ -161,11 +162,11 @@ def build_unseen(techniques):
 
 def main():
     parser = argparse.ArgumentParser(description="Measures cut-out casters.")
-    parser.add_argument("--write", action="store_true", help="into doc/cut_outs.md")
+    parser.add_argument("--write", action="store_true", help="write the table into doc/cut_outs.md")
     parser.add_argument("--scenes", default="leaf,fence,leaves,courtyard")
     parser.add_argument("--techniques", default=",".join(TECHNIQUES))
     parser.add_argument("--times", action="store_true", help="times instead of errors")
-    parser.add_argument("--unseen", action="store_true", help="errors of what the outlines were not tuned for")
+    parser.add_argument("--unseen", action="store_true", help="errors in scenes for which the outlines were not tuned")
     options = parser.parse_args()
     scenes, techniques = options.scenes.split(","), options.techniques.split(",")
     table = "times" if options.times else "unseen" if options.unseen else "errors"

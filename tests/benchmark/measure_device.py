@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Times every technique on this machine's device at the sizes of screens, and checks masks against the reference.
+"""Times these techniques (TECHNIQUES) on this machine's device at screen resolutions, and compares masks with the reference.
 
     measure_device.py [--write] [--out FILE.json] [--device NAME] [--scenes A,B] [--sizes 1920x1080,3840x2160]
+    measure_device.py --from FILE.json [--write]   writes the tables of an earlier run's --out, measures nothing
 
-Scenes are those of demo_project/scenes with their first light, at its own size. Times are sums of the passes' GPU timestamps, medians of
-20 frames in which all moves; errors are those of 512 x 512 masks. --write puts the tables into doc/benchmarks.md, between
-`<!-- begin device NAME -->` and its end, where NAME is the device's; a new device's are added.
+Scenes are those of demo_project/scenes with their first light, at its own size. Times are sums of the passes' GPU times, as medians of 20
+frames in which everything moves. Errors are those of 512 x 512 masks. --write puts the tables into doc/benchmarks.md between
+`<!-- begin device NAME -->` and its end marker, where NAME is the device's name. A new device gets a new section.
 """
 
 import argparse
@@ -18,13 +19,13 @@ import tempfile
 from driver import PAGE, SCENES
 from driver import run_gnomon as run
 
-STUDY = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain", "kitbash", "courtyard")
+DEVICE_SCENES = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain", "kitbash", "courtyard")
 TECHNIQUES = ("edge_count", "pcss", "penumbra_fins", "outer_fins", "shadow_volume", "jittered_pcf", "shadow_map", "views")
 ERROR_SIZE = "512x512"
 
 
 def measure(options, scene, size, technique, folder):
-    """Times as `visibility --time` writes them."""
+    """Return the JSON that `visibility --time` writes. options: arguments that select the device."""
     times = os.path.join(folder, "times.json")
     run("visibility", os.path.join(SCENES, scene + ".gltf"), "--technique", technique, "--size", size, "--time", times,
         "--out", os.path.join(folder, "timed.exr"), *options)
@@ -34,10 +35,10 @@ def measure(options, scene, size, technique, folder):
 
 def measure_error(options, scene, technique, folder):
     reference, mask = os.path.join(folder, scene + "_reference.exr"), os.path.join(folder, "mask.exr")
-    words = ["visibility", os.path.join(SCENES, scene + ".gltf"), "--size", ERROR_SIZE, *options]
+    mask_arguments = ["visibility", os.path.join(SCENES, scene + ".gltf"), "--size", ERROR_SIZE, *options]
     if not os.path.exists(reference):
-        run(*words, "--technique", "reference", "--out", reference)
-    run(*words, "--technique", technique, "--out", mask)
+        run(*mask_arguments, "--technique", "reference", "--out", reference)
+    run(*mask_arguments, "--technique", technique, "--out", mask)
     return json.loads(run("compare", reference, mask))["penumbra"]["mae"]
 
 
@@ -72,12 +73,12 @@ def write(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Times every technique on a device.")
-    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
-    parser.add_argument("--from", dest="source", metavar="FILE", help="results of an earlier run instead of a run")
-    parser.add_argument("--out", metavar="FILE", help="the results as JSON")
+    parser = argparse.ArgumentParser(description="Times these techniques on a device: %s." % ", ".join(TECHNIQUES))
+    parser.add_argument("--write", action="store_true", help="write the tables into doc/benchmarks.md")
+    parser.add_argument("--from", dest="source", metavar="FILE", help="JSON of an earlier run, instead of measuring")
+    parser.add_argument("--out", metavar="FILE", help="write the results as JSON")
     parser.add_argument("--device", metavar="NAME")
-    parser.add_argument("--scenes", default=",".join(STUDY))
+    parser.add_argument("--scenes", default=",".join(DEVICE_SCENES))
     parser.add_argument("--sizes", default="1920x1080,3840x2160")
     arguments = parser.parse_args()
     options = ["--device", arguments.device] if arguments.device else []

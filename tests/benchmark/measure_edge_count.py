@@ -3,10 +3,10 @@
 
     measure_edge_count.py [PART]... [--groups A,B] [--rounds N] [--write]
 
-Parts: errors wrong hard maps times memory motion; default: all. Each has a table of its own, errors and wrong one for
-each group, written as soon as it is measured. The images are those of edge_count_images.py. References are traced once
-(the program keeps them in its cache). With --groups the goals hold only these, and of the other parts nothing is
-written. Build first: scons.
+Parts: errors wrong hard maps times memory motion; default: all. Each part has its own table; errors and wrong have one per
+group. A table is written as soon as it is measured. The images are those of edge_count_images.py. References are traced
+once (the program caches them). With --groups the goals cover only these groups, and --write works only for the parts errors
+and wrong. Build first: scons.
 """
 
 import argparse
@@ -19,34 +19,34 @@ import sys
 import tempfile
 
 import driver
-from edge_count_images import ARTISTS, GROUPS, LARGE_SHARE, PACKAGES, PLAIN, STUDY, SUN, Image, make_images
+from edge_count_images import ARTISTS, GROUPS, LARGE_FRACTION, PACKAGES, PLAIN, STUDY, SUN, Image, make_images
 from mask_file import load_mask
 from measure_techniques import find_reference
-from driver import answer, describe_machine, format_table, publish_tables, run
+from driver import format_yes_no, describe_machine, format_table, publish_tables, run
 
 GNOMON = os.path.abspath(os.environ.get("GNOMON", driver.PROGRAM))
 
-PER = 100_000  # receivers
-FINE_SAMPLES = 9216  # errors below 0.004
-USUAL_SAMPLES = 1024  # errors above 0.2
+RATE_BASE = 100_000  # wrong receivers are counted per this number of receivers
+FINE_SAMPLES = 9216  # reference rays per pixel that resolve errors below 0.004
+USUAL_SAMPLES = 1024  # reference rays per pixel that resolve errors above 0.2
 ERROR_SIZES = {STUDY: "512x512", PLAIN: "400x400", PACKAGES: "400x400", ARTISTS: "400x400"}
-MAE_GOALS = {STUDY: (0.0014, 0.0072), PACKAGES: (0.0025, 0.006), ARTISTS: (0.0025, 0.006)}  # mean, worst image
+MAE_GOALS = {STUDY: (0.0014, 0.0072), PACKAGES: (0.0025, 0.006), ARTISTS: (0.0025, 0.006)}  # limits of the mean and of the worst image
 WRONG_SIZE = "1280x720"
 MASK_SIZE = "400x400"
 TIME_SIZES = {STUDY: "512x512", PLAIN: "800x800", PACKAGES: "512x512", ARTISTS: "512x512"}
 TIMED_FRAMES = 20
 MAP_SIZES = (256, 1024)
 PCSS = ("pcss", ("pcss_taps=64",))
-RECEIVERS_PASS = "receivers"  # the renderer's, for whatever technique
-GRASS = "grass"  # has errors to meet, no times
+RECEIVERS_PASS = "receivers"  # a pass of the renderer, the same for every technique
+GRASS = "grass"  # this scene has goals for errors, but not for times
 MEMORY_SIZE = "1920x1080"
 SMALLEST_SIZE = "16x16"
-# What any technique needs in addition to its own: G-buffer, receivers, mask. Its map has 1 KB a view.
+# A technique with a tiny map (1 KB per view). Its memory is what every technique needs: G-buffer, receivers, mask.
 BASELINE = ("shadow_map", ("shadow_map_size=16",))
 MB = 1e6
 MOTION_SCENES = ("kitbash", "rigging")
 MOTION_FRAMES = 6
-MOTION_M = ("0.004", "0.0", "0.003")  # a frame
+MOTION_M = ("0.004", "0.0", "0.003")  # x, y and z per frame
 MOTION_SAMPLES = 256
 SHOWN_PASSES = 3
 
@@ -60,27 +60,27 @@ def compare(reference, mask):
 
 
 class Goals:
-    """The table of a part."""
+    """Rows of a table that compares measured values with their goals."""
 
     def __init__(self):
         self.rows = []
 
-    def add(self, what, most, measured, form="%.4f", worst=""):
-        self.rows.append((what, "<= %g" % most, (form % measured) + worst, answer(measured <= most)))
+    def add(self, what, limit, measured, form="%.4f", worst=""):
+        self.rows.append((what, "<= %g" % limit, (form % measured) + worst, format_yes_no(measured <= limit)))
 
-    def add_mean(self, what, most, values, form="%.4f"):
-        """values: by image's name, here and below. Nothing is added without any."""
+    def add_mean(self, what, limit, values, form="%.4f"):
+        """values: image name -> value, here and in the methods below. Adds no row if they are empty."""
         if values:
-            self.add(what + ", mean", most, statistics.fmean(values.values()), form)
+            self.add(what + ", mean", limit, statistics.fmean(values.values()), form)
 
-    def add_geometric_mean(self, what, most, values):
+    def add_geometric_mean(self, what, limit, values):
         if values:
-            self.add(what + ", geometric mean", most, statistics.geometric_mean(values.values()), "%.2f")
+            self.add(what + ", geometric mean", limit, statistics.geometric_mean(values.values()), "%.2f")
 
-    def add_worst(self, what, most, values, form="%.2f"):
+    def add_worst(self, what, limit, values, form="%.2f"):
         if values:
             worst = max(values, key=values.get)
-            self.add(what + ", worst", most, values[worst], form, " (%s)" % worst)
+            self.add(what + ", worst", limit, values[worst], form, " (%s)" % worst)
 
     def format(self):
         return format_table(("what", "goal", "measured", "met"), self.rows)
@@ -91,7 +91,7 @@ def select(images, *groups):
 
 
 def find_sources(images):
-    """One image of each scene and light."""
+    """Return one image for each scene and light."""
     return list({(image.group, image.source): image for image in images}.values())
 
 
@@ -105,7 +105,7 @@ def count_wrong(found):
 
 
 class WrongReceivers:
-    """Of each group how many receivers are off by more than 0.2."""
+    """Counts, for each group, the receivers with an error above 0.2."""
 
     def __init__(self):
         self.counts = {}
@@ -116,11 +116,11 @@ class WrongReceivers:
 
     def add_goals(self, goals):
         for group, (wrong, pixels) in self.counts.items():
-            goals.add("receivers off by more than 0.2 in %d, %s" % (PER, group), 1, wrong / pixels * PER, "%.2f")
+            goals.add("receivers off by more than 0.2 in %d, %s" % (RATE_BASE, group), 1, wrong / pixels * RATE_BASE, "%.2f")
 
 
 def measure_errors(images, folder, _rounds):
-    """Penumbra errors, and receivers that are off by more than 0.2."""
+    """Measure penumbra errors, and receivers with an error above 0.2."""
     reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
     mae, wrong, rows = {}, WrongReceivers(), []
     for image in images:
@@ -147,7 +147,7 @@ def measure_errors(images, folder, _rounds):
 
 
 def measure_wrong(images, folder, _rounds):
-    """Receivers that are off by more than 0.2 in large images."""
+    """Count receivers with an error above 0.2 in large images."""
     reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
     goals, wrong, rows = Goals(), WrongReceivers(), []
     for image in images:
@@ -163,10 +163,10 @@ def measure_wrong(images, folder, _rounds):
 
 
 def measure_hard(images, folder, _rounds):
-    """A light of size 0 against the traced one."""
+    """Compare hard shadows, of a light of size 0, with traced ones."""
     reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
     goals, rows = Goals(), []
-    for technique, most in (("edge_count", 2), ("shadow_volume", 20)):
+    for technique, limit in (("edge_count", 2), ("shadow_volume", 20)):
         wrong, pixels = 0, 0
         for source in find_sources(images):
             image = Image(source.group, source.path, source.light, 0.0)
@@ -178,12 +178,12 @@ def measure_hard(images, folder, _rounds):
             report_progress("hard shadow of %s, %s: %d of %d" % (image.name, technique, count, found["pixels"]))
             if count > 0:
                 rows.append((image.name, technique, count, found["pixels"]))
-        goals.add("hard shadow: wrong receivers in %d, %s" % (PER, technique), most, wrong / pixels * PER, "%.2f")
+        goals.add("hard shadow: wrong receivers in %d, %s" % (RATE_BASE, technique), limit, wrong / pixels * RATE_BASE, "%.2f")
     return [*goals.format(), "", *(format_table(("image", "technique", "wrong", "receivers"), rows) if rows else ["No image has a receiver that is off by more than 0.2."])]
 
 
 def measure_maps(images, folder, _rounds):
-    """The greatest difference between masks with a small and a large map."""
+    """Measure the largest difference between masks with a small and a large shadow map."""
     paths = [os.path.join(folder, "mask_%d.exr" % size) for size in MAP_SIZES]
     differences = {}
     for image in images:
@@ -199,7 +199,7 @@ def measure_maps(images, folder, _rounds):
 
 
 def get_pass_times(result, clock):
-    """ms by pass, without the renderer's; the views of one light together. clock: gpu_ms or wall_ms."""
+    """Return pass name -> ms, without the renderer's pass. The views of a light are summed. clock: gpu_ms or wall_ms."""
     if all(item["name"] != RECEIVERS_PASS for item in result["passes"]):
         names = ", ".join(item["name"] for item in result["passes"])
         raise SystemExit("ERROR: the measured light has no pass %s. Its passes: %s. Change RECEIVERS_PASS." % (RECEIVERS_PASS, names))
@@ -212,12 +212,12 @@ def get_pass_times(result, clock):
 
 
 class Timing:
-    """Rounds of one image: each measures edge_count and pcss one after the other, so that both parts of a ratio come
-    from the same minute."""
+    """Timings of one image. Each round measures edge_count and then pcss, so that the machine's load affects both times
+    of a ratio alike."""
 
     def __init__(self, image):
         self.image = image
-        self.rounds = []  # of each: (results of edge_count, of pcss)
+        self.rounds = []  # of (result of edge_count, result of pcss)
 
     def measure(self, folder):
         mask = os.path.join(folder, "mask.exr")
@@ -233,7 +233,7 @@ class Timing:
         return statistics.median(own / pcss for own, pcss in sums)
 
     def find_passes(self):
-        """Median ms by pass, the longest first."""
+        """Return (pass name, median ms) pairs, the longest first."""
         times = [get_pass_times(own, "gpu_ms") for own, _ in self.rounds]
         names = {name for passes in times for name in passes}
         medians = {name: statistics.median(passes.get(name, 0.0) for passes in times) for name in names}
@@ -241,12 +241,12 @@ class Timing:
 
 
 def measure_times(images, folder, rounds):
-    """Time over that of pcss."""
-    is_timed = {STUDY: True, PLAIN: True, PACKAGES: False, ARTISTS: False}  # at all sizes of the light
+    """Measure the time of edge_count divided by that of pcss."""
+    is_timed_at_all_sizes = {STUDY: True, PLAIN: True, PACKAGES: False, ARTISTS: False}  # whether a group is timed at all light sizes
     timings = [
         Timing(image)
         for image in images
-        if image.scene != GRASS and (is_timed[image.group] or image.share == LARGE_SHARE)
+        if image.scene != GRASS and (is_timed_at_all_sizes[image.group] or image.radius_fraction == LARGE_FRACTION)
     ]
     for index in range(rounds):
         for timing in timings:
@@ -262,8 +262,8 @@ def measure_times(images, folder, rounds):
         }
 
     goals.add_geometric_mean("time over `pcss`, study scenes", 0.28, get_ratios(STUDY))
-    for light, most in (("Omni", 0.22), ("Spot", 0.2), ("Sun", 0.15)):
-        goals.add_worst("the same, one box and one torus, " + light, most, get_ratios(PLAIN, light))
+    for light, limit in (("Omni", 0.22), ("Spot", 0.2), ("Sun", 0.15)):
+        goals.add_worst("the same, one box and one torus, " + light, limit, get_ratios(PLAIN, light))
     goals.add_geometric_mean("the same, package meshes, R = 10 %", 0.3, get_ratios(PACKAGES))
     goals.add_worst("the same, kitbash and rigging", 1.3, get_ratios(ARTISTS))
     goals.add_worst("the same, wall time", 1.3, get_ratios(ARTISTS, clock="wall_ms"))
@@ -276,10 +276,10 @@ def measure_times(images, folder, rounds):
 
 
 def measure_memory(images, folder, _rounds):
-    """MB of a light, in addition to what any technique needs."""
+    """Measure the memory of a light in MB, beyond what every technique needs."""
     mask = os.path.join(folder, "mask.exr")
     used = {}
-    for image in find_sources([image for image in images if math.isclose(image.share, LARGE_SHARE)]):
+    for image in find_sources([image for image in images if math.isclose(image.radius_fraction, LARGE_FRACTION)]):
 
         def measure_bytes(size, image=image):
             own, baseline = (
@@ -288,8 +288,8 @@ def measure_memory(images, folder, _rounds):
             )
             return own - baseline
 
-        # `bytes` counts cached memory once and transient memory twice: of the frame that reads the mask back, and of
-        # the timed ones. Only transient memory grows with the image, so that the mean of both sizes has each once.
+        # `bytes` counts cached memory once and transient memory twice: for the frame that reads the mask back, and for
+        # the timed frames. Only transient memory grows with the image, so the mean of both sizes counts each once.
         used[image.source] = statistics.fmean(map(measure_bytes, (SMALLEST_SIZE, MEMORY_SIZE))) / MB
         report_progress("memory of %s: %.1f MB" % (image.source, used[image.source]))
     goals = Goals()
@@ -307,9 +307,9 @@ def compute_rmse(errors, pixels):
 
 
 def measure_motion(images, folder, _rounds):
-    """Temporal error: RMSE of the change from frame to frame less that of the reference, over penumbra pixels. That of a
-    reference of few samples with a new scramble each frame is sqrt(2) times its RMSE in one frame: its errors in two
-    frames have nothing in common."""
+    """Measure the temporal error: the RMSE over penumbra pixels of the frame-to-frame change minus that of the reference. For
+    a reference of few samples that is scrambled differently in each frame it is sqrt(2) times its RMSE in one frame,
+    because its errors in two frames are independent."""
     reference_id = find_reference()
     techniques = {
         "reference": (reference_id, ("%s_samples=%d" % (reference_id, FINE_SAMPLES),)),
@@ -318,7 +318,8 @@ def measure_motion(images, folder, _rounds):
     }
     ratios, rows = {}, []
     for image in images:
-        if image.scene not in MOTION_SCENES or image.share != LARGE_SHARE or image.light == SUN:  # a sun has no position
+        # A sun has no position to move.
+        if image.scene not in MOTION_SCENES or image.radius_fraction != LARGE_FRACTION or image.light == SUN:
             continue
         frames = {}
         for name, (technique, settings) in techniques.items():
@@ -355,15 +356,15 @@ PARTS = {
     "memory": measure_memory,
     "motion": measure_motion,
 }
-PARTS_BY_GROUP = ("errors", "wrong")  # take so long that each group has a table of its own, written when it is there
+PARTS_BY_GROUP = ("errors", "wrong")  # slow parts: each group has its own table, written as soon as it is measured
 
 
 def main():
     parser = argparse.ArgumentParser(description="Measures edge_count against its goals; see doc/benchmarks.md.")
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
-    parser.add_argument("--groups", default=",".join(GROUPS), metavar="A,B", help="of images (default: %(default)s)")
-    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="of all times in turn (default: %(default)s)")
-    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    parser.add_argument("--groups", default=",".join(GROUPS), metavar="A,B", help="groups of images (default: %(default)s)")
+    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="rounds of timing (default: %(default)s)")
+    parser.add_argument("--write", action="store_true", help="write the tables into doc/benchmarks.md")
     arguments = parser.parse_args()
     if arguments.rounds < 1:
         parser.error("--rounds is %d, must be 1 or more" % arguments.rounds)
@@ -375,9 +376,9 @@ def main():
         parser.error("--groups is %s, must be of: %s" % (arguments.groups, ", ".join(GROUPS)))
     groups = [GROUPS[name] for name in names]
     parts = arguments.parts or list(PARTS)
-    over_all = [part for part in parts if part not in PARTS_BY_GROUP]
-    if arguments.write and over_all and set(names) != set(GROUPS):
-        parser.error("--write needs all groups for %s, whose goals hold all of them. Leave --groups out" % ", ".join(over_all))
+    ungrouped_parts = [part for part in parts if part not in PARTS_BY_GROUP]
+    if arguments.write and ungrouped_parts and set(names) != set(GROUPS):
+        parser.error("--write needs all groups for %s, whose goals cover all of them. Omit --groups" % ", ".join(ungrouped_parts))
     if not os.path.isfile(GNOMON):
         raise SystemExit("ERROR: %s is missing. Run scons." % GNOMON)
     driver.PROGRAM = GNOMON  # the one that describe_machine() runs

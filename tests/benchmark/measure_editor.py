@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How quickly the editor starts and answers, and the table of doc/benchmarks.md.
+"""Measures how quickly the editor starts and responds, and writes the table of doc/benchmarks.md.
 
     measure_editor.py [--write]
 
-Under Xvfb, 1280 x 720, without validation. Without --write the table is printed only. Build first: scons.
+The editor runs under Xvfb at 1280 x 720 pixels, without validation. Without --write the table is only printed. Build first: scons.
 """
 
 import argparse
@@ -14,25 +14,25 @@ import tempfile
 import time
 
 import driver
-from driver import answer, describe_machine, format_table, publish_tables
+from driver import format_yes_no, describe_machine, format_table, publish_tables
 
 sys.path.insert(0, os.path.join(driver.ROOT, "tests", "command_line"))
 from editor_case import EditorCase  # noqa: E402
 
-STARTS = 5
+START_COUNT = 5
 START_GOAL_S = 2.0
-DRAGS = 4  # of a dozen steps each
-FRAME_MS = 16  # the interface's own
+DRAG_COUNT = 4  # mouse drags, of DRAG_STEPS steps each
+FRAME_MS = 16  # frame time of the interface
 
 
 class EditorBenchmark(EditorCase):
-    checks = ()
+    validation_arguments = ()
 
     def runTest(self):
         pass
 
     def start_once(self):
-        """Seconds from the command to the first frame."""
+        """Start and close the editor. Return the seconds from the command to the first frame."""
         before = time.monotonic()
         self.open_editor()
         seconds = time.monotonic() - before
@@ -41,8 +41,8 @@ class EditorBenchmark(EditorCase):
         return seconds
 
     def drag_size(self, is_traced=False):
-        """Milliseconds from each step of the mouse to the frame that shows it."""
-        for _ in range(DRAGS):
+        """Drag a light's size. Return the milliseconds from each mouse step to the frame that shows it."""
+        for _ in range(DRAG_COUNT):
             if is_traced:
                 self.wait_for(lambda state: state["error"]["is_tracing"] and state["error"]["rays"] >= 16)
             self.drag("property light_size", 2)
@@ -56,7 +56,7 @@ class EditorBenchmark(EditorCase):
         with tempfile.TemporaryDirectory() as cache:
             os.environ["GNOMON_CACHE_DIR"] = cache
             cold = self.start_once()
-            warm = statistics.median(self.start_once() for _ in range(STARTS))
+            warm = statistics.median(self.start_once() for _ in range(START_COUNT))
             self.open_editor()
             self.select_light()
             alone = self.drag_size()
@@ -67,13 +67,13 @@ class EditorBenchmark(EditorCase):
         return cold, warm, alone, traced
 
 
-def percentile(values, share):
-    return sorted(values)[min(int(share * len(values)), len(values) - 1)]
+def percentile(values, fraction):
+    return sorted(values)[min(int(fraction * len(values)), len(values) - 1)]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    parser.add_argument("--write", action="store_true", help="write the table into doc/benchmarks.md")
     options = parser.parse_args()
     load = os.getloadavg()[0]
     EditorBenchmark.setUpClass()
@@ -87,7 +87,7 @@ def main():
     middle = statistics.median
     rows = [
         ("start to the first frame, nothing cached", "%.2f s" % cold, "", ""),
-        ("the same, pipelines cached, median of %d" % STARTS, "%.2f s" % warm, "< 2 s", answer(warm < START_GOAL_S)),
+        ("the same, pipelines cached, median of %d" % START_COUNT, "%.2f s" % warm, "< 2 s", format_yes_no(warm < START_GOAL_S)),
         ("a dragged size is seen after, median of %d" % len(alone), "%.0f ms" % middle(alone), "", ""),
         ("90th percentile", "%.0f ms" % percentile(alone, 0.9), "", ""),
         ("a dragged size while the reference is traced, median of %d" % len(traced), "%.0f ms" % middle(traced), "", ""),

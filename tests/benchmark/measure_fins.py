@@ -3,10 +3,10 @@
 
     measure_fins.py [--rounds N] [--write]
 
-Sun, Lü, Liu, Wu 2010 give their times as ratios: three depth layers over one shadow map, a frame over
-a frame with outer fins only. Each round measures all variants of a triangle count one after the other, so that
-both parts of a ratio come from the same minute; the tables show medians over the rounds.
-Without --write the tables are printed only. Build first: scons.
+Sun, Lü, Liu, Wu 2010 give their times as ratios: of three depth layers to one shadow map, and of a frame with
+all fins to a frame with outer fins only. Each round measures all variants of a triangle count one after the other, so that
+the machine's load affects both times of a ratio alike. The tables show medians over the rounds.
+Without --write the tables are only printed. Build first: scons.
 """
 
 import argparse
@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 import driver
-from driver import SCENES, answer, describe_machine, format_table, publish_tables, run
+from driver import SCENES, format_yes_no, describe_machine, format_table, publish_tables, run
 
 sys.path.insert(0, SCENES)
 from gltf_writer import save_files  # noqa: E402
@@ -31,12 +31,12 @@ GNOMON = os.path.abspath(os.environ.get("GNOMON", driver.PROGRAM))
 PAPER_PEELING = {2000: 1.92, 7700: 2.12, 30000: 2.19, 69000: 2.86, 97000: 2.72}
 PAPER_FRAME = {30000: 1.45, 7700: 1.38, 46000: 1.46}
 
-SIZE_PX = 800  # of the image and of the maps, as in the paper
-WIDTHS_M = (0.1, 0.1)  # r and t
+SIZE_PX = 800  # width and height of the image and of the maps, as in the paper
+WIDTHS_M = (0.1, 0.1)  # outer and inner penumbra width, r and t
 LIGHT = ("light_size=0.4", "penumbra_outer_width=%g" % WIDTHS_M[0], "penumbra_inner_width=%g" % WIDTHS_M[1])
-SEGMENTS_PER_SIDE = 500 / 30  # the study's knot
+SEGMENTS_PER_SIDE = 500 / 30  # of the study's knot: segments along it per segment around it
 
-# Neither way of making the fins depends on how the layers were found: two runs measure two of each.
+# How fins are made does not depend on how layers are found, so the same two variants measure both methods of each.
 VARIANTS = {
     "outer": ("outer_fins",),
     "peels": ("penumbra_fins", "technique.penumbra_fins.peeling=passes", "technique.penumbra_fins.method=compute"),
@@ -49,11 +49,11 @@ SHADOW_MAP = ("layer 1 view 0",)
 PEELS = ("layer 1 view 0", "layer 2 view 0", "layer 3 view 0")
 ONE_PASS = ("clear layers view 0", "layers view 0", "copy layers view 0")
 GEOMETRY_SHADER = ("fins view 0",)
-COMPUTE = ("clear edges", "find edges", "list edges", "fins view 0")
+COMPUTE = ("clear edge counts", "find edges", "list edges", "fins view 0")
 
 
 def make_knot(triangle_count):
-    """The study's knot on its ground, in segments of the study's shape, with about so many triangles in all."""
+    """The study's knot on its ground, with segments of the study's proportions and about triangle_count triangles in total."""
     quad_count = (triangle_count - len(make_box(GROUND_HALF).triangles)) / 2
     around_count = round(math.sqrt(quad_count / SEGMENTS_PER_SIDE))
     along_count = round(quad_count / around_count)
@@ -65,13 +65,13 @@ def make_knot(triangle_count):
 
 
 def measure(scene, technique, *settings):
-    """Return what `visibility --time` writes, with the wall time of each pass by its name, in ms."""
+    """Return the JSON of `visibility --time`, with `passes` replaced by pass name -> wall time in ms."""
     settings = (*LIGHT, "%s_map_size=%d" % (technique, SIZE_PX), *settings)
-    words = [word for setting in settings for word in ("--set", setting)]
+    arguments = [word for setting in settings for word in ("--set", setting)]
     with tempfile.TemporaryDirectory() as folder:
         mask, times = os.path.join(folder, "mask.exr"), os.path.join(folder, "time.json")
         size = "%dx%d" % (SIZE_PX, SIZE_PX)
-        run([GNOMON, "visibility", scene, "--technique", technique, "--size", size, "--out", mask, "--time", times, *words])
+        run([GNOMON, "visibility", scene, "--technique", technique, "--size", size, "--out", mask, "--time", times, *arguments])
         with open(times, encoding="utf-8") as file:
             result = json.load(file)
     result["passes"] = {item["name"]: item["wall_ms"] for item in result["passes"]}
@@ -79,7 +79,7 @@ def measure(scene, technique, *settings):
 
 
 def measure_rounds(round_count):
-    """Triangle count of the paper -> one dictionary a round: variant -> what was measured."""
+    """Return the paper's triangle count -> list of rounds, each a dictionary variant -> result of measure()."""
     rounds = {count: [] for count in sorted({*PAPER_PEELING, *PAPER_FRAME})}
     with tempfile.TemporaryDirectory() as folder:
         for count in rounds:
@@ -94,7 +94,7 @@ def measure_rounds(round_count):
 
 
 def find_layer_passes(result):
-    """The passes that found the layers; a device without the requested way takes the other."""
+    """Return the passes that found the layers. A device that lacks the requested method uses the other one."""
     return ONE_PASS if "layers view 0" in result["passes"] else PEELS
 
 
@@ -117,7 +117,7 @@ def compute_median(rounds, get_ms):
 
 
 def compute_passes(rounds, variant, names):
-    """Medians over the rounds: ms of these passes, and their ratio to the shadow map's pass of the same round."""
+    """Return medians over the rounds: ms of these passes, and their ratio to the shadow map's pass of the same round."""
 
     def get_ms(results):
         return sum_passes(results[variant], names)
@@ -129,7 +129,7 @@ def compute_passes(rounds, variant, names):
 
 
 def describe_time(value):
-    """Cells of a time and its ratio; None where the device cannot do it."""
+    """Format (ms, ratio) as table cells. None: the device does not support the variant."""
     return ("not here", "") if value is None else ("%.2f" % value[0], "%.2f" % value[1])
 
 
@@ -154,7 +154,7 @@ def build_peeling(all_rounds):
                 "one pass" if chosen == ONE_PASS else "three peels",
                 "%.2f" % compute_passes(rounds, "auto", chosen)[1],
                 "%.2f" % paper,
-                answer(best < paper),
+                format_yes_no(best < paper),
             )
         )
     header = ("triangles", "shadow map ms", "three peels ms", "ratio", "one pass ms", "ratio", "`auto` takes", "ratio", "paper")
@@ -196,15 +196,15 @@ def build_frames(all_rounds):
             for part in ("frame", "total")
         ]
         cells = ["%.2f" % value for value in (*times, *ratios, paper)]
-        rows.append((rounds[0]["outer"]["triangles"], *cells, answer(ratios[0] < paper)))
+        rows.append((rounds[0]["outer"]["triangles"], *cells, format_yes_no(ratios[0] < paper)))
     header = ("triangles", "outer fins ms", "penumbra fins ms", "ratio of frames", "ratio of the light's passes", "paper")
     return format_table((*header, "frame is below the paper"), rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description="Measures depth peeling and fins against the paper; see doc/benchmarks.md.")
-    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="of all variants in turn (default: 3)")
-    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="rounds of all variants (default: 3)")
+    parser.add_argument("--write", action="store_true", help="write the tables into doc/benchmarks.md")
     arguments = parser.parse_args()
     if arguments.rounds < 1:
         parser.error("--rounds is %d, must be 1 or more" % arguments.rounds)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Measures what is skipped when it is not needed, and writes the tables of doc/benchmarks.md.
+"""Measures the rules that skip unneeded work, and writes the tables of doc/benchmarks.md.
 
     measure_lean.py [--only lean|lean_lights] [--size N] [--repeats N] [--write]
 
-lean: for each rule a scene made for it, with the rules on and off in turn: passes, draws, bytes and milliseconds of a whole
-frame. The frame plan must name the rule where it is on and must not where it is off. lean_lights: 4 lights in view alone and
-among 252 that light nothing in view. Each time is the median of 20 frames after 5, and the median of --repeats such (default 5).
+lean: renders a scene made for each rule with the rules on and off, and lists passes, draws, bytes and milliseconds of a whole
+frame. The frame plan must mention the rule if and only if the rules are on. lean_lights: 4 lights that light the view, alone
+and together with 252 that do not. Each time is the median of --repeats (default 5) medians of 20 frames after 5 warm-up frames.
 """
 
 import argparse
@@ -18,17 +18,17 @@ import lean_scenes
 from driver import PROGRAM, describe_machine, format_table, run, write_table
 
 HIDDEN_COUNT = 252
-MOST_EXTRA = 0.10  # what hidden lights may cost in addition, as a fraction of the time of those in view
+MAX_EXTRA_COST = 0.10  # allowed extra time for lights out of view, as a fraction of the time of those in view
 
 
 class Rule:
     def __init__(self, name, scene, line, technique=None, settings=(), is_still=False):
         self.name = name
-        self.scene = scene  # function of a folder
-        self.line = line  # of the plan
+        self.scene = scene  # function that writes the scene into a folder and returns its path
+        self.line = line  # text of the frame plan while the rule applies
         self.technique = technique
         self.settings = settings
-        self.is_still = is_still
+        self.is_still = is_still  # whether nothing moves between frames
 
 
 RULES = (
@@ -54,12 +54,12 @@ RULES = (
 )  # fmt: skip
 
 
-def measure(scene, folder, size_px, technique=None, settings=(), words=()):
-    """The frame's plan, and what --time prints."""
+def measure(scene, folder, size_px, technique=None, settings=(), arguments=()):
+    """Return the frame plan and the JSON of --time."""
     times = os.path.join(folder, "time.json")
     command = [PROGRAM, "run", scene, "--headless", "--size", "%dx%d" % (size_px, size_px), "--plan", "--antialiasing", "1"]
-    # What is cached is in the plan of a later frame, what is drawn in the first one's.
-    command += ["--time", times, "--frames", "4" if "--still" in words else "1", *words]
+    # The plan of a later frame shows what is cached, that of the first frame what is drawn.
+    command += ["--time", times, "--frames", "4" if "--still" in arguments else "1", *arguments]
     if technique:
         command += ["--technique", technique]
     for setting in settings:
@@ -83,8 +83,8 @@ def measure_rules(options):
             results = {}
             for _ in range(options.repeats):
                 for is_on in (True, False):
-                    words = still + ([] if is_on else ["--skip-nothing"])
-                    plan, results[is_on] = measure(scene, folder, options.size, rule.technique, rule.settings, words)
+                    arguments = still + ([] if is_on else ["--skip-nothing"])
+                    plan, results[is_on] = measure(scene, folder, options.size, rule.technique, rule.settings, arguments)
                     times[is_on].append(results[is_on]["call_ms"])
                     if (rule.line in plan) != is_on:
                         raise SystemExit(
@@ -104,7 +104,7 @@ def measure_rules(options):
 
 
 def measure_lights(options):
-    # Without the rules 256 lights take seconds a frame; the other table has twelve of them.
+    # Only with the rules: without them 256 lights take seconds per frame. The other table compares both for 12 lights.
     cases = [("4 in view", 0), ("4 in view of %d" % (4 + HIDDEN_COUNT), HIDDEN_COUNT)]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
@@ -118,7 +118,7 @@ def measure_lights(options):
         base_ms = statistics.median(samples[cases[0][0]])
         for index, (name, _) in enumerate(cases):
             result, ms = results[name], statistics.median(samples[name])
-            met = "yes" if ms <= (1 + MOST_EXTRA) * base_ms else "no"
+            met = "yes" if ms <= (1 + MAX_EXTRA_COST) * base_ms else "no"
             rows.append((name, result["pass_count"], count_commands(result), "%.1f" % (result["bytes"] / 1e6),
                          "%.1f" % ms, "%.2f" % (ms / base_ms), met if index == 1 else ""))  # fmt: skip
             print(*rows[-1], flush=True)
@@ -131,10 +131,10 @@ PARTS = {"lean": measure_rules, "lean_lights": measure_lights}
 
 def main():
     parser = argparse.ArgumentParser(description="Measures what is skipped when it is not needed.")
-    parser.add_argument("--only", choices=PARTS, help="this table")
-    parser.add_argument("--size", type=int, default=512, help="pixels of each side")
+    parser.add_argument("--only", choices=PARTS, help="measure only this table")
+    parser.add_argument("--size", type=int, default=512, help="width and height of the image in pixels")
     parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    parser.add_argument("--write", action="store_true", help="write the tables into doc/benchmarks.md")
     options = parser.parse_args()
     load = os.getloadavg()[0]
     for name in (options.only,) if options.only else PARTS:

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the whole `gnomon report`; --write: writes its ranking, reading figures and plots into doc/benchmarks.md.
+"""Runs the whole `gnomon report`; --write puts its ranking, errors in the study's scenes, scaling and plots into doc/benchmarks.md.
 
     measure_report.py [--write] [--out DIR] [--resume] [--no-run]
 
---no-run takes the report that is in DIR. Every cell draws 20 frames or 3 s and the scaling curves are full: about
-20 minutes on two cores. The plots are taken from the page by headless chromium.
+--resume continues a run that was stopped, --no-run uses the existing report in DIR.
+Every cell is timed over 20 frames or 3 s, and the scaling curves have all points:
+about 20 minutes on two cores. Headless chromium takes screenshots of the page's plots.
 """
 
 import argparse
@@ -23,7 +24,7 @@ import check_report_page  # noqa: E402
 from driver import PROGRAM, describe_machine, format_table, write_table  # noqa: E402
 
 IMAGE_FOLDER = os.path.join(ROOT, "doc", "images")
-# The study's scenes and the population of its figures: doc/benchmarks.md.
+# The scenes of the study, see doc/benchmarks.md.
 STUDY_SCENES = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain")
 SHOWN_SCENE = "torus_knot"
 SCENE = "[...document.querySelectorAll('section.scene')].find((item) => item.querySelector('h2').textContent == '%s')" % SHOWN_SCENE
@@ -34,7 +35,7 @@ IMAGES = {
     "report_pictures.png": SCENE + ".querySelector('.viewer')",
     "report_scaling.png": "document.querySelector('#scaling .grid')",
 }
-IMAGE_WIDTH_PX = 1400  # narrower ones have no names at their curves
+IMAGE_WIDTH_PX = 1400  # narrower plots have no labels at their curves
 
 
 def run_report(options):
@@ -42,7 +43,7 @@ def run_report(options):
     if options.resume:
         arguments.append("--resume")
     result = subprocess.run([PROGRAM, "report", os.path.join(ROOT, "demo_project"), *arguments], check=False)
-    # A cell that fails, such as one that needs more memory than there is, is on the page and here.
+    # Exit code 1 means that cells failed, for example for lack of memory. The page lists them.
     if result.returncode not in (0, 1):
         raise SystemExit("ERROR: gnomon report ended with %d" % result.returncode)
 
@@ -71,7 +72,7 @@ def build_ranking(report):
 
 
 def build_study(report):
-    """Mean errors over the study's scenes, the population of its figures next to the full one."""
+    """Build the table of mean errors over the study's scenes, over all receivers and over those that see the whole light."""
     errors = {}
     best = {}
     for cell in report["cells"]:
@@ -97,7 +98,7 @@ def format_value(value):
 
 
 def build_scaling(report):
-    """The least and the greatest point of each curve, and how the cost grew between them."""
+    """Build the table of the first and last point of each curve, and how much the cost grew between them."""
     rows = []
     for curve in report["scaling"]:
         for series in curve["series"]:
@@ -116,7 +117,7 @@ def build_scaling(report):
 
 
 def save_images(page, images):
-    """Cuts elements out of the page, as seen on a desktop in light colours. Names of files, and elements."""
+    """Save screenshots of page elements, at desktop width in light colours. images: file name -> JavaScript of the element."""
     url = pathlib.Path(page).resolve().as_uri() + "#all"
     with check_report_page.Browser() as browser:
         browser.open(url, IMAGE_WIDTH_PX, 900)
@@ -135,9 +136,9 @@ def save_images(page, images):
 def main():
     parser = argparse.ArgumentParser(description="Measures the whole report for doc/benchmarks.md.")
     parser.add_argument("--out", default=os.path.join(ROOT, "demo_project", "out", "full_report"), help="the report's folder")
-    parser.add_argument("--resume", action="store_true", help="goes on with a run that was stopped")
-    parser.add_argument("--write", action="store_true", help="tables and images into doc/benchmarks.md")
-    parser.add_argument("--no-run", action="store_true", help="takes the report that is there")
+    parser.add_argument("--resume", action="store_true", help="continue a run that was stopped")
+    parser.add_argument("--write", action="store_true", help="write tables into doc/benchmarks.md, and images")
+    parser.add_argument("--no-run", action="store_true", help="use the existing report")
     options = parser.parse_args()
     load_path = os.path.join(options.out, "load.txt")
     if not options.no_run:

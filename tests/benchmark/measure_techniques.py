@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Measures errors and times of techniques and writes them into the tables of doc/techniques/*.md.
 
-A table is between `<!-- begin errors ID [property=value ...] -->` and `<!-- end errors -->`:
-penumbra errors on the six study scenes at three light sizes. `begin times` marks one of times: the total of
-`visibility --time` at R = 0.4 m. References are traced once (the program caches them).
+A table of errors is between `<!-- begin errors ID [property=value ...] -->` and `<!-- end errors -->`: penumbra errors of
+technique ID in the six study scenes at three light sizes. `begin times` and `end times` enclose a table of times: the totals
+of `visibility --time` at R = 0.4 m. References are traced once (the program caches them).
 
     measure_techniques.py [--only ID]... [--errors | --times]
 """
@@ -31,9 +31,9 @@ def find_reference():
 
 
 def render(scene, technique, settings, out, *more):
-    words = [word for setting in settings for word in ("--set", setting)]
+    arguments = [word for setting in settings for word in ("--set", setting)]
     path = os.path.join(ROOT, "demo_project", "scenes", scene + ".gltf")
-    run("visibility", path, "--technique", technique, "--size", MASK_SIZE, "--out", out, *words, *more)
+    run("visibility", path, "--technique", technique, "--size", MASK_SIZE, "--out", out, *arguments, *more)
 
 
 def format_number(value):

@@ -4,7 +4,7 @@
     measure_volumes.py [--only TABLE]... [--write]
 
 Errors are counted in pixels: R = 0, so that every receiver is lit or hidden. Without --write the tables are
-printed only. Build first: scons.
+only printed. Build first: scons.
 """
 
 import argparse
@@ -31,7 +31,7 @@ TIMED = {
     "CPU": ("shadow_volume_cpu",),
     "shadow_map 2048": ("shadow_map", "shadow_map_size=2048"),
 }
-COMPARED = ("auto", "shadow_map 2048")  # of the variants: the others have the same mask
+COMPARED = ("auto", "shadow_map 2048")  # variants whose errors are counted: the other shadow volumes have the same mask
 
 
 def find_lights(scene):
@@ -40,12 +40,12 @@ def find_lights(scene):
 
 
 def render(scene, light, technique, settings, out, *more):
-    words = [word for setting in (*POINT, *settings) for word in ("--set", setting)]
-    run([GNOMON, "visibility", scene, "--light", light, "--technique", technique, "--size", SIZE, "--out", out, *words, *more])
+    arguments = [word for setting in (*POINT, *settings) for word in ("--set", setting)]
+    run([GNOMON, "visibility", scene, "--light", light, "--technique", technique, "--size", SIZE, "--out", out, *arguments, *more])
 
 
 def count_wrong(reference, mask):
-    """Return (receivers, those that differ)."""
+    """Return (number of receivers, number of receivers that differ)."""
     result = json.loads(run([GNOMON, "compare", reference, mask]))
     return result["pixels"], round(result["receiver"]["mae"] * result["pixels"])
 
@@ -80,7 +80,7 @@ def measure_errors(folder):
 
 
 def measure_time(scene, light, folder, settings, *more, technique="shadow_volume"):
-    """Wall milliseconds of the light's passes."""
+    """Return the wall time of the light's passes in ms."""
     mask, times = (os.path.join(folder, name) for name in ("mask.exr", "time.json"))
     render(scene, light, technique, settings, mask, "--time", times, *more)
     with open(times, encoding="utf-8") as file:
@@ -88,10 +88,10 @@ def measure_time(scene, light, folder, settings, *more, technique="shadow_volume
 
 
 def count_hidden(scene, folder):
-    """Casters that others hide from the light, as the second frame's plan lists."""
-    words = [word for setting in POINT for word in ("--set", setting)]
+    """Return how many casters are hidden from the light by others, according to the second frame's plan."""
+    arguments = [word for setting in POINT for word in ("--set", setting)]
     plan = run([GNOMON, "visibility", scene, "--technique", "shadow_volume", "--size", SIZE, "--frames", "2", "--plan",
-                "--out", os.path.join(folder, "mask.exr"), *words])  # fmt: skip
+                "--out", os.path.join(folder, "mask.exr"), *arguments])  # fmt: skip
     found = re.search(r"volumes of (\d+) casters: skipped, others hide them", plan)
     return int(found.group(1)) if found else 0
 
@@ -114,11 +114,11 @@ def measure_culling(folder):
 
 
 def measure_triangles(folder):
-    ways = ("compute", "geometry_shader")
+    extrusions = ("compute", "geometry_shader")
     rows = []
-    for count in volume_scenes.KNOT_PARTS:
+    for count in volume_scenes.KNOT_SEGMENTS:
         scene = volume_scenes.make_knot(count, folder)
-        times = [measure_time(scene, "Light", folder, ["technique.shadow_volume.extrusion=" + way]) for way in ways]
+        times = [measure_time(scene, "Light", folder, ["technique.shadow_volume.extrusion=" + extrusion]) for extrusion in extrusions]
         times.append(measure_time(scene, "Light", folder, ["technique.shadow_volume.method=z_fail"]))
         times.append(measure_time(scene, "Light", folder, ["technique.shadow_volume.robust=always"]))
         times.append(measure_time(scene, "Light", folder, [], technique="shadow_volume_cpu"))
@@ -134,8 +134,8 @@ PARTS = {"volumes": measure_errors, "volume_culling": measure_culling, "volume_t
 
 def main():
     parser = argparse.ArgumentParser(description="Measures shadow volumes against exact rays.")
-    parser.add_argument("--only", action="append", choices=PARTS, help="this table; may be repeated")
-    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    parser.add_argument("--only", action="append", choices=PARTS, help="measure only this table; may be repeated")
+    parser.add_argument("--write", action="store_true", help="write the tables into doc/benchmarks.md")
     options = parser.parse_args()
     load = os.getloadavg()[0]
     with tempfile.TemporaryDirectory() as folder:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Searches the best r, t and beta of the penumbra fins for each demo scene, light and size.
+"""Searches for the best r, t and beta of the penumbra fins for each demo scene, light and size in STUDY and OTHERS.
 
     search_fins.py [--scenes A,B] [--jobs N] [--write]
 
-The error that falls is the MAE over penumbra pixels. From r = t = R/4 the widths are moved one by one, by factors
-that shrink, with 0 among them; then beta is tried over fixed values, then the widths once more. The table also
-shows what the derived widths, r = t = R, give, and the means over the study's six scenes. --write puts it into doc/techniques/penumbra_fins.md.
+It minimises the MAE over penumbra pixels. Starting from the better of r = t = R and r = t = R/4 it scales the widths one at a
+time by decreasing factors, and also tries 0. Then it tries fixed values of beta, and then scales the widths once more. The table also shows the error of
+the derived widths, r = t = R, and the means over the study's six scenes. --write puts it into doc/techniques/penumbra_fins.md.
 References are traced once (the program caches them).
 """
 
@@ -24,18 +24,18 @@ from driver import format_table
 TECHNIQUE = "penumbra_fins"
 PAGE = os.path.join(PAGES, TECHNIQUE + ".md")
 BEGIN, END = "<!-- begin fins_search -->", "<!-- end fins_search -->"
-PROPERTIES = ("penumbra_outer_width", "penumbra_inner_width", "penumbra_fins_beta")  # the order in a point
+PROPERTIES = ("penumbra_outer_width", "penumbra_inner_width", "penumbra_fins_beta")  # the order of values in a point
 OUTER, INNER, BETA = range(3)
 DERIVED = -1.0
-START_SHARE = 1 / 4  # of R
-LEAST_SHARE = 1 / 32  # of R: where a width goes on from 0
+START_FRACTION = 1 / 4  # of R
+MIN_FRACTION = 1 / 32  # of R: the width that is tried after 0
 FACTORS = (2.0, 1.4, 1.2)
 BETAS_M = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
-MAX_EVALUATIONS = 40  # of one target
-RESERVED_EVALUATIONS = 6  # for the widths after beta
+MAX_EVALUATIONS = 40  # per target
+RESERVED_EVALUATIONS = 6  # of these, reserved for the widths after beta
 SCENE_SIZE_M = 4  # of the demo scenes: a sun's derived width is the tangent of half its angle times this
 SUN_ANGLES_DEG = (1.0, 6.0, 20.0)
-LEAST_GAIN = 0.0002  # of the error, or a point is no better: a tenth of the reference's noise
+MIN_GAIN = 0.0002  # decrease of the MAE that makes a point better: a tenth of the reference's noise
 ERRORS = ("mae", "bias", "umbra_over")
 
 
@@ -44,7 +44,7 @@ class Target:
 
     def __init__(self, scene, light, size):
         self.scene = scene
-        self.light = light  # None: the scene has one
+        self.light = light  # None: the scene's only light
         is_sun = light == "Sun"
         self.setting = ("light_angular_distance=%g" if is_sun else "light_size=%g") % size
         self.width_m = SCENE_SIZE_M * math.tan(math.radians(size / 2)) if is_sun else size  # derived r and t
@@ -62,13 +62,13 @@ OTHERS += [Target("three_lights", light, size_m) for light in ("Spot", "Omni") f
 OTHERS += [Target("three_lights", "Sun", angle_deg) for angle_deg in SUN_ANGLES_DEG]
 
 
-def move(point, index, value):
-    """The point with another value; six digits, so that a way back meets the point it came from."""
+def replace_value(point, index, value):
+    """Return the point with one value replaced, rounded to six digits so that scaling back gives the same point again."""
     return tuple(float("%.6g" % value) if i == index else old for i, old in enumerate(point))
 
 
 class Search:
-    """One target: every point that was evaluated, and the way to the best."""
+    """The search for one target: all evaluated points, and the best one."""
 
     def __init__(self, target, reference, pool):
         self.target = target
@@ -86,13 +86,13 @@ class Search:
             return json.loads(run("compare", reference_path, mask))["penumbra"]
 
     def evaluate(self, points, reference_path, limit):
-        """Adds the errors of the points that are new, up to `limit` errors in all. True when one is the best now."""
+        """Evaluate the points that are new, up to `limit` points in total. Return whether one of them is the new best."""
         fresh = [point for point in dict.fromkeys(points) if point not in self.errors]
         fresh = fresh[: max(0, limit - len(self.errors))]
         results = self.pool.map(lambda point: self.measure(point, reference_path), fresh)
         self.errors.update(zip(fresh, results))
         found = min(fresh, key=self.get_error, default=self.best)
-        is_better = self.get_error(found) < self.get_error(self.best) - LEAST_GAIN
+        is_better = self.get_error(found) < self.get_error(self.best) - MIN_GAIN
         if is_better:
             self.best = found
         return is_better
@@ -101,38 +101,38 @@ class Search:
         return self.errors[point]["mae"]
 
     def improve_width(self, index, factor, reference_path, limit):
-        """Moves r or t by the factor for as long as the error falls. True when it fell."""
+        """Scale r or t by the factor or its inverse for as long as the error falls; also try 0 with FACTORS[0]. Return whether it fell."""
         is_better_once = False
         while True:
             value = self.best[index]
-            values = [value * factor, value / factor] if value > 0 else [LEAST_SHARE * self.target.width_m]
+            values = [value * factor, value / factor] if value > 0 else [MIN_FRACTION * self.target.width_m]
             if factor == FACTORS[0]:
                 values.append(0.0)
-            if not self.evaluate([move(self.best, index, other) for other in values], reference_path, limit):
+            if not self.evaluate([replace_value(self.best, index, other) for other in values], reference_path, limit):
                 return is_better_once
             is_better_once = True
 
     def improve_widths(self, factor, reference_path, limit):
-        """Both in turn, until neither is better: a list, since any() alone would skip t after r fell."""
+        """Improve r and t in turn until neither gets better. any() gets a list, since with a generator it would skip t after r."""
         while any([self.improve_width(index, factor, reference_path, limit) for index in (OUTER, INNER)]):
             pass
 
     def run(self):
-        start = START_SHARE * self.target.width_m
+        start = START_FRACTION * self.target.width_m
         with tempfile.TemporaryDirectory() as folder:
             reference_path = os.path.join(folder, "reference.exr")
             self.pool.submit(self.target.render, self.reference, [], reference_path).result()
             self.evaluate([self.derived, (start, start, DERIVED)], reference_path, MAX_EVALUATIONS)
             for factor in FACTORS:
                 self.improve_widths(factor, reference_path, MAX_EVALUATIONS - len(BETAS_M) - RESERVED_EVALUATIONS)
-            if self.best[INNER] > 0:  # beta is of the inner fins
-                self.evaluate([move(self.best, BETA, beta_m) for beta_m in BETAS_M], reference_path, MAX_EVALUATIONS)
+            if self.best[INNER] > 0:  # beta affects only the inner fins
+                self.evaluate([replace_value(self.best, BETA, beta_m) for beta_m in BETAS_M], reference_path, MAX_EVALUATIONS)
             self.improve_widths(FACTORS[-1], reference_path, MAX_EVALUATIONS)
         return self
 
 
 def build_table(searches):
-    """One row for each search, and behind the study's scenes their means. Prints the rows as they are found."""
+    """Build one row per search, and the means after the rows of the study's scenes. Print each row as it is found."""
     rows, columns = [], []
     for search in searches:
         best = search.best
@@ -159,7 +159,7 @@ def build_means(columns):
 
 
 def split_page():
-    """The page before and after its table."""
+    """Return the text of the page before and after its table."""
     if not os.path.isfile(PAGE):
         raise SystemExit("ERROR: %s is missing. Write it with the lines %s and %s." % (os.path.relpath(PAGE, ROOT), BEGIN, END))
     with open(PAGE, encoding="utf-8") as file:
@@ -175,7 +175,7 @@ def main():
     parser = argparse.ArgumentParser(description="Searches the best r, t and beta of the penumbra fins.")
     parser.add_argument("--scenes", default="", metavar="A,B", help="these scenes only")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="evaluations at a time")
-    parser.add_argument("--write", action="store_true", help="into doc/techniques/penumbra_fins.md")
+    parser.add_argument("--write", action="store_true", help="write the table into doc/techniques/penumbra_fins.md")
     arguments = parser.parse_args()
     targets = STUDY + OTHERS
     if arguments.scenes:
@@ -187,9 +187,9 @@ def main():
     if arguments.jobs < 1:
         parser.error("--jobs is %d, must be 1 or more" % arguments.jobs)
     if arguments.write:
-        split_page()  # before the work, not after it
+        split_page()  # fails now, not after the work, if the page lacks the lines
     reference = find_reference()
-    # One pool for the programs that run, and one for the searches that wait for them.
+    # One pool runs the programs, the other one the searches that wait for them.
     with ThreadPoolExecutor(arguments.jobs) as evaluations, ThreadPoolExecutor(arguments.jobs) as searches:
         lines = build_table(searches.map(Search.run, [Search(target, reference, evaluations) for target in targets]))
     lines += ["", "Errors over penumbra pixels, widths and beta in metres; masks of %s. A sun has degrees; its derived r and t are tan(R / 2) S." % MASK_SIZE]

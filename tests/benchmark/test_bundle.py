@@ -1,4 +1,4 @@
-"""The portable bundle, unpacked in a root that has a shell, the C library and a Vulkan driver, and no package.
+"""Tests the portable bundle, unpacked in root folders that have only a shell with a few tools and the C library; one has a Vulkan driver.
 
 Needs the right to chroot (root). The bundle is made with references of two scenes at 64 x 64.
 """
@@ -15,7 +15,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PROGRAM = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
 TOOLS = ("sh", "dirname", "mkdir", "cat", "rm", "getconf")
 DRIVER_FOLDER = "/usr/share/vulkan/icd.d"
-MOST_MIB = 60
+MAX_MIB = 60
 
 
 def list_libraries(path):
@@ -33,7 +33,7 @@ def copy_into(root, path):
 
 
 def make_root(root, has_driver):
-    """Make a root with tools of the shell and, if has_driver, Mesa's software driver."""
+    """Make a root folder with the shell's tools and, if has_driver, Mesa's software driver."""
     files = []
     for tool in TOOLS:
         path = shutil.which(tool)
@@ -51,7 +51,7 @@ def make_root(root, has_driver):
                 found = subprocess.run(["ldconfig", "-p"], capture_output=True, text=True, check=True).stdout.splitlines()
                 driver = next(line.split()[-1] for line in found if line.split() and line.split()[0] == driver)
             files += [manifest, driver, *list_libraries(driver)]
-    for name in ("bin", "lib", "lib64"):  # as Debian has them
+    for name in ("bin", "lib", "lib64"):  # symbolic links into /usr, as in Debian
         os.makedirs(os.path.join(root, "usr", name))
         os.symlink("usr/" + name, os.path.join(root, name))
     for path in files:
@@ -89,13 +89,13 @@ class BundleTest(unittest.TestCase):
         return subprocess.run(words, capture_output=True, text=True, env=environment, timeout=600, check=False)
 
     def test_it_is_small_and_has_a_licence_for_each_library(self):
-        self.assertLess(os.path.getsize(self.archive), MOST_MIB << 20)
+        self.assertLess(os.path.getsize(self.archive), MAX_MIB << 20)
         licences = os.listdir(os.path.join(self.roots["bare"], "gnomon-linux-x86_64", "licences"))
         for library in ("libembree3", "libstdc++6", "libvulkan1"):
             self.assertTrue(any(name.startswith(library) for name in licences), (library, licences))
         self.assertIn("gnomon.txt", licences)
 
-    def test_its_errors_are_those_of_this_machine(self):
+    def test_it_measures_the_same_errors_as_the_packed_program(self):
         result = self.run_in("driver", "./measure.sh", "--scenes", "sphere,contact_box", "--size", "64x64", "--out", "/tmp/out")
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(os.path.join(self.roots["driver"], "tmp/out/results.json"), encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""Scenes that the measurements of shadow volumes make for themselves: too large to be committed."""
+"""Scenes for the measurements of shadow volumes. They are generated because they are too large to be committed."""
 
 import math
 import os
@@ -14,7 +14,8 @@ YARD_M = 40.0
 ROW_COUNT = 5
 WALLS_PER_ROW = 4
 WALL_HALF = (0.15, 2.0, 4.2)
-KNOT_PARTS = {2080: (65, 16), 10240: (160, 32), 51200: (400, 64), 204800: (800, 128), 1008000: (1800, 280)}
+# Triangle count -> segments along and around the knot.
+KNOT_SEGMENTS = {2080: (65, 16), 10240: (160, 32), 51200: (400, 64), 204800: (800, 128), 1008000: (1800, 280)}
 
 
 def add_sun(document, from_direction):
@@ -23,8 +24,8 @@ def add_sun(document, from_direction):
 
 
 def make_yard(caster_count, has_walls, folder):
-    """Balls of 80 triangles between rows of long walls that a low sun leaves in their shadow; some stick
-    out over them, some are in the gaps. Returns the scene's path."""
+    """Balls of 80 triangles between rows of long walls, which shadow most balls from a low sun. Some balls stick
+    out above the walls or are in the gaps. Returns the scene's path."""
     document = Document(YARD_M)
     document.add_camera("Camera", (-6.0, 14.0, 26.0), (0.0, 0.0, 2.0), math.radians(60.0))
     add_sun(document, (30.0, 10.0, 3.0))
@@ -46,7 +47,7 @@ def make_yard(caster_count, has_walls, folder):
 
 
 def make_knot(triangle_count, folder):
-    """One knot of about so many triangles over a floor. Returns the scene's path."""
+    """One knot of triangle_count triangles, a key of KNOT_SEGMENTS, above a floor. Returns the scene's path."""
     document = Document(4.0)
     document.add_camera("Camera", (-2.0, 3.5, 4.0), (0.0, 0.4, 0.0), math.radians(45.0))
     light = {
@@ -58,9 +59,9 @@ def make_knot(triangle_count, folder):
     document.add_light("Light", light, (1.0, 5.0, 1.0), (0.0, 0.5, 0.0), {"shadow_enabled": True})
     material = document.add_material("Grey", GREY)
     document.add_object("Ground", make_box((3.0, 0.1, 3.0)), material, (0.0, -0.1, 0.0))
-    knot = make_torus_knot(0.36, 0.16, *KNOT_PARTS[triangle_count])
-    turn = quaternion_about((1.0, 0.0, 0.0), 0.5)
-    document.add_object("Knot", knot, material, (0.0, 1.4, 0.0), turn)
+    knot = make_torus_knot(0.36, 0.16, *KNOT_SEGMENTS[triangle_count])
+    rotation = quaternion_about((1.0, 0.0, 0.0), 0.5)
+    document.add_object("Knot", knot, material, (0.0, 1.4, 0.0), rotation)
     return save(document, "knot_%d" % triangle_count, folder)
 
 

@@ -1,4 +1,4 @@
-"""What the tests with Blender share: running Blender and the add-on, and looking at the files they write.
+"""Base class and functions of the tests with Blender: run Blender and the add-on, and read the files they write.
 
 The program is `blender`, or $BLENDER.
 """
@@ -25,8 +25,8 @@ SIZE = ("--size", "64x64")
 
 
 def run_blender(folder, *arguments, **environment):
-    """The finished process. Blender's own folders are in the test's; it needs no display."""
-    # Debian's Blender takes its libraries, numpy too, from the first python3 in PATH: not from pyenv's or a venv's.
+    """Run Blender and return the finished process. Its configuration is below `folder`. It needs no display."""
+    # Debian's Blender loads libraries such as numpy from the first python3 in PATH, which must not be pyenv's or a venv's.
     path = os.pathsep.join(("/usr/bin", os.environ.get("PATH", "")))
     variables = {**os.environ, "HOME": folder, "TMPDIR": folder, "PATH": path, **environment}
     for name in ("CONFIG", "SCRIPTS", "DATAFILES"):
@@ -48,7 +48,7 @@ def load_gltf(path):
 
 
 def find_lights(scene):
-    """Name of the node -> (its extras, its light). If a name occurs twice, the last node counts."""
+    """Return node name -> (extras of the node, light). If a name occurs twice, the last node counts."""
     found = {}
     for node in scene["nodes"]:
         index = node.get("extensions", {}).get(LIGHTS, {}).get("light")
@@ -59,7 +59,7 @@ def find_lights(scene):
 
 @unittest.skipUnless(BLENDER, "Blender is not installed")
 class BlenderTest(unittest.TestCase):
-    """A folder for all tests of a class, so that Blender, which is slow, writes each scene once."""
+    """All tests of a class share a folder, so that Blender, which is slow, writes each scene only once."""
 
     @classmethod
     def setUpClass(cls):
@@ -73,7 +73,7 @@ class BlenderTest(unittest.TestCase):
 
     @classmethod
     def call(cls, command, name, *, mode=("-b",), environment=None, **arguments):
-        """Runs a command of inside_blender.py. Returns the path it wrote, and the process."""
+        """Run a command of inside_blender.py. Return (path it wrote, finished process)."""
         out = cls.path(name)
         options = (*mode, "--factory-startup", "--python-exit-code", "1", "-P", INSIDE)
         result = run_blender(cls.folder, *options, "--", command, out, json.dumps(arguments), **(environment or {}))
@@ -88,16 +88,17 @@ class BlenderTest(unittest.TestCase):
 
     @classmethod
     def build(cls, name, **arguments):
+        """Save a scene of inside_blender.py as a .blend file and return its path. arguments: those of save_blend()."""
         return cls.call("save_blend", name, **arguments)[0]
 
     @classmethod
     def export(cls, blend, name, *options):
-        """The add-on's command, as doc/blender.md has it."""
+        """Run the add-on's export command, as doc/blender.md describes it."""
         return run_blender(cls.folder, "-b", blend, "-P", ADDON, "--", "--export", cls.path(name), *options)
 
     @classmethod
     def make(cls, name, **arguments):
-        """Builds a scene and exports it. Returns the file's path."""
+        """Build a scene, export it, and return the file's path."""
         blend = cls.build(name + ".blend", **arguments)
         result = cls.export(blend, name)
         if result.returncode != 0:
@@ -105,7 +106,7 @@ class BlenderTest(unittest.TestCase):
         return cls.path(name)
 
     def run_gnomon(self, command, scene, *arguments):
-        """The hash of what the program wrote: the same command writes the same bytes."""
+        """Run the program and return the SHA-256 of the file that it wrote. The same command writes the same bytes."""
         out = self.path("out.exr" if command == "visibility" else "out.png")
         option = "--out" if command == "visibility" else "--capture"
         more = () if command == "visibility" else ("--headless",)
@@ -115,6 +116,7 @@ class BlenderTest(unittest.TestCase):
         with open(out, "rb") as file:
             return hashlib.sha256(file.read()).hexdigest()
 
-    def compute_mask(self, scene, technique, light, *settings):
+    def hash_mask(self, scene, technique, light, *settings):
+        """Compute a light's mask and return the SHA-256 of its file."""
         pairs = [word for setting in settings for word in ("--set", setting)]
         return self.run_gnomon("visibility", scene, "--technique", technique, "--light", light, *pairs)

@@ -1,4 +1,4 @@
-"""What the tests do inside Blender. One command a run; results go to a file as JSON.
+"""Commands that the tests run inside Blender, one per run. Each writes the file OUT: a scene, or results as JSON.
 
     blender -b --factory-startup --python-exit-code 1 -P inside_blender.py -- COMMAND OUT ARGUMENTS_AS_JSON
 """
@@ -45,7 +45,7 @@ def add_light(name, values, collection=None):
 
 
 def build_scene(lights=("Key", "Fill", "Sun"), has_camera=True):
-    """A cube above a plane, of which every light shows a penumbra."""
+    """A cube above a plane, on which every light casts a penumbra."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.mesh.primitive_plane_add(size=6.0)
     bpy.ops.mesh.primitive_cube_add(size=0.8, location=(0.0, 0.0, 1.0))
@@ -59,7 +59,7 @@ def build_scene(lights=("Key", "Fill", "Sun"), has_camera=True):
 
 
 def change(changes):
-    """[object, attribute or custom property, value]; "data." before the attribute: of its light."""
+    """Apply changes: [object, attribute or custom property, value]. The prefix "data." selects the object's light data."""
     for name, path, value in changes:
         owner = bpy.data.objects[name]
         if path.startswith("data."):
@@ -80,7 +80,7 @@ def save_blend(out, lights=("Key", "Fill", "Sun"), has_camera=True, changes=()):
 
 
 def save_instances(out, area_is_hidden=True):
-    """A light in a collection that is shown twice, hidden ones, and a light that two objects share."""
+    """Save a scene with a light in a collection with two instances, hidden lights, and a light that two objects share."""
     build_scene(("Key",))
     lamps = bpy.data.collections.new("Lamps")
     add_light("Lamp", {**LIGHTS["Fill"], "shadow_soft_size": 0.15}, lamps)
@@ -99,7 +99,7 @@ def save_instances(out, area_is_hidden=True):
 
 
 def export_by_hand(out):
-    """Export as the dialogue does with both boxes ticked; without the add-on, the properties are typed."""
+    """Export without the add-on: with Blender's own exporter, and properties as typed by the user."""
     build_scene()
     change((("Key", "data.[\"light_size\"]", 0.5), ("Fill", "[\"light_size\"]", 0.4), ("Sun", "data.[\"angle\"]", 0.1)))
     bpy.ops.export_scene.gltf(
@@ -116,7 +116,7 @@ def list_properties():
 
 
 def compare_properties(out, path, bad_path):
-    """Custom properties before and after an export, one that fails on the way, and the panel's operators."""
+    """Write the custom properties before an export, after it, and after one whose exporter writes no file, with its message."""
     import gnomon_shadows
 
     gnomon_shadows.register()
@@ -125,17 +125,18 @@ def compare_properties(out, path, bad_path):
     before = list_properties()
     bpy.ops.export_scene.gnomon(filepath=path)
     after = list_properties()
+    # An exporter that writes no file. It removes a folder, so that a second call would fail.
     gnomon_shadows.run_exporter = lambda *_: os.rmdir(bad_path)
     message = ""
     try:
         bpy.ops.export_scene.gnomon(filepath=path)
-    except RuntimeError as error:  # what an operator reports as an error
+    except RuntimeError as error:  # raised when an operator reports an error
         message = str(error)
     write(out, {"before": before, "after": after, "after_failure": list_properties(), "message": message})
 
 
-def read_file(out, path):
-    """Return what the add-on's import of a file brings into Blender."""
+def import_file(out, path):
+    """Import a file with the add-on and write the lights and custom properties that Blender has then."""
     import gnomon_shadows
 
     gnomon_shadows.register()
@@ -165,7 +166,7 @@ def read_file(out, path):
 
 
 def install(out, program):
-    """Installs the add-on as Preferences > Install does, uses and removes it."""
+    """Install the add-on as Preferences > Install does, use it, and disable it."""
     sys.path.remove(os.path.dirname(ADDON))
     bpy.ops.preferences.addon_install(filepath=ADDON)
     bpy.ops.preferences.addon_enable(module="gnomon_shadows")
@@ -177,30 +178,30 @@ def install(out, program):
     for path in (program, os.path.join(os.path.dirname(out), "gone")):
         preferences.program = path
         lists.append([name for name, _ in module.search_techniques(light, bpy.context, "")])
-    was_there = hasattr(bpy.types, "GNOMON_PT_shadow") and "gnomon" in dir(bpy.ops.export_scene)
+    was_registered = hasattr(bpy.types, "GNOMON_PT_shadow") and "gnomon" in dir(bpy.ops.export_scene)
     light.gnomon_technique, light.gnomon_outer_width = "", -0.5  # back to the defaults: nothing is stored
-    left = dict(light.items())
+    stored_properties = dict(light.items())
     bpy.ops.preferences.addon_disable(module="gnomon_shadows")
-    is_there = hasattr(bpy.types, "GNOMON_PT_shadow") or hasattr(bpy.types.Light, "gnomon_technique")
-    write(out, {"file": module.__file__, "lists": lists, "was_there": was_there, "left": left, "is_there": is_there})
+    is_still_registered = hasattr(bpy.types, "GNOMON_PT_shadow") or hasattr(bpy.types.Light, "gnomon_technique")
+    write(out, {"file": module.__file__, "lists": lists, "was_there": was_registered, "left": stored_properties, "is_there": is_still_registered})
 
 
 def draw_panel(out):
-    """Needs a display: shows the panel for each type of light. Errors while it draws are on stderr."""
+    """Show the panel for each type of light. Needs a display. Errors while it draws go to stderr."""
     import gnomon_shadows
 
     gnomon_shadows.register()
     drawn = []
     draw = gnomon_shadows.GNOMON_PT_shadow.draw
 
-    def note(self, context):
+    def record_draw(self, context):
         draw(self, context)
         drawn.append(context.light.type)
 
-    gnomon_shadows.GNOMON_PT_shadow.draw = note
+    gnomon_shadows.GNOMON_PT_shadow.draw = record_draw
     window = bpy.context.window_manager.windows[0]
     light = bpy.data.objects["Light"]
-    light["light_size"] = 0.7  # so that the note is drawn too
+    light["light_size"] = 0.7  # makes the panel draw its hint about custom properties
     window.view_layer.objects.active = light
     states = ["POINT", "SPOT", "SUN", "AREA"]
 
@@ -219,7 +220,7 @@ def draw_panel(out):
 
 
 def render_scales(out):
-    """Shadows that Cycles renders of a light: as it is, with its object scaled, and twice as large."""
+    """Render the shadow of a light with Cycles: unchanged, with its object scaled, and with twice the radius."""
     images = {}
     for kind in ("Key", "Fill"):
         for variant, scale, factor in (("plain", 1.0, 1.0), ("scaled", 3.0, 1.0), ("larger", 1.0, 2.0)):

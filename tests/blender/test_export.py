@@ -1,4 +1,4 @@
-"""Scenes built in Blender and exported by the add-on are in the engine what they were in Blender."""
+"""Scenes that the add-on exports from Blender have the same lights and properties in the engine."""
 
 import os
 import shutil
@@ -12,8 +12,8 @@ from command_line_case import find_technique, load_json  # noqa: E402
 BY_HAND = ("light_size=0.5", "light_size=0.4", "light_angular_distance=5.729577951")
 
 
-def find_plain_technique():
-    """One that is chosen by its id alone."""
+def find_selectable_technique():
+    """Return a technique that is neither the default, the fallback nor the reference."""
     flags = ("is_default", "is_fallback", "is_reference")
     return next(item["id"] for item in load_json("techniques", "--json") if not any(item[flag] for flag in flags))
 
@@ -27,7 +27,7 @@ class ExportedFile(BlenderTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.soft = find_technique("is_default")
-        cls.other = find_plain_technique()
+        cls.other = find_selectable_technique()
         changes = [
             ["Key", "data.gnomon_technique", cls.other],
             ["Key", "data.gnomon_outer_width", 0.25],
@@ -36,7 +36,7 @@ class ExportedFile(BlenderTest):
         ]
         cls.scene = cls.make("scene.gltf", changes=changes)
         cls.blend = cls.scene + ".blend"
-        # r and t may be used instead of the size, so the sizes are looked at without them.
+        # Techniques may use r and t instead of the size, so sizes are tested in a scene without them.
         cls.sizes = cls.make("sizes.gltf", changes=[["Fill", "scale", [3.0, 3.0, 3.0]]])
 
     def check_lights(self, path):
@@ -65,9 +65,9 @@ class ExportedFile(BlenderTest):
             ("Sun", "light_angular_distance=6", "light_angular_distance=6.2"),
         ):
             with self.subTest(light=light):
-                mask = self.compute_mask(self.sizes, self.soft, light)
-                self.assertEqual(mask, self.compute_mask(self.sizes, self.soft, light, same))
-                self.assertNotEqual(mask, self.compute_mask(self.sizes, self.soft, light, other))
+                mask = self.hash_mask(self.sizes, self.soft, light)
+                self.assertEqual(mask, self.hash_mask(self.sizes, self.soft, light, same))
+                self.assertNotEqual(mask, self.hash_mask(self.sizes, self.soft, light, other))
 
     def test_the_engine_uses_the_technique_and_the_shadow_that_blender_has(self):
         image = self.run_gnomon("run", self.scene)
@@ -81,9 +81,9 @@ class ExportedFile(BlenderTest):
         readers = []
         for item in load_json("techniques", "--json"):
             if not item["is_reference"]:
-                mask = self.compute_mask(self.scene, item["id"], "Key")
-                self.assertEqual(mask, self.compute_mask(self.scene, item["id"], "Key", outer + "0.25"), item["id"])
-                readers += [item["id"]] if mask != self.compute_mask(self.scene, item["id"], "Key", outer + "0.4") else []
+                mask = self.hash_mask(self.scene, item["id"], "Key")
+                self.assertEqual(mask, self.hash_mask(self.scene, item["id"], "Key", outer + "0.25"), item["id"])
+                readers += [item["id"]] if mask != self.hash_mask(self.scene, item["id"], "Key", outer + "0.4") else []
         if not readers:
             self.skipTest("no technique of this build reads the widths")
 
@@ -97,11 +97,11 @@ class ExportedFile(BlenderTest):
             self.assertGreater(compute_mean_difference(plain, larger), 1e-3, "Cycles")
 
 
-class WhatIsExported(BlenderTest):
+class ExportedProperties(BlenderTest):
     def test_a_custom_property_wins_over_blenders_value(self):
         changes = [
             ["Key", 'data.["light_size"]', 0.7],
-            ["Fill", '["radius"]', 0.6],
+            ["Fill", '["radius"]', 0.6],  # another name of light_size
             ["Sun", 'data.["light_angular_distance"]', 2],
         ]
         lights = find_lights(load_gltf(self.make("typed.gltf", changes=changes)))
@@ -110,11 +110,11 @@ class WhatIsExported(BlenderTest):
         self.assertNotIn("light_size", lights["Fill"][1]["extras"])
         self.assertEqual(lights["Sun"][1]["extras"]["light_angular_distance"], 2)
         soft = find_technique("is_default")
-        mask = self.compute_mask(self.path("typed.gltf"), soft, "Fill")
-        self.assertEqual(mask, self.compute_mask(self.path("typed.gltf"), soft, "Fill", "light_size=0.6"))
-        self.assertNotEqual(mask, self.compute_mask(self.path("typed.gltf"), soft, "Fill", "light_size=0.2"))
+        mask = self.hash_mask(self.path("typed.gltf"), soft, "Fill")
+        self.assertEqual(mask, self.hash_mask(self.path("typed.gltf"), soft, "Fill", "light_size=0.6"))
+        self.assertNotEqual(mask, self.hash_mask(self.path("typed.gltf"), soft, "Fill", "light_size=0.2"))
 
-    def test_instances_bring_their_lights_and_what_is_hidden_stays_away(self):
+    def test_instances_export_their_lights_and_hidden_lights_are_not_exported(self):
         blend, _ = self.call("save_instances", "instances.blend")
         result = self.export(blend, "instances.gltf")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -125,7 +125,7 @@ class WhatIsExported(BlenderTest):
         self.assertNotIn("Area", names)
         lights = find_lights(scene)
         self.assertEqual(lights["Lamp"][1]["extras"]["light_size"], 0.15)
-        # One light, two objects, one of which has a size of its own.
+        # Two objects share one light, and one of them has its own size.
         self.assertEqual(lights["Twin"][1]["name"], lights["Key"][1]["name"])
         self.assertNotIn("light_size", lights["Key"][1]["extras"])
         self.assertEqual(lights["Twin"][0]["light_size"], 0.6)
@@ -147,10 +147,10 @@ class WhatIsExported(BlenderTest):
         soft = find_technique("is_default")
         for light, same in zip(("Key", "Fill", "Sun"), BY_HAND):
             with self.subTest(light=light):
-                mask = self.compute_mask(scene, soft, light)
-                self.assertEqual(mask, self.compute_mask(scene, soft, light, same))
+                mask = self.hash_mask(scene, soft, light)
+                self.assertEqual(mask, self.hash_mask(scene, soft, light, same))
                 name = same.split("=", maxsplit=1)[0]
-                self.assertNotEqual(mask, self.compute_mask(scene, soft, light, name + "=0.1"))
+                self.assertNotEqual(mask, self.hash_mask(scene, soft, light, name + "=0.1"))
 
 
 class BadInput(BlenderTest):
@@ -160,7 +160,7 @@ class BadInput(BlenderTest):
         cls.good = cls.build("good.blend")
 
     def assert_refused(self, blend, name, *words):
-        """One ERROR line with all the words, exit code 1, no file and none left over."""
+        """Assert that an export fails with exit code 1 and one ERROR line that has all the words, and leaves no file."""
         result = self.export(blend, name)
         errors = [line for line in result.stderr.splitlines() if line.startswith("ERROR: ")]
         self.assertEqual(len(errors), 1, result.stderr)

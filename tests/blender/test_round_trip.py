@@ -1,4 +1,4 @@
-"""The way back to Blender, the add-on in Blender's window, and the editor that follows an export."""
+"""Importing edited files back into Blender, the add-on in Blender's window, and the editor that reloads an exported file."""
 
 import json
 import math
@@ -16,14 +16,14 @@ HAS_EDITOR = "editor" in [item["name"] for item in load_json("modules", "--json"
 WAIT_S = 60
 
 
-class WayBack(BlenderTest):
+class Reimport(BlenderTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         cls.scene = cls.make("scene.gltf", changes=[["Key", "data.gnomon_technique", "some_id"]])
 
     def change_file(self, name):
-        """The exported file as the editor would save it: other sizes, more properties."""
+        """Write the exported file as the editor would save it, with other sizes and more properties. Return its path."""
         scene = load_gltf(self.scene)
         lights = {light["name"]: light for light in scene["extensions"][LIGHTS]["lights"]}
         lights["Key data"]["extras"].update({"light_size": 0.6, "penumbra_outer_width": 0.3, "some_id_taps": 5})
@@ -37,14 +37,14 @@ class WayBack(BlenderTest):
         return self.path(name)
 
     def test_a_file_brings_sizes_techniques_and_properties_into_blender(self):
-        found = self.call_for_json("read_file", "found.json", path=self.change_file("changed.gltf"))
+        found = self.call_for_json("import_file", "found.json", path=self.change_file("changed.gltf"))
         key, fill, sun = (found["lights"][name] for name in ("Key", "Fill", "Sun"))
         self.assertAlmostEqual(key["shadow_soft_size"], 0.6, places=6)
         self.assertEqual(key["technique"], "some_id")
         self.assertAlmostEqual(key["widths"][0], 0.3, places=6)
         self.assertEqual(key["widths"][1], -1.0)
         own = {"shadow_technique": "some_id", "penumbra_outer_width": 0.3, "some_id_taps": 5}
-        self.assertEqual(key["properties"], own, "what became Blender's own is stored once")
+        self.assertEqual(key["properties"], own, "values that Blender has itself are not stored twice")
         self.assertAlmostEqual(key["energy"], 500.0, places=2)
         self.assertAlmostEqual(fill["shadow_soft_size"], 0.2, places=6)
         self.assertEqual((fill["use_shadow"], fill["properties"]), (False, {}))
@@ -55,7 +55,7 @@ class WayBack(BlenderTest):
 
     def test_a_file_that_went_both_ways_has_the_same_lights_and_properties(self):
         changed = self.change_file("there.gltf")
-        self.call("read_file", "there.json", path=changed)
+        self.call("import_file", "there.json", path=changed)
         result = self.export(self.path("there.json.blend"), "again.gltf")
         self.assertEqual(result.returncode, 0, result.stderr)
         before, after = load_gltf(changed), load_gltf(self.path("again.gltf"))
@@ -94,12 +94,12 @@ class WithDisplay(BlenderTest, DisplayTest):
             try:
                 with open(self.items, encoding="utf-8") as file:
                     state = json.load(file)
-            except (OSError, ValueError):  # not there yet
+            except (OSError, ValueError):  # not written yet
                 state = {}
             if state and matches(state):
                 return
             time.sleep(0.1)
-        self.fail("the editor did not get there: %s" % state)
+        self.fail("the editor did not reach the expected state: %s" % state)
 
     @unittest.skipUnless(HAS_EDITOR, "this build has no editor")
     def test_the_editor_reads_a_file_again_that_is_exported_again(self):
@@ -108,7 +108,7 @@ class WithDisplay(BlenderTest, DisplayTest):
         self.wait_for(process, lambda state: state["images"] >= 1)
         blend = self.build("larger.blend", changes=[["Key", "data.shadow_soft_size", 0.9]])
         self.assertEqual(self.export(blend, "followed.gltf").returncode, 0)
-        self.wait_for(process, lambda state: "read again" in state["status"])
+        self.wait_for(process, lambda state: "reloaded" in state["status"])
         self.press("key", "ctrl+q")
         self.finish(process)
 

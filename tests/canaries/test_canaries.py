@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs programs with one deliberate error each; a sanitizer that stays silent is a failure.
+"""Runs programs with one deliberate error each; it is a failure if the sanitizer does not report the error.
 
     test_canaries.py SANITIZERS        as given to scons: address,undefined or thread
 

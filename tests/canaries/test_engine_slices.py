@@ -1,4 +1,4 @@
-"""The engine's tests in slices: every test is in one, and what goes wrong in any is reported."""
+"""Tests of run_engine.py: every test is in exactly one slice, and failures in any slice are reported."""
 
 import os
 import sys
@@ -18,7 +18,7 @@ class SliceTest(unittest.TestCase):
                     numbers = [n for first, last in run_engine.split(count, parts) for n in range(first, last + 1)]
                     self.assertEqual(numbers, list(range(1, count + 1)))
 
-    def test_failures_crashes_and_bad_ends_are_added_up(self):
+    def test_failures_crashes_and_bad_exit_codes_are_added_up(self):
         good = (0, "text\n3 passed, 0 failed, 1 skipped\n")
         self.assertEqual(run_engine.add_up([good, good]), [6, 0, 2])
         self.assertEqual(run_engine.add_up([good, (1, "1 passed, 2 failed, 0 skipped\n")]), [4, 2, 1])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Feeds one failure of each kind to the replay of fuzz inputs; one that it does not report is a failure.
+"""Gives the replay of fuzz inputs one failure of each kind, and fails if the replay misses one or reports a good input.
 
     test_replay.py SUFFIX        of bin/canary_replay.SUFFIX, as scons names it: release_address_undefined
 

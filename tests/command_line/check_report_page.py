@@ -3,7 +3,7 @@
 
     check_report_page.py index.html [--plots N] [--screenshot-folder DIR]
 
-The browser is $CHROMIUM or `chromium`, spoken to through a pipe (its DevTools protocol): a window of headless
+The browser is $CHROMIUM or `chromium`, controlled with its DevTools protocol through a pipe. A window of headless
 chromium is never narrower than 500 pixels, so a phone has to be emulated.
 """
 
@@ -25,7 +25,7 @@ WIDTHS_PX = {"desktop": 1400, "phone": 390}
 WINDOW_HEIGHT_PX = {"desktop": 900, "phone": 844}
 # A busy machine with software rendering takes half a minute for 33 plots; a page that hangs never ends.
 TIMEOUT_S = 90.0
-# Chromium refuses higher screenshots than its largest texture.
+# Chromium refuses screenshots that are taller than its largest texture.
 MAX_SCREENSHOT_HEIGHT_PX = 16000
 PROBE = """(() => { const root = document.documentElement; return {
     ready: root.dataset.ready || "", overflow_px: root.scrollWidth - root.clientWidth,
@@ -37,7 +37,7 @@ PROBE = """(() => { const root = document.documentElement; return {
 
 
 def make_high_pipe():
-    """Ends whose numbers are above 4, so that naming one of them 3 or 4 cannot close another."""
+    """Return the ends of a pipe as descriptors of 10 and above, so that mapping one to 3 or 4 cannot close another one."""
     ends = []
     for low in os.pipe():
         ends.append(fcntl.fcntl(low, fcntl.F_DUPFD_CLOEXEC, 10))
@@ -46,21 +46,21 @@ def make_high_pipe():
 
 
 class Browser:
-    """One headless chromium with one tab; `problems` collects what its console and network report."""
+    """A headless chromium with one tab. `problems` collects exceptions, console messages and unexpected network requests."""
 
     def __init__(self):
         self.problems = []
         self.buffer = b""
-        self.answers = {}
+        self.responses = {}
         self.message_count = 0
         self.session = None
         self.folder = tempfile.mkdtemp(prefix="check_report_page_")
         to_browser, self.out = make_high_pipe()
         self.input, from_browser = make_high_pipe()
-        # The protocol wants exactly descriptors 3 and 4; the shell gives ours these names.
+        # The protocol uses exactly descriptors 3 and 4. The shell maps ours to them.
         command = 'exec "$0" "$@" 3<&%d 4>&%d' % (to_browser, from_browser)
         options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run"]
-        # Containers often have 64 MB of shared memory, too little for it.
+        # Containers often have 64 MB of shared memory, too little for chromium.
         options += ["--disable-dev-shm-usage", "--disable-background-networking", "--user-data-dir=" + self.folder]
         options += ["--remote-debugging-pipe", "about:blank"]
         self.process = subprocess.Popen(
@@ -92,6 +92,7 @@ class Browser:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def call(self, method, **parameters):
+        """Call a method of the DevTools protocol and return its result. Raises RuntimeError if it fails or takes too long."""
         self.message_count += 1
         message = {"id": self.message_count, "method": method, "params": parameters}
         if self.session:
@@ -100,29 +101,29 @@ class Browser:
         while data:
             data = data[os.write(self.out, data) :]
         end = time.monotonic() + TIMEOUT_S
-        while message["id"] not in self.answers:
+        while message["id"] not in self.responses:
             self.receive(end, method)
-        answer = self.answers.pop(message["id"])
-        if "error" in answer:
-            raise RuntimeError("%s: %s" % (method, answer["error"].get("message")))
-        return answer["result"]
+        response = self.responses.pop(message["id"])
+        if "error" in response:
+            raise RuntimeError("%s: %s" % (method, response["error"].get("message")))
+        return response["result"]
 
     def receive(self, end, method):
         if not select.select([self.input], [], [], max(0.0, end - time.monotonic()))[0]:
-            raise RuntimeError("%s did not answer %s within %g s" % (BROWSER, method, TIMEOUT_S))
+            raise RuntimeError("%s did not reply to %s within %g s" % (BROWSER, method, TIMEOUT_S))
         data = os.read(self.input, 1 << 20)
         if not data:
-            raise RuntimeError("%s ended before it answered %s" % (BROWSER, method))
+            raise RuntimeError("%s ended before it replied to %s" % (BROWSER, method))
         *messages, self.buffer = (self.buffer + data).split(b"\0")
         for text in messages:
             message = json.loads(text)
             if "id" in message:
-                self.answers[message["id"]] = message
+                self.responses[message["id"]] = message
             else:
-                self.note(message["method"], message["params"])
+                self.record_problem(message["method"], message["params"])
 
-    def note(self, event, parameters):
-        """The page has no reason to write to the console or to request anything but itself."""
+    def record_problem(self, event, parameters):
+        """Record a problem if the page writes to the console or requests anything but itself."""
         if event == "Runtime.exceptionThrown":
             details = parameters["exceptionDetails"]
             text = details.get("exception", {}).get("description", details["text"])
@@ -144,7 +145,7 @@ class Browser:
         return result["result"].get("value")
 
     def open(self, url, width_px, height_px, is_phone=False, scheme="light"):
-        """Waits until the page states that it is ready, or failed, or the time is over."""
+        """Open a page and wait until it reports that it is ready or failed, or until TIMEOUT_S is over."""
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width_px,
@@ -153,7 +154,7 @@ class Browser:
             mobile=is_phone,
         )
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-        # Another fragment alone would not reload the page.
+        # A URL that differs only in its fragment would not reload the page.
         self.call("Page.navigate", url="about:blank")
         self.call("Page.navigate", url=url)
         end = time.monotonic() + TIMEOUT_S
@@ -171,6 +172,7 @@ class Browser:
 
 
 def find_problems(state, expected_plot_count):
+    """Return what is wrong according to the result of PROBE. expected_plot_count: None if any number above 0 is right."""
     problems = []
     if state["ready"] != "yes":
         problems.append("data-ready is '%s': %s" % (state["ready"], state["failure"] or "no message"))
@@ -190,10 +192,10 @@ def find_problems(state, expected_plot_count):
 
 
 def check_page(path, expected_plot_count=None, screenshot_folder=None):
-    """What is wrong with the page, at both widths; an empty list when nothing is.
+    """Return a list of what is wrong with the page, at both widths.
 
-    Plots are the <svg class="plot">: the overview, one a configuration of the matrix with a measured cell, one a
-    scaling curve with a point. With a folder, screenshots of the whole page are written there."""
+    Plots are the elements <svg class="plot">: the overview, one per configuration of the matrix with a measured cell, and
+    one per scaling curve with a point. If a folder is given, screenshots of the whole page are written there."""
     problems = []
     url = pathlib.Path(path).resolve().as_uri() + "#all"
     with Browser() as browser:

@@ -1,4 +1,4 @@
-"""What the tests of the command line share: running the program, and scenes to break.
+"""Base class and functions of the command-line tests: run the program, and make scenes to modify.
 
 The program is bin/gnomon, or $GNOMON. Technique ids come from the program itself.
 """
@@ -22,13 +22,14 @@ SMALL = ("--size", "32x32")
 LIGHTS = "KHR_lights_punctual"
 
 
-def at_length(test):
-    """A case or class of cases that belongs to tests/run_tests.sh --full: else it is no test at all, so that none is skipped."""
+def full_run_only(test):
+    """Decorator of a test or test class that only tests/run_tests.sh --full runs, which sets GNOMON_KILL_COUNT. Other runs do not
+    have the test at all, so that it does not count as skipped."""
     return test if "GNOMON_KILL_COUNT" in os.environ else None
 
 
 def run(*arguments, **environment):
-    """The finished process. A value of None takes the variable out of the environment."""
+    """Run the program and return the finished process. environment: variables to set, or to remove if None."""
     variables = {**os.environ, **environment}
     variables = {name: value for name, value in variables.items() if value is not None}
     command = [GNOMON, *map(str, arguments)]
@@ -43,6 +44,7 @@ def load_json(*arguments):
 
 
 def find_technique(flag):
+    """Return the id of the technique that has the flag in `techniques --json`: is_default, is_fallback or is_reference."""
     return next(item["id"] for item in load_json("techniques", "--json") if item[flag])
 
 
@@ -54,7 +56,7 @@ def read_png_size(path):
 
 
 class CommandLineTest(unittest.TestCase):
-    """A folder for each test, and the scene that its inputs are made from."""
+    """Each test has its own folder, and a scene (self.scene) that it may modify and write."""
 
     def setUp(self):
         self.folder = tempfile.mkdtemp()
@@ -72,7 +74,7 @@ class CommandLineTest(unittest.TestCase):
         return self.path(name)
 
     def write_scene(self, scene, *replacements):
-        """The scene as a file; replacements (old, new) are made in its text."""
+        """Write the scene as changed.gltf and return its path. For each (old, new) the first old in its text is replaced."""
         text = json.dumps(scene, indent="\t")
         for old, new in replacements:
             self.assertIn(old, text)
@@ -96,7 +98,7 @@ class CommandLineTest(unittest.TestCase):
         return self.scene["extensions"][LIGHTS]["lights"][0]
 
     def compute_mask(self, scene, *arguments, **environment):
-        """visibility with small defaults; returns the process. The output is mask.exr."""
+        """Run `visibility` with a small size and the fallback technique. Return the finished process. The output is mask.exr."""
         return run("visibility", scene, "--technique", self.get_fallback(), "--out", self.path("mask.exr"), *SMALL, *arguments, **environment)
 
     fallback = None
@@ -107,7 +109,7 @@ class CommandLineTest(unittest.TestCase):
         return CommandLineTest.fallback
 
     def assert_refused(self, result, *words, code=1):
-        """One ERROR line that has all the words; the exit code; and nothing was written."""
+        """Assert the exit code, exactly one ERROR line that contains all the words, and that the folder has only files of inputs()."""
         lines = result.stderr.splitlines()
         errors = [line for line in lines if line.startswith("ERROR: ")]
         self.assertEqual(result.returncode, code, result.stderr)
@@ -118,9 +120,10 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual(left, [], "left behind")
 
     def inputs(self):
+        """Return the names of files that a test itself may write into its folder."""
         return ("changed.gltf", "contact_box.bin", "broken.gltf", "broken.glb", "notes.txt")
 
     def assert_mask(self, result, name="mask.exr"):
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path(name), "rb") as file:
-            self.assertEqual(file.read(4), b"\x76\x2f\x31\x01", "an EXR begins so")
+            self.assertEqual(file.read(4), b"\x76\x2f\x31\x01", "not an OpenEXR file")

@@ -1,4 +1,4 @@
-"""A display without a screen, for tests that look at windows and press keys."""
+"""A virtual display (Xvfb), for tests that look at windows and press keys."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ class DisplayTest(CommandLineTest):
         cls.server.wait(TIMEOUT_S)
 
     def start(self, *arguments, **options):
-        """The program, with the arguments, on the display. options: of subprocess.Popen."""
+        """Start the program on the display and return its process. options: those of subprocess.Popen."""
         process = subprocess.Popen(
             [GNOMON, *map(str, arguments)],
             env={**os.environ, "DISPLAY": self.display, "GNOMON_CONFIG_DIR": self.path("config")},
@@ -41,20 +41,21 @@ class DisplayTest(CommandLineTest):
         return process
 
     def press(self, *command):
+        """Run xdotool commands, such as "key", "ctrl+s"."""
         environment = {**os.environ, "DISPLAY": self.display}
         subprocess.run(["xdotool", *command], env=environment, check=True, timeout=TIMEOUT_S, stdout=subprocess.DEVNULL)
 
     def focus(self, process):
-        """As a window manager would, until it holds: windows that vanish meanwhile take the focus away again."""
+        """Focus the window, as a window manager would, until it keeps the focus: windows that close meanwhile take it away."""
         environment = {**os.environ, "DISPLAY": self.display}
         pid = str(process.pid)
         find = ["xdotool", "search", "--onlyvisible", "--all", "--pid", pid, "--name", "."]
         check = ["windowfocus", "sleep", "0.5", "getwindowfocus", "getwindowpid"]
         end = time.monotonic() + TIMEOUT_S
-        answer = None
-        while answer is None or answer.stdout.strip() != pid:
-            self.assertLess(time.monotonic(), end, "the window of %s does not keep the focus: %s" % (pid, answer))
-            answer = subprocess.run([*find, *check], env=environment, capture_output=True, text=True, timeout=TIMEOUT_S)
+        result = None
+        while result is None or result.stdout.strip() != pid:
+            self.assertLess(time.monotonic(), end, "the window of %s does not keep the focus: %s" % (pid, result))
+            result = subprocess.run([*find, *check], env=environment, capture_output=True, text=True, timeout=TIMEOUT_S)
 
     def finish(self, process):
         _, errors = process.communicate(timeout=TIMEOUT_S)

@@ -1,6 +1,6 @@
-"""`gnomon edit` as a user drives it: mouse and keys under Xvfb.
+"""Drives `gnomon edit` as a user does, with mouse and keys under Xvfb.
 
-Where widgets are, and what the editor reports, comes from the file of --items.
+The positions of widgets and the editor's state are read from the file of --items.
 """
 
 import json
@@ -14,10 +14,10 @@ from command_line_case import ROOT, load_json
 from display_case import TIMEOUT_S, DisplayTest
 
 LIGHT = "Spot"
-NOWHERE = ("1100", "17")  # in the tool bar, where nothing answers to the mouse
+IDLE_MOUSE_PX = ("1100", "17")  # x and y in pixels: in the tool bar, where no widget reacts to the mouse
 DRAG_STEPS = 12
-SETTLED_FRAMES = 4  # in which what opens gets its size and position
-HAND = "0.15"  # seconds; faster ones in a row are double clicks
+SETTLED_FRAMES = 4  # after which a widget that opens has its size and position
+CLICK_DELAY_S = "0.15"  # seconds between clicks: faster ones are double clicks
 
 
 def load(path):
@@ -34,26 +34,26 @@ class EditorCase(DisplayTest):
         self.scene = os.path.join(self.project, "scenes", "three_lights.gltf")
         self.items = self.path("items.json")
 
-    checks = ("--validation",)
+    validation_arguments = ("--validation",)
 
     def open_editor(self, *arguments, project=None, **options):
-        """Until it shows an image. project: a path, "" for none; the others as for start()."""
+        """Start the editor and wait until it shows an image. project: a path, "" for none. options: as for start()."""
         if os.path.exists(self.items):
             os.remove(self.items)
         named = [self.project if project is None else project] if project != "" else []
-        self.process = self.start("edit", *named, "--items", self.items, *self.checks, *arguments, **options)
+        self.process = self.start("edit", *named, "--items", self.items, *self.validation_arguments, *arguments, **options)
         self.wait_for(lambda state: state["images"] >= 1)
 
     def get_state(self):
         try:
             return load(self.items)
-        except (OSError, ValueError):  # not there yet
+        except (OSError, ValueError):  # not written yet
             error = {"light": "", "refusal": "", "is_tracing": False, "rays": 0, "penumbra_mae": -1.0}
             return {"items": {}, "selected": "", "status": "", "is_changed": False, "is_resting": False, "frame": 0,
                     "images": 0, "answers_ms": [], "error": error}  # fmt: skip
 
     def wait_for(self, matches, at_most_s=TIMEOUT_S):
-        """The first state that matches. None comes in time: the test fails with the last one."""
+        """Wait for a state that matches and return it. The test fails if there is none within at_most_s seconds."""
         end = time.monotonic() + at_most_s
         while time.monotonic() < end:
             state = self.get_state()
@@ -62,31 +62,34 @@ class EditorCase(DisplayTest):
             if self.process.poll() is not None:
                 self.fail("the editor ended: %s" % self.process.communicate()[1])
             time.sleep(0.05)
-        self.fail("the editor did not get there: %s" % json.dumps(self.get_state()))
+        self.fail("the editor did not reach the expected state: %s" % json.dumps(self.get_state()))
 
     def wait_frames(self, count=2, matches=lambda state: True):
-        """What was pressed last has arrived two frames later, however long they take."""
+        """Wait for `count` more frames and a state that matches. Input takes effect within two frames."""
         frame = self.get_state()["frame"]
         return self.wait_for(lambda state: state["frame"] > frame + count and matches(state))
 
     def find_middle(self, name):
+        """Wait for a widget that no longer moves and return the x and y of its middle, as text."""
         bounds, before = self.wait_for(lambda state: name in state["items"])["items"][name], None
-        while bounds != before:  # what opens finds its position first
+        while bounds != before:  # a widget that opens still moves
             before, bounds = bounds, self.wait_frames(SETTLED_FRAMES, lambda state: name in state["items"])["items"][name]
         left, top, right, bottom = bounds
         return str(int((left + right) / 2)), str(int((top + bottom) / 2))
 
     def press_button(self, name):
+        """Move the mouse to a widget and press its left button, without releasing it."""
         self.press("mousemove", *self.find_middle(name))
-        self.wait_frames()  # what is under the mouse is known a frame later
-        self.press("sleep", HAND, "mousedown", "1")
+        self.wait_frames()  # the editor finds out a frame later what is under the mouse
+        self.press("sleep", CLICK_DELAY_S, "mousedown", "1")
         self.wait_frames()
 
     def click(self, name):
         self.press_button(name)
-        self.press("sleep", HAND, "mouseup", "1")
+        self.press("sleep", CLICK_DELAY_S, "mouseup", "1")
 
     def drag(self, name, step_px):
+        """Drag a widget to the right, in DRAG_STEPS steps of step_px pixels."""
         self.press_button(name)
         for _ in range(DRAG_STEPS):
             self.press("mousemove_relative", "--", str(step_px), "0", "sleep", "0.02")
@@ -94,12 +97,12 @@ class EditorCase(DisplayTest):
         self.press("mouseup", "1")
 
     def rest(self):
-        """Waits until the window shows all that there is, and sharply."""
+        """Wait until the editor is idle and shows the final image at full resolution."""
         self.wait_frames(matches=lambda state: state["is_resting"])
 
-    def photograph(self, begin=0.0, end=1.0):
+    def capture_viewport(self, begin=0.0, end=1.0):
         """Return the viewport between two fractions of its width as raw bytes, without hover effects."""
-        self.press("mousemove", *NOWHERE, "sleep", "0.1")
+        self.press("mousemove", *IDLE_MOUSE_PX, "sleep", "0.1")
         self.rest()
         left, top, right, bottom = (int(value) for value in self.get_state()["items"]["viewport"])
         left, right = int(left + begin * (right - left)), int(left + end * (right - left))
@@ -107,7 +110,8 @@ class EditorCase(DisplayTest):
         environment = {**os.environ, "DISPLAY": self.display}
         return subprocess.run([*command, "+repage", "-depth", "8", "rgb:-"], env=environment, capture_output=True, check=True).stdout
 
-    def count_different(self, one, other):
+    def compute_changed_fraction(self, one, other):
+        """Return the fraction of the bytes of two images that differ by more than 8."""
         self.assertEqual(len(one), len(other))
         return sum(abs(a - b) > 8 for a, b in zip(one, other)) / len(one)
 
@@ -127,6 +131,7 @@ class EditorCase(DisplayTest):
         self.click("choice " + choice)
 
     def save(self, scene):
+        """Overwrite the scene file, as another program would."""
         with open(self.scene, "w", encoding="utf-8") as file:
             json.dump(scene, file)
 

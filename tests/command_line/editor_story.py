@@ -1,5 +1,5 @@
-"""What the editor is for, from end to end: open, switch a soft shadow on for a light, drag its size, compare it with the
-reference, save, run the game. A test runs it; doc/make_editor_images.py photographs it.
+"""The editor's main workflow: open a scene, choose a soft shadow for a light, drag its size, compare it with the reference,
+save, run the game. test_editor.py tests it, and doc/make_editor_images.py takes screenshots of it.
 """
 
 import os
@@ -10,19 +10,19 @@ from command_line_case import find_technique
 from editor_case import LIGHT, load
 from display_case import TIMEOUT_S
 
-REFERENCE_RAYS = 256  # that are enough to judge by
+REFERENCE_RAYS = 256  # per pixel, enough for a meaningful error
 SOFT_MAE = 0.02
 
 
 def make_hard(case):
-    """The scene's light as a beginner has it: with a hard shadow."""
+    """Save the scene with a hard shadow for its light, with which the workflow starts."""
     scene = load(case.scene)
     case.find_light(scene)["extras"]["shadow_technique"] = find_technique("is_fallback")
     case.save(scene)
 
 
 def find_game(scene):
-    """The process that runs the scene; None: there is none."""
+    """Return the id of the process that runs the scene, or None."""
     for name in os.listdir("/proc"):
         try:
             with open("/proc/%s/cmdline" % name, "rb") as file:
@@ -34,33 +34,33 @@ def find_game(scene):
     return None
 
 
-def wait_until(is_so):
+def wait_until(condition):
     end = time.monotonic() + TIMEOUT_S
-    while not is_so() and time.monotonic() < end:
+    while not condition() and time.monotonic() < end:
         time.sleep(0.05)
 
 
-def run_story(case, take):
-    """case: an EditorCase. take(name) is called where there is something to be seen."""
+def run_story(case, take_screenshot):
+    """Run the workflow. case: an EditorCase. take_screenshot(name) is called at each state that the documentation shows."""
     make_hard(case)
     size = case.find_light(load(case.scene))["extras"]["light_size"]
     case.open_editor()
     case.select_light()
     case.click("penumbra")  # no lines over the shadow
-    hard = case.photograph()
-    take("editor_hard")
+    hard = case.capture_viewport()
+    take_screenshot("editor_hard")
 
     technique = find_technique("is_default")
     case.choose("property shadow_technique", technique)
     case.wait_for(lambda state: state["is_changed"])
-    soft = case.photograph()
-    case.assertGreater(case.count_different(hard, soft), 0.005)
+    soft = case.capture_viewport()
+    case.assertGreater(case.compute_changed_fraction(hard, soft), 0.005)
     case.drag("property light_size", 3)
-    case.assertGreater(case.count_different(soft, case.photograph()), 0.002)
-    plain = case.photograph()
+    case.assertGreater(case.compute_changed_fraction(soft, case.capture_viewport()), 0.002)
+    plain = case.capture_viewport()
     case.click("penumbra")
-    case.assertGreater(case.count_different(plain, case.photograph()), 0.002)
-    take("editor")
+    case.assertGreater(case.compute_changed_fraction(plain, case.capture_viewport()), 0.002)
+    take_screenshot("editor")
 
     case.click("penumbra")
     case.click("tab Error")
@@ -70,7 +70,7 @@ def run_story(case, take):
     case.choose("against", find_technique("is_fallback"))
     case.wait_for(lambda state: "line" in state["items"])
     case.rest()
-    take("editor_error")
+    take_screenshot("editor_error")
     case.choose("against", "one technique")
 
     case.press("key", "ctrl+s")
@@ -85,7 +85,7 @@ def run_story(case, take):
     case.assertIsNotNone(game, "the game runs")
     case.press("search", "--sync", "--pid", str(game))
     time.sleep(3.0)
-    take("editor_game")
+    take_screenshot("editor_game")
     case.assertEqual(find_game(case.scene), game, "it still runs")
     os.kill(game, signal.SIGTERM)
     wait_until(lambda: find_game(case.scene) is None)

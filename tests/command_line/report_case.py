@@ -1,4 +1,4 @@
-"""What the tests of `gnomon report` share."""
+"""Base class and functions of the tests of `gnomon report`."""
 
 import json
 import os
@@ -18,17 +18,17 @@ def load_report(folder):
 
 
 def get_record_path(folder, record):
-    """The file that is there as soon as a cell, or a configuration's reference, is measured."""
+    """Return the path of the file that is written when a cell, or a configuration's reference, has been measured."""
     return os.path.join(folder, "cells", record + ".json")
 
 
 def stop_after(path):
-    """Environment of a program whose device does nothing more, for ever, once that file is there."""
+    """Return environment variables with which the program's device hangs for ever once the file exists."""
     return {"GNOMON_INJECT_FAULT": "hang@file:" + path, "GNOMON_DEVICE_TIMEOUT_S": "0"}
 
 
 def drop_times(value):
-    """A copy without what two measurements never have in common."""
+    """Return a copy of a report's JSON without times and what depends on them, which differ between any two measurements."""
     if isinstance(value, dict):
         timed = ("time", "wall_ms", "time_ratio", "cost_ms", "pareto", "scaling")
         return {name: drop_times(item) for name, item in value.items() if name not in timed}
@@ -37,19 +37,21 @@ def drop_times(value):
 
 class ReportCase(CommandLineTest):
     def report(self, name, *arguments, project=PROJECT, **environment):
-        """The finished process; its report, where there is one, is in the folder of that name."""
+        """Write a report into the folder `name` and return the finished process."""
         return run("report", project, "--out", self.path(name), *QUICK, *arguments, **environment)
 
     def report_techniques(self):
-        """The fallback and another one: enough for a report with ratios and a front."""
+        """Return the ids of the fallback and another technique: enough for a report with time ratios and a Pareto front."""
         listed = load_json("techniques", "--json")
         others = [item["id"] for item in listed if not item["is_fallback"] and not item["is_reference"]]
         return ",".join([self.get_fallback(), *others[:1]])
 
     def small(self, name, *arguments):
+        """Write a report of two scenes, two light sizes and report_techniques()."""
         techniques = ("--techniques", self.report_techniques())
         return self.report(name, "--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *techniques, *arguments)
 
     def load_done(self, name, result):
+        """Assert that the process that wrote the report succeeded, and return the report."""
         self.assertEqual(result.returncode, 0, result.stderr)
         return load_report(self.path(name))

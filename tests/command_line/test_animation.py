@@ -1,4 +1,4 @@
-"""`--animation`, `--at` and `--speed`: which moment of a scene's animation is drawn, and what is refused."""
+"""Tests `--animation`, `--at` and `--speed`: which time of a scene's animation is drawn, and which values are refused."""
 
 import json
 import os
@@ -21,7 +21,7 @@ class AnimationTest(CommandLineTest):
             return file.read()
 
     def draw(self, *arguments, scene=COURTYARD):
-        """The image's bytes."""
+        """Draw headless and return the bytes of the PNG."""
         words = ("run", scene, "--headless", *SMALL, "--antialiasing", "1", "--technique", self.get_fallback(), *arguments)
         result = run(*words, "--capture", self.path("shown.png"))
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -39,13 +39,13 @@ class AnimationTest(CommandLineTest):
         self.write("project.cfg", '[project]\nstart_scene="courtyard.gltf"\n\n[defaults]\n%s\n' % defaults)
         return self.folder
 
-    def test_masks_are_of_the_time(self):
+    def test_masks_show_the_pose_at_the_given_time(self):
         at_rest = self.make_mask()
         self.assertEqual(self.make_mask(), at_rest)
         moved = self.make_mask("--at", "1.5")
         self.assertNotEqual(moved, at_rest)
         self.assertEqual(self.make_mask("--animation", "Walk", "--at", "1.5"), moved)
-        # The walk takes 6 s and begins again.
+        # The walk is a loop of 6 s.
         self.assertEqual(self.make_mask("--at", "7.5"), moved)
         self.assertNotEqual(self.make_mask("--at", "1.7"), moved)
 
@@ -57,7 +57,7 @@ class AnimationTest(CommandLineTest):
         self.assertNotEqual(self.draw(), shown)
         self.assertEqual(self.draw("--frames", "7", "--speed", "0"), self.draw())
 
-    def test_the_project_names_what_plays(self):
+    def test_the_project_sets_the_animation(self):
         walk = self.draw("--at", "1.5")
         self.assertEqual(self.draw("--at", "1.5", scene=self.make_project('animation="Walk"')), walk)
         self.assertEqual(self.draw("--at", "1.5", scene=self.make_project('animation="Run"')), walk)
@@ -65,13 +65,13 @@ class AnimationTest(CommandLineTest):
         self.assertEqual(self.draw("--frames", "1", scene=self.make_project('animation=""')), still)
         self.assertEqual(self.draw("--animation", "Walk", "--at", "1.5", scene=self.folder), walk)
 
-    def test_the_plan_lists_what_is_deformed(self):
+    def test_the_plan_reports_that_an_unchanged_pose_is_not_deformed_again(self):
         result = run("visibility", COURTYARD, "--technique", self.get_fallback(), *SMALL, "--at", "1", "--frames", "2", "--plan",
                      "--out", self.path("mask.exr"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("their pose is the same", result.stdout)
 
-    def test_refusals(self):
+    def test_bad_arguments_are_refused(self):
         words = ("visibility", COURTYARD, "--technique", self.get_fallback(), *SMALL, "--out", self.path("mask.exr"))
         self.assert_refused(run(*words, "--animation", "Run"), "courtyard.gltf", 'no animation "Run"', '"Walk"')
         self.assert_refused(run(*words, "--at", "-1"), "--at is -1", "0 or more", code=2)
@@ -79,7 +79,7 @@ class AnimationTest(CommandLineTest):
         self.assert_refused(self.compute_mask(self.write_scene(self.scene), "--at", "1"), "has no animation", "--at")
         self.assert_refused(run("run", COURTYARD, "--headless", *SMALL, "--speed", "fast"), "--speed", code=2)
 
-    def test_a_pose_that_no_float_holds(self):
+    def test_a_pose_beyond_the_range_of_float_is_refused(self):
         self.make_project('size="48x36"')
         with open(self.path("courtyard.gltf"), encoding="utf-8") as file:
             scene = json.load(file)

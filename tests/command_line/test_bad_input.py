@@ -1,4 +1,4 @@
-"""Every bad input is answered by one line that names the object, and leaves no half-written file."""
+"""Every bad input gives one error line that names the object, and leaves no half-written file."""
 
 import json
 import os
@@ -70,7 +70,7 @@ class BadScenes(CommandLineTest):
         self.find_node("Box")["translation"][0] = 123.5
         self.assert_refused(self.compute_mask(self.write_scene(self.scene, ("123.5", "1e999"))), "changed.gltf")
 
-    def test_a_transform_of_words_is_refused(self):
+    def test_a_transform_of_strings_is_refused(self):
         self.find_node("Box")["translation"] = ["a", "b", "c"]
         self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
 
@@ -111,8 +111,8 @@ class BadScenes(CommandLineTest):
         self.assert_mask(self.compute_mask(self.write_scene(self.scene)))
 
 
-class AbsurdLightValues(CommandLineTest):
-    """Refused with an error line, the default is used and the load goes on."""
+class InvalidLightValues(CommandLineTest):
+    """Values of a wrong type or out of range give one error line, the default replaces them, and the scene is still loaded."""
 
     def assert_default_used(self, scene, *words):
         result = self.compute_mask(scene)
@@ -122,22 +122,22 @@ class AbsurdLightValues(CommandLineTest):
         for word in ("changed.gltf", *words):
             self.assertIn(word, errors[0])
 
-    def test_a_light_size_out_of_range(self):
+    def test_the_default_replaces_a_light_size_out_of_range(self):
         for value in (-3, 1e30, 10001):
             with self.subTest(value=value):
                 self.get_light()["extras"]["light_size"] = value
                 self.assert_default_used(self.write_scene(self.scene), "light_size", "10000")
 
-    def test_a_number_that_no_float_holds_makes_the_file_unreadable(self):
+    def test_a_file_with_a_number_beyond_the_range_of_float_is_refused(self):
         self.get_light()["extras"]["light_size"] = 123.5
         scene = self.write_scene(self.scene, ("123.5", "1e999"))
         self.assert_refused(self.compute_mask(scene), "changed.gltf", "1e999")
 
-    def test_a_light_size_of_words(self):
+    def test_the_default_replaces_a_light_size_that_is_a_string(self):
         self.get_light()["extras"]["light_size"] = "large"
         self.assert_default_used(self.write_scene(self.scene), "light_size")
 
-    def test_a_penumbra_width_of_minus_two(self):
+    def test_the_default_replaces_a_penumbra_width_of_minus_two(self):
         self.get_light()["extras"]["penumbra_outer_width"] = -2
         self.assert_default_used(self.write_scene(self.scene), "penumbra_outer_width")
 
@@ -156,7 +156,7 @@ class AbsurdLightValues(CommandLineTest):
 
 
 class BadImages(CommandLineTest):
-    """Reported with one error line; the scene is drawn without the image, or with what can be read of it."""
+    """Such images are reported with one error line. The scene is drawn without the image, or with its readable part."""
 
     def compute_card_errors(self, card):
         make_seeds.write_gltf(card.document, bytes(card.packed), self.path("changed"))
@@ -170,7 +170,7 @@ class BadImages(CommandLineTest):
         for word in ("changed.gltf", *words):
             self.assertIn(word, errors[0])
 
-    def test_images_that_cannot_be_read(self):
+    def test_images_that_cannot_be_read_are_reported(self):
         for name, image, words in (
             ("huge", seed_images.make_huge_png(), ("has 20000 x 20000 pixels, must have 1..16384", "Make it smaller")),
             ("cut PNG", seed_images.make_truncated_png(), ("is a PNG image that cannot be read", "Export the")),
@@ -181,9 +181,9 @@ class BadImages(CommandLineTest):
         ):
             with self.subTest(name):
                 card = make_seeds.make_card_of(image, "image/png")
-                self.assert_reported(card, "images[0] " + words[0], words[1], "drawn without a texture")
+                self.assert_reported(card, "images[0] " + words[0], words[1], "drawn without it")
 
-    def test_an_animated_png_shows_its_first_frame(self):
+    def test_an_animated_png_is_reported(self):
         card = make_seeds.make_card_of(seed_images.make_animated_png(), "image/png")
         self.assert_reported(card, "images[0] is an animated PNG image, of which the first frame is shown")
 
@@ -226,7 +226,7 @@ class BadArguments(CommandLineTest):
         result = run("run", CONTACT_BOX, "--headless", *SMALL, "--capture", self.path("gone/a.png"))
         self.assert_refused(result, "gone")
 
-    def test_a_size_that_is_none(self):
+    def test_an_invalid_size_is_refused(self):
         for size in ("0x64", "64", "64x", "axb", "-4x4", "64x64x64", "1000000x1000000", "1e3x4", ""):
             with self.subTest(size=size):
                 result = run(
@@ -236,7 +236,7 @@ class BadArguments(CommandLineTest):
                 self.assertIn(result.returncode, (1, 2))
                 self.assert_refused(result, "--size", size, code=result.returncode)
 
-    def test_a_setting_that_is_unknown_or_out_of_range(self):
+    def test_a_setting_that_is_unknown_or_out_of_range_is_refused(self):
         for setting, word in (
             ("gone=1", "gone"),
             ("light_size", "light_size"),
@@ -252,7 +252,7 @@ class BadArguments(CommandLineTest):
                 self.assertIn(result.returncode, (1, 2))
                 self.assert_refused(result, word, code=result.returncode)
 
-    def test_a_setting_of_a_light_that_is_not_there(self):
+    def test_a_setting_of_a_missing_light_is_refused(self):
         result = run(
             "run", CONTACT_BOX, "--headless", *SMALL, "--capture", self.path("a.png"), "--set", "light.Moon.light_size=1"
         )
@@ -283,7 +283,7 @@ class BadArguments(CommandLineTest):
         self.assert_refused(run("rnu"), '"rnu" is no command', "run", "visibility", code=2)
         self.assert_refused(run("run", "", "--headless"), "path is empty")
 
-    def test_comparing_what_is_no_mask(self):
+    def test_comparing_files_that_are_no_masks_is_refused(self):
         self.assert_refused(run("compare", self.path("gone.exr"), self.path("gone.exr")), "gone.exr")
         for text in ("hello", "\x7fPNG\r\n\x1a\n" + 100 * " "):
             notes = self.write("notes.txt", text)
@@ -303,7 +303,7 @@ class MissingDevices(CommandLineTest):
         self.get_fallback()  # queried while there is a device
         self.assert_refused(self.compute_mask(CONTACT_BOX, **nowhere), "Vulkan")
 
-    def test_without_a_display_a_window_names_headless(self):
+    def test_without_a_display_the_error_of_a_window_suggests_headless(self):
         nowhere = {"DISPLAY": None, "WAYLAND_DISPLAY": None}
         self.assert_refused(run("run", CONTACT_BOX, **nowhere), "--headless")
 

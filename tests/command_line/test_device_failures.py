@@ -1,4 +1,4 @@
-"""Devices that are lost, hang or have no memory left: one message, exit code 1, and nothing is lost."""
+"""Devices that are lost, hang or run out of memory: one message, exit code 1, and no work is lost."""
 
 import json
 import os
@@ -6,7 +6,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command_line_case import CONTACT_BOX, SMALL, CommandLineTest, at_length, find_technique, run  # noqa: E402
+from command_line_case import CONTACT_BOX, SMALL, CommandLineTest, full_run_only, find_technique, run  # noqa: E402
 from display_case import TIMEOUT_S  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
 from report_case import ReportCase, get_record_path, load_report  # noqa: E402
@@ -17,10 +17,10 @@ FAULTS = {
     "out_of_memory": ("Out of memory", "smaller scene or image"),
     "hang": ("no progress for 3 s", "before pass '", "GNOMON_DEVICE_TIMEOUT_S"),
 }
-FIRST_HANG = {"GNOMON_DEVICE_TIMEOUT_S": "3"}  # the first submission hangs, so none before it has to be faster
+FIRST_HANG = {"GNOMON_DEVICE_TIMEOUT_S": "3"}  # a short limit is safe, since the first submission hangs
 HANG = {"GNOMON_DEVICE_TIMEOUT_S": "15"}  # far above what a pass of these tests takes, its compilation included
 LITTLE_MEMORY = {"GNOMON_MEMORY_BUDGET_MIB": "200"}  # enough for the editor and the scene
-GREATEST_MAP = 8192  # texels a side: 256 MiB
+MAX_MAP_SIZE = 8192  # texels per side: 256 MiB
 
 
 class FailingDevices(CommandLineTest):
@@ -32,7 +32,7 @@ class FailingDevices(CommandLineTest):
         ):
             for fault, words in FAULTS.items():
                 if fault == "hang" and command[0] == "run":
-                    continue  # it takes seconds, and waits at the same point of the code
+                    continue  # slow, and it waits in the same code as visibility
                 with self.subTest(command=command[0], fault=fault):
                     result = run(*command, GNOMON_INJECT_FAULT=fault, **FIRST_HANG)
                     self.assertEqual(result.returncode, 1, result.stderr)
@@ -49,24 +49,25 @@ class FailingDevices(CommandLineTest):
 
 class FailingReports(ReportCase):
     def measure(self, name, *arguments, scenes="sphere", **environment):
-        """Two cells for each scene: one of the fallback, one or more of another technique."""
+        """Write a report with one cell of the fallback and one or more of another technique for each scene."""
         techniques = ("--techniques", self.report_techniques())
         return self.report(name, "--scenes", scenes, "--sizes", "0.4", *techniques, *arguments, **environment)
 
     def plan(self, name, **options):
-        """What a report with these options will measure, in order: from one that has no device for anything."""
+        """Return the plan of a report with these options, written by a run whose device is lost at once."""
         result = self.measure(name, **options, GNOMON_INJECT_FAULT="device_lost")
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertEqual(os.listdir(self.path(name + "/cells")), [])
         return load(self.path(name + "/plan.json"))
 
     def fail_after(self, fault, name, record):
-        """The first submission fails after that record is there."""
+        """Return a fault with which the first submission after that record is written fails."""
         return "%s@file:%s" % (fault, get_record_path(self.path(name), record))
 
     def test_a_report_goes_on_after_a_cell_that_had_no_memory_and_a_resume_measures_it(self):
         (configuration,) = self.plan("report")["configurations"]
-        fault = self.fail_after("out_of_memory", "report", configuration["record"])  # its reference, before the cells
+        # The record is written when its reference is traced, before the cells.
+        fault = self.fail_after("out_of_memory", "report", configuration["record"])
         result = self.measure("report", GNOMON_INJECT_FAULT=fault)
         self.assertEqual(result.returncode, 1)
         self.assertIn("Out of memory", result.stderr)
@@ -103,7 +104,7 @@ class FailingReports(ReportCase):
     def test_a_report_whose_device_is_lost_ends_and_goes_on_with_resume(self):
         self.check_lost("device_lost")
 
-    @at_length
+    @full_run_only
     def test_a_report_whose_device_hangs_ends_and_goes_on_with_resume(self):
         self.check_lost("hang", **HANG)
 
@@ -120,7 +121,7 @@ class FailingEditor(EditorCase):
     def fail_with(self, fault, *words, **limit):
         os.makedirs(self.path("config"), exist_ok=True)
         with open(os.path.join(self.path("config"), "editor.json"), "w", encoding="utf-8") as file:
-            json.dump({"autosave_s": 3600}, file)  # so that it is the failure that saves
+            json.dump({"autosave_s": 3600}, file)  # no autosave before the failure
         recovery = os.path.join(self.project, "scenes", ".three_lights.recovery.gltf")
         signal = self.path("fail_now")
         self.open_with({"GNOMON_INJECT_FAULT": "%s@file:%s" % (fault, signal), **limit})
@@ -141,39 +142,39 @@ class FailingEditor(EditorCase):
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
 
-    def test_changes_are_saved_aside_when_the_device_is_lost(self):
+    def test_changes_are_saved_for_recovery_when_the_device_is_lost(self):
         self.fail_with("device_lost", "The device was lost", "Restart the program")
 
-    @at_length
-    def test_changes_are_saved_aside_when_the_device_hangs(self):
+    @full_run_only
+    def test_changes_are_saved_for_recovery_when_the_device_hangs(self):
         self.fail_with("hang", "no progress for 15 s", **HANG)
 
-    @at_length
-    def test_changes_are_saved_aside_when_memory_is_out(self):
+    @full_run_only
+    def test_changes_are_saved_for_recovery_when_memory_is_exhausted(self):
         self.fail_with("out_of_memory", "Out of memory", "smaller scene or image")
 
     def test_a_shadow_that_does_not_fit_into_the_device_is_reported_and_undone(self):
         technique, scene = find_technique("is_fallback"), load(self.scene)
         before = self.find_light(scene)["extras"]
-        before["%s_size" % technique] = GREATEST_MAP
+        before["%s_size" % technique] = MAX_MAP_SIZE
         self.save(scene)
         self.open_with(LITTLE_MEMORY)
         self.select_light()
-        first = self.photograph()
+        first = self.capture_viewport()
         self.choose("property shadow_technique", technique)
         state = self.wait_for(lambda state: "Out of device memory" in state["status"])
         for word in ("Lower the map size", "MiB"):
             self.assertIn(word, state["status"])
         self.press("key", "ctrl+z")
         self.wait_for(lambda state: not state["is_changed"])
-        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(first, self.capture_viewport()), 0.001)
         self.drag("property light_size", 3)
-        self.assertGreater(self.count_different(first, self.photograph()), 0.005)
+        self.assertGreater(self.compute_changed_fraction(first, self.capture_viewport()), 0.005)
         self.press("key", "ctrl+s")
         self.wait_for(lambda state: not state["is_changed"] and state["status"].startswith("Saved"))
         after = self.find_light(load(self.scene))["extras"]
         self.assertGreater(after["light_size"], before["light_size"])
-        self.assertEqual(after["%s_size" % technique], GREATEST_MAP)
+        self.assertEqual(after["%s_size" % technique], MAX_MAP_SIZE)
         self.finish()
 
 

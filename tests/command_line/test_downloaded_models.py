@@ -20,7 +20,7 @@ PACKAGE = "assimp-testmodels"
 LINE = "Staged: a camera, a spot light and a ground were added. The file stays as it is."
 SIZE_PX = 96
 SIZE = ("--size", "%dx%d" % (SIZE_PX, SIZE_PX))
-LEAST_SHARE = 0.01  # of the receivers, that is lit, and that is hidden
+MIN_FRACTION = 0.01  # of the receivers: at least so many must be lit, and so many hidden
 
 
 def find_file(ending):
@@ -49,7 +49,7 @@ class DownloadedModels(CommandLineTest):
             return json.load(file)
 
     def copy_nodes(self, scene, names):
-        """A scene of the demo with these nodes and no others."""
+        """Write a demo scene that is reduced to these nodes, without cameras and lights. Return its path."""
         model = self.read_model(os.path.join(SCENES, scene))
         for key in ("cameras", "extensions", "extensionsUsed"):
             model.pop(key, None)
@@ -70,7 +70,7 @@ class DownloadedModels(CommandLineTest):
         return hashes
 
     def check_model(self, path, *words):
-        """words: of other lines that there must be, one each; there are no more lines."""
+        """Run the three commands on a model. words: one text for each ERROR or WARNING line; there must be no other such line."""
         out = self.path("out")
         os.mkdir(out)
         before = self.hash_files()
@@ -99,18 +99,18 @@ class DownloadedModels(CommandLineTest):
     def check_mask(self, mask):
         receivers = [value for value, receiver in zip(mask.visibility, mask.receiver) if receiver >= 0.5]
         self.assertGreater(len(receivers), 0.3 * SIZE_PX * SIZE_PX)
-        self.assertGreater(sum(value > 0.99 for value in receivers), LEAST_SHARE * len(receivers))
-        self.assertGreater(sum(value < 0.01 for value in receivers), LEAST_SHARE * len(receivers))
+        self.assertGreater(sum(value > 0.99 for value in receivers), MIN_FRACTION * len(receivers))
+        self.assertGreater(sum(value < 0.01 for value in receivers), MIN_FRACTION * len(receivers))
         self.check_sides(mask)
 
     def check_sides(self, mask):
-        """The shadow is within the image: it does not reach the lower half of a side."""
+        """Assert that the shadow is within the image: it does not reach the lower half of the left or right column."""
         for column in (0, mask.width - 1):
             for row in range(mask.height // 2, mask.height):
                 pixel = row * mask.width + column
                 self.assertTrue(mask.receiver[pixel] < 0.5 or mask.visibility[pixel] > 0.99, (column, row))
 
-    def test_a_textured_box(self):
+    def test_a_textured_box_is_shown(self):
         source = os.path.dirname(find_file("/glTF2/BoxTextured-glTF/BoxTextured.gltf"))
         for name in ("BoxTextured.gltf", "BoxTextured0.bin", "CesiumLogoFlat.png"):
             shutil.copy(os.path.join(source, name), self.folder)
@@ -122,7 +122,7 @@ class DownloadedModels(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.check_sides(load_mask(mask))
 
-    def test_a_spider_of_many_nodes_whose_textures_have_paths_of_windows(self):
+    def test_a_spider_whose_textures_have_windows_paths_is_shown(self):
         path = self.convert("/OBJ/spider.obj", "spider.gltf")
         model = self.read_model(path)
         self.assertGreater(len(model["nodes"]), 10)
@@ -131,10 +131,10 @@ class DownloadedModels(CommandLineTest):
             shutil.copy(find_file("/OBJ/" + image["uri"][2:]), self.folder)
         self.check_model(path)
 
-    def test_a_skinned_leg(self):
+    def test_a_skinned_leg_is_shown(self):
         self.check_model(self.convert("/FBX/huesitos.fbx", "leg.glb"))
 
-    def test_a_scan_without_normals_far_away_in_kilometres(self):
+    def test_a_scan_without_normals_hundreds_of_kilometres_away_is_shown(self):
         path = self.convert("/PLY/Wuson.ply", "bull.gltf")
         model = self.read_model(path)
         for mesh in model["meshes"]:
@@ -146,7 +146,7 @@ class DownloadedModels(CommandLineTest):
             node.update({"scale": [1500.0] * 3, "translation": [250000.0, -12000.0, 900000.0]})
         self.check_model(self.write("bull.gltf", json.dumps(model)))
 
-    def test_a_leaf_that_is_cut_out_casts_the_leaf_alone(self):
+    def test_a_cut_out_leaf_casts_a_smaller_shadow_than_its_card(self):
         path = self.copy_nodes("leaf.gltf", ("Leaf",))
         self.check_model(path)
         model = self.read_model(path)

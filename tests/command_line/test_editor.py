@@ -1,4 +1,4 @@
-"""The editor changes, undoes, saves and reads a scene again."""
+"""The editor changes a scene, undoes changes, saves it and reloads it."""
 
 import os
 import sys
@@ -19,36 +19,36 @@ class EditorTest(EditorCase):
         size = self.find_light(before)["extras"]["light_size"]
         self.open_editor()
         self.select_light()
-        first = self.photograph()
+        first = self.capture_viewport()
         self.drag("property light_size", 3)
         self.wait_for(lambda state: state["is_changed"])
-        large = self.photograph()
-        self.assertGreater(self.count_different(first, large), 0.005)
+        large = self.capture_viewport()
+        self.assertGreater(self.compute_changed_fraction(first, large), 0.005)
         self.press("key", "ctrl+z")  # the whole drag is one step
         self.wait_for(lambda state: not state["is_changed"])
-        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(first, self.capture_viewport()), 0.001)
         self.press("key", "ctrl+shift+z")
         self.wait_for(lambda state: state["is_changed"])
-        self.assertLess(self.count_different(large, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(large, self.capture_viewport()), 0.001)
 
         technique = find_technique("is_fallback")
         self.choose("property shadow_technique", technique)
         self.wait_for(lambda state: "property %s_size" % technique in state["items"])
-        self.assertGreater(self.count_different(large, self.photograph()), 0.005)
+        self.assertGreater(self.compute_changed_fraction(large, self.capture_viewport()), 0.005)
         self.press("key", "ctrl+s")
         self.wait_for(lambda state: not state["is_changed"] and state["status"].startswith("Saved"))
         after = load(self.scene)
         extras = self.find_light(after)["extras"]
         self.assertGreater(extras["light_size"], size + 0.1)
         self.assertEqual(extras["shadow_technique"], technique)
-        # Nothing else of the file is another.
+        # Nothing else in the file has changed.
         extras["light_size"] = size
         del extras["shadow_technique"]
         self.assertEqual(after, before)
 
         self.save(before)
-        self.wait_for(lambda state: "read again" in state["status"])
-        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.wait_for(lambda state: "reloaded" in state["status"])
+        self.assertLess(self.compute_changed_fraction(first, self.capture_viewport()), 0.001)
         self.finish()
 
     def test_the_size_of_a_light_is_dragged_in_the_viewport(self):
@@ -62,9 +62,9 @@ class EditorTest(EditorCase):
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
 
-    def test_a_module_is_switched_off_and_on_and_the_project_knows(self):
+    def test_the_project_stores_which_modules_are_disabled(self):
         self.open_editor()
-        first = self.photograph()
+        first = self.capture_viewport()
         self.click("tab Modules")
         positions = self.wait_for(lambda state: any(name.startswith("module shadow_") for name in state["items"]))["items"]
         name = min((name for name in positions if name.startswith("module shadow_")), key=lambda name: positions[name][1])
@@ -77,7 +77,7 @@ class EditorTest(EditorCase):
             self.assertTrue(enabled[module], "only the project's list changes")
             with open(os.path.join(self.project, "project.cfg"), encoding="utf-8") as file:
                 self.assertEqual(any(line.startswith("disabled=") and module in line for line in file), listed)
-        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(first, self.capture_viewport()), 0.001)
         self.finish()
 
 

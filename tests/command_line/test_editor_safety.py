@@ -1,4 +1,4 @@
-"""What the editor does when files break, disks are full or it is killed: nothing is lost."""
+"""The editor loses no work when files are broken, the disk is full or it is killed."""
 
 import os
 import resource
@@ -10,8 +10,8 @@ from command_line_case import ROOT  # noqa: E402
 from display_case import TIMEOUT_S  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
 
-FULL_DISK_BYTES = 6000  # less than the scene has, more than the file of --items
-AUTOSAVE_S = 2  # set for the test, which does not wait for the usual time
+FULL_DISK_BYTES = 6000  # limit of file sizes: the scene is larger, the file of --items smaller
+AUTOSAVE_S = 2  # short, so that the test need not wait for the default interval
 
 
 def fill_disk():
@@ -39,11 +39,11 @@ class EditorSafetyTest(EditorCase):
 
     def test_a_file_that_breaks_on_disk_leaves_the_scene_as_it_is(self):
         self.open_editor()
-        first = self.photograph()
+        first = self.capture_viewport()
         with open(self.scene, "w", encoding="utf-8") as file:
             file.write("{ broken")
         self.wait_for(lambda state: "three_lights.gltf" in state["status"] and "Opened" not in state["status"])
-        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(first, self.capture_viewport()), 0.001)
         self.finish()
 
     def test_a_broken_scene_opens_with_its_error_and_is_read_once_repaired(self):
@@ -55,7 +55,7 @@ class EditorSafetyTest(EditorCase):
         self.wait_for(lambda state: "nothing to save" in state["status"])
         self.assertEqual(self.read_scene(), "{ broken")
         self.write_scene(whole)
-        self.wait_for(lambda state: "read again" in state["status"] and "node Spot" in state["items"])
+        self.wait_for(lambda state: "reloaded" in state["status"] and "node Spot" in state["items"])
         self.finish()
 
     def test_a_full_disk_is_reported_and_nothing_is_lost(self):

@@ -1,4 +1,4 @@
-"""A model without camera and light is edited: what was added is marked, and is saved only where its tick is taken off."""
+"""Editing a model without camera and light: added nodes are marked as staged, and saved only after this mark is removed."""
 
 import json
 import os
@@ -43,7 +43,7 @@ class EditorStaging(EditorCase):
         self.click("node Stage light")
         self.wait_for(lambda state: state["selected"] == "Stage light")
 
-        # What is changed of a staged node is not saved, which is reported.
+        # Changes of a staged node are not saved, and the status reports it.
         self.drag("property light_size", 3)
         self.wait_for(lambda state: state["is_changed"])
         status = self.save_changes()
@@ -52,7 +52,7 @@ class EditorStaging(EditorCase):
         self.assertFalse(self.list_names() & set(ADDED))
         self.assertEqual(json.loads(self.read_scene()), json.loads(self.before))
 
-        # The tick is a step to undo.
+        # Removing the mark can be undone.
         self.click("property staged")
         self.wait_for(lambda state: state["is_changed"])
         self.press("key", "ctrl+z")

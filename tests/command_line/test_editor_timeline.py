@@ -1,4 +1,4 @@
-"""The editor plays an animation, and pauses, and saves nothing of it."""
+"""The editor plays and pauses an animation, and saves neither its time nor its pose."""
 
 import os
 import sys
@@ -14,7 +14,7 @@ class EditorTimelineTest(EditorCase):
         self.scene = os.path.join(self.project, "scenes", "courtyard.gltf")
 
     def press_save(self):
-        """Press save and return what the editor writes."""
+        """Delete the scene file, press save, and return what the editor writes."""
         os.remove(self.scene)
         self.press("key", "ctrl+s")
         self.wait_for(lambda state: os.path.exists(self.scene))
@@ -24,13 +24,13 @@ class EditorTimelineTest(EditorCase):
     def test_an_animation_is_chosen_scrubbed_played_paused_and_not_saved(self):
         self.open_editor(project=self.scene)
         before = self.press_save()
-        at_rest = self.photograph()
+        at_rest = self.capture_viewport()
         self.assertEqual(self.get_state()["timeline"], {"animation": "", "time_s": 0, "is_playing": False})
         self.choose("timeline animation", "Walk")
         self.click("timeline time")
         time_s = self.wait_for(lambda state: state["timeline"]["time_s"] > 0)["timeline"]["time_s"]
-        self.assertAlmostEqual(time_s, 3, delta=0.2)
-        self.assertGreater(self.count_different(at_rest, self.photograph()), 0.005)
+        self.assertAlmostEqual(time_s, 3, delta=0.2)  # a click hits the middle of the slider, and the walk lasts 6 s
+        self.assertGreater(self.compute_changed_fraction(at_rest, self.capture_viewport()), 0.005)
 
         self.press("key", "space")
         self.wait_for(lambda state: state["timeline"]["is_playing"] and state["timeline"]["time_s"] != time_s)
@@ -45,7 +45,7 @@ class EditorTimelineTest(EditorCase):
 
         self.choose("timeline animation", "at rest")
         self.wait_for(lambda state: state["timeline"]["animation"] == "")
-        self.assertLess(self.count_different(at_rest, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(at_rest, self.capture_viewport()), 0.001)
         self.finish()
 
     def test_a_space_that_is_typed_plays_nothing(self):
@@ -57,7 +57,7 @@ class EditorTimelineTest(EditorCase):
         self.wait_for(lambda state: state["items"] and "property position" not in state["items"])
         self.wait_frames()
         self.assertFalse(self.get_state()["timeline"]["is_playing"])
-        self.click("node Trunk")  # or the field gets all keys
+        self.click("node Trunk")  # takes the focus from the field, which would get all keys
         self.wait_frames()
         self.finish()
 

@@ -1,4 +1,4 @@
-"""What the editor shows: the error next to its reference, two techniques, changed shaders, what was open before."""
+"""Views of the editor: the error against the reference, two techniques, reloaded shaders, and what was open last time."""
 
 import os
 import shutil
@@ -25,11 +25,11 @@ class EditorViewsTest(EditorCase):
         self.choose("property shadow_technique", find_technique("is_fallback"))
         hard = self.wait_for(lambda state: state["error"]["penumbra_mae"] > 2.0 * SOFT_MAE)["error"]
         self.assertGreaterEqual(hard["rays"], 256)  # the reference is the same, and was not traced again
-        screenshot = self.photograph()
+        screenshot = self.capture_viewport()
         self.click("image error")  # a click shows it in the viewport
-        self.assertGreater(self.count_different(screenshot, self.photograph()), 0.2)
+        self.assertGreater(self.compute_changed_fraction(screenshot, self.capture_viewport()), 0.2)
         self.click("image error")
-        self.assertLess(self.count_different(screenshot, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(screenshot, self.capture_viewport()), 0.001)
         self.press("key", "ctrl+z")
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
@@ -43,7 +43,7 @@ class EditorViewsTest(EditorCase):
         self.rest()
         stopped = self.wait_for(lambda state: not state["error"]["is_tracing"])["error"]["rays"]
         self.rest()
-        self.assertEqual(self.get_state()["error"]["rays"], stopped, "what is known stays")
+        self.assertEqual(self.get_state()["error"]["rays"], stopped, "the rays traced so far stay")
         self.assertGreaterEqual(stopped, 16)
         self.drag("property light_size", 3)  # another light has another reference
         self.wait_for(lambda state: state["is_changed"] and state["error"]["rays"] == 0)
@@ -64,9 +64,9 @@ class EditorViewsTest(EditorCase):
         self.open_editor()
         self.click("tab Error")
         self.wait_for(lambda state: "No light" in state["error"]["refusal"])
-        screenshot = self.photograph()
+        screenshot = self.capture_viewport()
         self.choose("view", "error")
-        self.assertLess(self.count_different(screenshot, self.photograph()), 0.001)  # the image, as there is no error
+        self.assertLess(self.compute_changed_fraction(screenshot, self.capture_viewport()), 0.001)  # the image, as there is no error
         count = self.get_state()["images"]
         self.rest()
         self.assertEqual(self.get_state()["images"], count)
@@ -74,18 +74,18 @@ class EditorViewsTest(EditorCase):
 
     def test_two_techniques_are_side_by_side(self):
         self.open_editor()
-        left, right = self.photograph(0.0, 0.49), self.photograph(0.51, 1.0)
+        left, right = self.capture_viewport(0.0, 0.49), self.capture_viewport(0.51, 1.0)
         self.choose("against", find_technique("is_fallback"))
         self.wait_for(lambda state: "line" in state["items"])
-        self.assertLess(self.count_different(left, self.photograph(0.0, 0.49)), 0.001)
-        self.assertGreater(self.count_different(right, self.photograph(0.51, 1.0)), 0.0005)
+        self.assertLess(self.compute_changed_fraction(left, self.capture_viewport(0.0, 0.49)), 0.001)
+        self.assertGreater(self.compute_changed_fraction(right, self.capture_viewport(0.51, 1.0)), 0.0005)
         before = self.get_state()["items"]["line"][0]
         self.drag("line", -12)
         self.wait_for(lambda state: state["items"]["line"][0] < before - 50)
-        self.assertGreater(self.count_different(left, self.photograph(0.0, 0.49)), 0.001)
+        self.assertGreater(self.compute_changed_fraction(left, self.capture_viewport(0.0, 0.49)), 0.001)
         self.choose("against", "one technique")
         self.wait_for(lambda state: "line" not in state["items"])
-        self.assertLess(self.count_different(left, self.photograph(0.0, 0.49)), 0.001)
+        self.assertLess(self.compute_changed_fraction(left, self.capture_viewport(0.0, 0.49)), 0.001)
         self.finish()
 
     def test_a_click_selects_what_is_under_the_mouse(self):
@@ -117,19 +117,19 @@ class EditorViewsTest(EditorCase):
             return "does not compile" in state["status"]
 
         self.open_editor("--shaders", shaders)
-        first = self.photograph()
+        first = self.capture_viewport()
         wrong = "void main() {\n\tconst float wrong = nothing;"
         write(source.replace("void main() {", wrong), is_refused)
-        # The last good one stays; only the message is over the image's upper edge.
-        self.assertLess(self.count_different(first, self.photograph()), 0.3)
+        # The last valid shader stays in use. Only the message covers the image's upper edge.
+        self.assertLess(self.compute_changed_fraction(first, self.capture_viewport()), 0.3)
         black = "void main() {\n\tif (gl_GlobalInvocationID.x > 0u) {\n\t\treturn;\n\t}"
         write(source.replace("void main() {", black), is_reloaded)
-        self.assertGreater(self.count_different(first, self.photograph()), 0.5)
+        self.assertGreater(self.compute_changed_fraction(first, self.capture_viewport()), 0.5)
         write(source, is_reloaded)
-        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.assertLess(self.compute_changed_fraction(first, self.capture_viewport()), 0.001)
         self.finish()
 
-    def test_the_next_time_the_same_scene_and_tab_are_open(self):
+    def test_the_last_scene_and_tab_are_reopened(self):
         self.open_editor()
         self.click("button Open")
         self.click("open terrain.gltf")

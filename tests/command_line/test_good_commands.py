@@ -1,4 +1,4 @@
-"""What good commands write."""
+"""Valid commands, and the files that they write."""
 
 import json
 import math
@@ -76,7 +76,7 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(set(found), {"pixels", "receiver", "penumbra"})
         self.assertEqual(set(found["receiver"]), {"mae", "rmse", "p99", "bias", "wrong"})
         self.assertEqual(set(found["penumbra"]), {"pixels", "mae", "rmse", "p99", "bias", "wrong", "umbra_over"})
-        # An error above 0.2 adds more than 0.2 to the sum of which MAE is the mean.
+        # Each wrong pixel (error above 0.2) adds more than 0.2 to the sum of errors, whose mean is the MAE.
         self.assertLess(0.2 * found["penumbra"]["wrong"], found["penumbra"]["mae"])
         self.assertTrue(0.0 < found["receiver"]["wrong"] < found["penumbra"]["wrong"] <= 1.0)
         self.assertGreater(found["penumbra"]["pixels"], 100)
@@ -100,8 +100,8 @@ class GoodCommands(CommandLineTest):
         for value in cost["total"].values():
             self.assertTrue(math.isfinite(value) and value > 0.0)
 
-    def test_times_of_frames_in_which_nothing_moves(self):
-        # The fallback keeps its map: its pass is not there any more.
+    def test_frames_in_which_nothing_moves_skip_passes(self):
+        # The fallback reuses its map, so the pass that draws it is missing.
         passes = {}
         for name, words in (("moving", ()), ("still", ("--still",))):
             times = self.path(name + ".json")
@@ -113,7 +113,7 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn("--time", result.stderr)
 
-    def test_whole_frames_are_timed_with_and_without_what_is_skipped(self):
+    def test_whole_frames_are_timed_with_and_without_skipping(self):
         found, images, plans = {}, {}, {}
         for name, words in (("lean", ()), ("whole", ("--skip-nothing",))):
             times, image = self.path(name + ".json"), self.path(name + ".png")
@@ -132,7 +132,7 @@ class GoodCommands(CommandLineTest):
             self.assertGreater(found["lean"][name], 0)
             self.assertGreaterEqual(found["whole"][name], found["lean"][name])
         self.assertGreater(found["whole"]["draws"], found["lean"]["draws"])
-        # The call is the frame and what the program does about it.
+        # call_ms covers the frame and the program's CPU work for it.
         self.assertGreater(found["lean"]["call_ms"], 0.5 * found["lean"]["frame"]["wall_ms"])
         self.assertGreater(len({item["name"].split(": ")[0] for item in found["lean"]["passes"]}), 2)
 
@@ -150,7 +150,7 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 1)
         self.assertIn("48", result.stderr)
 
-    def test_a_heat_map_and_a_mask_as_png(self):
+    def test_a_heat_map_and_a_mask_are_written_as_png(self):
         png, heat = self.path("mask.png"), self.path("heat.png")
         self.assert_mask(self.compute_mask(CONTACT_BOX, "--png", png))
         self.assertEqual(read_png_size(png), (32, 32))
@@ -247,7 +247,7 @@ class GoodCommands(CommandLineTest):
 
 
 class Listings(CommandLineTest):
-    def test_techniques(self):
+    def test_techniques_are_listed_with_all_their_fields(self):
         techniques = load_json("techniques", "--json")
         keys = {"id", "name", "source", "is_default", "is_fallback", "is_reference", "is_example", "properties", "settings"}
         for item in techniques:
@@ -259,7 +259,7 @@ class Listings(CommandLineTest):
             self.assertEqual(sum(1 for item in techniques if item[flag]), 1, flag)
         self.assertEqual(len({item["id"] for item in techniques}), len(techniques))
 
-    def test_modules(self):
+    def test_modules_are_listed_with_all_their_fields(self):
         modules = load_json("modules", "--json")
         keys = {"name", "description", "source", "version", "doc", "layer", "can_disable", "is_enabled", "dependencies"}
         names = {item["name"] for item in modules}
@@ -270,7 +270,7 @@ class Listings(CommandLineTest):
             if item["doc"]:
                 self.assertTrue(os.path.isfile(os.path.join(ROOT, item["doc"])), item["doc"])
 
-    def test_info(self):
+    def test_devices_are_listed_with_all_their_fields(self):
         info = load_json("info", "--json")
         self.assertLessEqual({"version", "devices", "chosen", "cpu", "threads"}, set(info))
         for item in info["devices"]:
@@ -279,14 +279,14 @@ class Listings(CommandLineTest):
             )
         self.assertIn(info["chosen"], [item["index"] for item in info["devices"] if item["is_usable"]])
 
-    def test_listings_for_people(self):
+    def test_listings_without_json_are_not_empty(self):
         for command in ("techniques", "modules", "info"):
             with self.subTest(command=command):
                 result = run(command)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertTrue(result.stdout.strip())
 
-    def test_examples_are_in_no_listing_for_people(self):
+    def test_examples_are_listed_only_as_json(self):
         for command, key in (("techniques", "id"), ("modules", "name")):
             examples = [item[key] for item in load_json(command, "--json") if item["is_example"]]
             self.assertEqual(len(examples), 1)

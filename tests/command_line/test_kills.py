@@ -1,6 +1,6 @@
 """Programs that are killed while they write, at random times and as soon as a file appears: nothing is lost or left.
 
-A few times each, the editor not at all; GNOMON_KILL_COUNT sets how often, as tests/run_tests.sh --full does.
+Each program is killed a few times, the editor not at all. GNOMON_KILL_COUNT, which tests/run_tests.sh --full sets, sets how often.
 """
 
 import glob
@@ -14,13 +14,13 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from check_report_page import check_page  # noqa: E402
-from command_line_case import GNOMON, SCENES, at_length, find_technique, run  # noqa: E402
+from command_line_case import GNOMON, SCENES, full_run_only, find_technique, run  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
 from report_case import PROJECT, QUICK, ReportCase, drop_times, get_record_path, load_report, stop_after  # noqa: E402
 
 SEED = 20100901
 TIMEOUT_S = 180
-LONGEST_DELAY_S = 1.5  # about as long as the programs run
+MAX_DELAY_S = 1.5  # about as long as the programs run
 REPORT = ("--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *QUICK)
 UNFINISHED = ".*.gnomon_part"  # see modules/core/files.h
 
@@ -34,14 +34,15 @@ def list_unfinished(folder):
     return glob.glob(os.path.join(folder, "**", UNFINISHED), recursive=True)
 
 
-def kill_sometime(process, folders, chance, most_skipped=3, stop=None):
-    """Every other time as soon as, or shortly after, a file is begun in one of the folders; else at a random time.
+def kill_at_random(process, folders, generator, max_skipped=3, stop=None):
+    """Kill a process: with probability 1/2 when it begins to write a file in one of the folders, else at a random time.
 
-    stop: a file with which the process comes to a stop, or None. True: it was killed; False: it had ended before.
+    max_skipped: how many files it may begin before, at most. stop: a file at which the process hangs, or None.
+    Return True if it was killed, False if it had ended before.
     """
-    delay_s = chance.uniform(0, LONGEST_DELAY_S)
-    waits_for_file = chance.random() < 0.5
-    skipped_count = chance.randrange(most_skipped + 1)  # files that it may begin first
+    delay_s = generator.uniform(0, MAX_DELAY_S)
+    waits_for_file = generator.random() < 0.5
+    skipped_count = generator.randrange(max_skipped + 1)  # files that it may begin first
     seen = {path for folder in folders for path in list_unfinished(folder)}
     end = time.monotonic() + (TIMEOUT_S if waits_for_file else delay_s)
     while process.poll() is None and time.monotonic() < end:
@@ -49,7 +50,7 @@ def kill_sometime(process, folders, chance, most_skipped=3, stop=None):
         seen |= begun
         skipped_count -= len(begun)
         if skipped_count < 0 or (waits_for_file and stop and os.path.exists(stop)):
-            time.sleep(chance.choice((0, 0, 0.001)))
+            time.sleep(generator.choice((0, 0, 0.001)))
             break
         time.sleep(0 if begun else 0.001)
     process.send_signal(signal.SIGKILL)
@@ -58,7 +59,7 @@ def kill_sometime(process, folders, chance, most_skipped=3, stop=None):
 
 class KilledReports(ReportCase):
     def test_a_report_that_is_killed_again_and_again_ends_as_one_that_was_not(self):
-        chance = random.Random(SEED)
+        generator = random.Random(SEED)
         techniques = ("--techniques", self.report_techniques())
         whole = self.load_done("whole", run("report", PROJECT, "--out", self.path("whole"), *REPORT, *techniques))
         records = [cell["record"] for cell in load_report(self.path("whole"))["cells"]]
@@ -68,15 +69,15 @@ class KilledReports(ReportCase):
             out = self.path("report_%d" % done_count)
             arguments = ["report", PROJECT, "--out", out, *REPORT, *techniques, "--resume"]
             left = [path for path in (get_record_path(out, record) for record in records) if not os.path.exists(path)]
-            # It stops before its end, so that it is killed however fast it is, unless its last record alone is left.
-            stop = chance.choice(left[:-1]) if len(left) > 1 else None
+            # The run hangs before its end, so that it is killed however fast it is, unless only its last record is left.
+            stop = generator.choice(left[:-1]) if len(left) > 1 else None
             environment = {**os.environ, "GNOMON_CACHE_DIR": cache, **(stop_after(stop) if stop else {})}
             with self.subTest(kill=index, seed=SEED):
                 process = subprocess.Popen(
                     [GNOMON, *arguments], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
                 )
-                was_killed = kill_sometime(process, (out, cache), chance, stop=stop)
-                self.assertTrue(was_killed or stop is None, "it went on after it had stopped")
+                was_killed = kill_at_random(process, (out, cache), generator, stop=stop)
+                self.assertTrue(was_killed or stop is None, "it continued after it should hang")
                 errors = process.stderr.read()
                 process.stderr.close()
                 self.assertNotIn("damaged", errors)
@@ -84,7 +85,7 @@ class KilledReports(ReportCase):
                 killed_count += was_killed
                 left_count += len(list_unfinished(out))
                 self.assertLessEqual(len(list_unfinished(out)), 3, "one for each folder at most")
-                if not was_killed:  # it was done before: from the beginning, elsewhere
+                if not was_killed:  # it had finished: go on with a new report in another folder
                     self.assert_same(out, whole)
                     done_count += 1
         result = run("report", PROJECT, "--out", self.path("report_%d" % done_count), *REPORT, *techniques, "--resume")
@@ -102,7 +103,7 @@ class KilledReports(ReportCase):
         self.assertEqual(list_unfinished(out), [])
 
     def test_a_cache_whose_writers_are_killed_is_whole_and_stays_small(self):
-        chance = random.Random(SEED + 1)
+        generator = random.Random(SEED + 1)
         environment = {**os.environ, "GNOMON_CACHE_DIR": self.path("cache")}
         for index in range(get_kill_count(4)):
             command = self.trace(16 + index)
@@ -110,7 +111,7 @@ class KilledReports(ReportCase):
                 process = subprocess.Popen(
                     [GNOMON, *command], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
                 )
-                kill_sometime(process, (self.path("cache"),), chance)
+                kill_at_random(process, (self.path("cache"),), generator)
                 errors = process.stderr.read()
                 process.stderr.close()
                 self.assertNotIn("damaged", errors)
@@ -122,17 +123,17 @@ class KilledReports(ReportCase):
         self.assertEqual(list_unfinished(self.path("cache")), [])
 
     def trace(self, sample_count):
-        """A reference that no other command needs."""
+        """Return a command that traces a reference which no other command caches."""
         reference = find_technique("is_reference")
         settings = ("--set", "%s_samples=%d" % (reference, sample_count))
         scene = os.path.join(SCENES, "sphere.gltf")
         return ["visibility", scene, "--technique", reference, "--size", "128x128", "--out", self.path("m.exr"), *settings]
 
 
-@at_length  # test_editor_document.cpp kills after each step
+@full_run_only  # test_editor_document.cpp tests a kill after each step of saving
 class KilledEditor(EditorCase):
     def test_an_editor_that_is_killed_while_it_saves_leaves_the_scene_before_or_after(self):
-        chance = random.Random(SEED + 2)
+        generator = random.Random(SEED + 2)
         folder = os.path.dirname(self.scene)
         sizes = [self.get_size()]
         for index in range(get_kill_count(1, 20)):
@@ -144,7 +145,7 @@ class KilledEditor(EditorCase):
                 self.drag("property light_size", 1)
                 self.wait_for(lambda state: state["is_changed"])
                 self.press("key", "ctrl+s")
-                kill_sometime(self.process, (folder,), chance, most_skipped=0)  # it does not end by itself
+                kill_at_random(self.process, (folder,), generator, max_skipped=0)  # it does not end by itself
                 self.process.communicate()
                 self.assertGreaterEqual(self.get_size(), sizes[-1])
                 sizes.append(self.get_size())

@@ -14,7 +14,7 @@ from report_case import PROJECT, SMALL_REFERENCE, ReportCase, drop_times, load_r
 
 
 class Reports(ReportCase):
-    def test_errors_times_and_files_are_whole(self):
+    def test_a_report_has_all_cells_with_errors_and_times(self):
         report = self.load_done("report", self.small("report"))
         self.assertEqual([item["id"] for item in report["configurations"]][:2], ["sphere/Light/0.2", "sphere/Light/0.8"])
         self.assertEqual(len(report["configurations"]), 4)
@@ -89,7 +89,7 @@ class Reports(ReportCase):
                 values = [point["value"] for point in series["points"]]
                 self.assertEqual((values, len(values)), (sorted(values), 3))
 
-    def test_own_sizes_default_settings_and_skipped_scenes(self):
+    def test_own_sizes_default_settings_and_skipped_scenes_are_respected(self):
         options = ("--sizes", "own", "--settings", "default", "--frames", "2", "--skip", "three_*,contact_box")
         report = self.load_done("report", self.report("report", "--scenes", "three_lights,contact_box,sphere,terrain", *options))
         self.assertEqual([item["id"] for item in report["configurations"]], ["sphere/Light/0.4", "terrain/Light/0.4"])
@@ -128,7 +128,7 @@ class Reports(ReportCase):
         lines = self.report("report", *arguments).stderr.splitlines()
         warnings = [line[len("WARNING: ") :] for line in lines if line.startswith("WARNING: ")]
         counted = [line.split(" times: ", 1)[1] for line in warnings if re.match(r"\d+ times: ", line)]
-        self.assertGreater(len(counted), 0, lines)  # lights that large are beyond the limits of some technique
+        self.assertGreater(len(counted), 0, lines)  # such large lights exceed the limits of some techniques
         for line in counted:
             self.assertEqual(warnings.count(line), 1)
 
@@ -147,6 +147,7 @@ class Reports(ReportCase):
 
 class ComparedReports(ReportCase):
     def change(self, name, change):
+        """Write a copy of the report in which `change` has modified every cell. Return its path."""
         report = load_report(self.path("report"))
         for cell in report["cells"]:
             change(cell)
@@ -159,7 +160,7 @@ class ComparedReports(ReportCase):
         def had_less_error(cell):
             cell["error"]["all"]["penumbra"]["mae"] *= 0.9
 
-        def was_twice_as_fast(cell):
+        def was_much_faster(cell):
             if cell["technique"] != self.get_fallback():
                 for key in ("cost_ms", "gpu_ms", "gpu_ms_p90", "wall_ms", "wall_ms_p90"):
                     cell["time"][key] /= 20
@@ -175,11 +176,11 @@ class ComparedReports(ReportCase):
         report = load_report(self.path("report"))
         self.assertEqual(len(report["against"]["rows"]), len(report["cells"]))
         self.assertEqual(check_page(self.path("report/index.html")), [])
-        slower = self.small("report", "--resume", "--against", self.change("old.json", was_twice_as_fast))
+        slower = self.small("report", "--resume", "--against", self.change("old.json", was_much_faster))
         self.assertEqual(slower.returncode, 0, slower.stderr)
         self.assertIn("slower than before", slower.stderr)
 
-    def test_a_report_with_no_common_cell_is_no_proof(self):
+    def test_a_comparison_without_a_common_cell_fails(self):
         self.load_done("report", self.small("report"))
         old = self.path("report/report.json")
         arguments = ("--scenes", "sphere", "--sizes", "0.3", "--techniques", self.get_fallback(), "--against", old)

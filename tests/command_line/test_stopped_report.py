@@ -1,4 +1,4 @@
-"""`gnomon report`: a stopped one goes on, and what is wrong is reported or refused."""
+"""`gnomon report`: stopped reports are resumed, and bad input is reported or refused."""
 
 import os
 import shutil
@@ -19,7 +19,7 @@ POLL_S = 0.01
 
 class StoppedReports(ReportCase):
     def stop_half_way(self, name, record):
-        """Kills a run that has written that record, and goes no further."""
+        """Kill a run that hangs after it has written the record."""
         techniques = ("--techniques", self.report_techniques())
         options = ("--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *techniques, *QUICK)
         command = [GNOMON, "report", PROJECT, "--out", self.path(name), *options]
@@ -44,9 +44,9 @@ class StoppedReports(ReportCase):
         whole = self.load_done("whole", self.small("whole"))
         half_count = len(whole["cells"]) // 2
         self.stop_half_way("report", whole["cells"][half_count - 1]["record"])
-        before = {name: data for name, data in self.load_records("report").items() if not name.endswith(".tmp")}
+        before = {name: data for name, data in self.load_records("report").items() if not name.endswith(".gnomon_part")}
         self.assertFalse(os.path.exists(self.path("report/report.json")))
-        # The page of what was measured before is there and whole.
+        # There is a complete page of the cells measured so far.
         self.assertEqual(check_page(self.path("report/index.html")), [])
         with open(self.path("report/index.html"), encoding="utf-8") as file:
             self.assertNotIn('"missing_count":0', file.read())

@@ -1,7 +1,7 @@
-"""What a glTF file's animation does to its nodes and vertices at a time, in double precision. Standard library only.
+"""Computes nodes and vertices of a glTF file at a time of its animation, in double precision, with the standard library only.
 
-After the glTF 2.0 specification: section 3.7.3 (skins), 3.7.2.2 (morph targets) and appendix C (interpolation). Written for
-clarity, and not for files that break the rules.
+Follows the glTF 2.0 specification: section 3.7.3 (skins), 3.7.2.2 (morph targets) and appendix C (interpolation). Expects
+valid files.
 """
 
 import math
@@ -14,7 +14,7 @@ REST = {"translation": (0.0, 0.0, 0.0), "rotation": (0.0, 0.0, 0.0, 1.0), "scale
 
 
 def read_accessor(gltf, binary, index):
-    """One tuple an element."""
+    """Return one tuple per element."""
     accessor = gltf["accessors"][index]
     view = gltf["bufferViews"][accessor["bufferView"]]
     size, code = COMPONENTS[accessor["type"]], FORMATS[accessor["componentType"]]
@@ -23,13 +23,13 @@ def read_accessor(gltf, binary, index):
 
 
 def find_named(items, name):
-    """The index of the one that has the name."""
+    """Return the index of the only item with the name."""
     (index,) = (index for index, item in enumerate(items) if item.get("name") == name)
     return index
 
 
 def multiply(a, b):
-    """Matrices, column by column."""
+    """Multiply two column-major 4 x 4 matrices."""
     return tuple(sum(a[4 * k + row] * b[4 * column + k] for k in range(4)) for column in range(4) for row in range(4))
 
 
@@ -45,18 +45,18 @@ def compose(translation, rotation, scale):
         (2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)),
         (2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)),
     )
-    turned = tuple(value * factor for column, factor in zip(columns, scale) for value in (*column, 0.0))
-    return turned + (*translation, 1.0)
+    rotated_axes = tuple(value * factor for column, factor in zip(columns, scale) for value in (*column, 0.0))
+    return rotated_axes + (*translation, 1.0)
 
 
-def interpolate_rotations(a, b, share):
-    """The shorter way round (appendix C.4)."""
+def interpolate_rotations(a, b, fraction):
+    """Interpolate quaternions along the shorter arc (appendix C.4)."""
     cosine = sum(p * q for p, q in zip(a, b))
     sign = -1.0 if cosine < 0.0 else 1.0
     angle = math.acos(min(abs(cosine), 1.0))
     if angle < 1e-9:
         return a
-    first, second = math.sin((1.0 - share) * angle), sign * math.sin(share * angle)
+    first, second = math.sin((1.0 - fraction) * angle), sign * math.sin(fraction * angle)
     return tuple((first * p + second * q) / math.sin(angle) for p, q in zip(a, b))
 
 
@@ -66,7 +66,7 @@ def normalize(values):
 
 
 def interpolate(times, rows, interpolation, is_rotation, time):
-    """One row, which is the first or last outside the times."""
+    """Return the value at `time` (s), which is the first or last key's outside of `times`."""
     is_cubic = interpolation == "CUBICSPLINE"
     values = rows[1::3] if is_cubic else rows
     if time <= times[0]:
@@ -75,23 +75,23 @@ def interpolate(times, rows, interpolation, is_rotation, time):
         return values[-1]
     index = max(i for i, key in enumerate(times) if key <= time)
     width = times[index + 1] - times[index]
-    share = (time - times[index]) / width
+    fraction = (time - times[index]) / width
     before, after = values[index], values[index + 1]
     if interpolation == "STEP":
         return before
     if is_cubic:
-        t2, t3 = share * share, share**3
-        factors = (2.0 * t3 - 3.0 * t2 + 1.0, width * (t3 - 2.0 * t2 + share), 3.0 * t2 - 2.0 * t3, width * (t3 - t2))
+        t2, t3 = fraction * fraction, fraction**3
+        factors = (2.0 * t3 - 3.0 * t2 + 1.0, width * (t3 - 2.0 * t2 + fraction), 3.0 * t2 - 2.0 * t3, width * (t3 - t2))
         parts = zip(before, rows[3 * index + 2], after, rows[3 * index + 3])
         row = tuple(sum(factor * value for factor, value in zip(factors, part)) for part in parts)
         return normalize(row) if is_rotation else row
     if is_rotation:
-        return interpolate_rotations(before, after, share)
-    return tuple((1.0 - share) * p + share * q for p, q in zip(before, after))
+        return interpolate_rotations(before, after, fraction)
+    return tuple((1.0 - fraction) * p + fraction * q for p, q in zip(before, after))
 
 
 class Poser:
-    """A file and one of its animations, or none: then everything is at rest."""
+    """A glTF file and one of its animations. Without an animation everything is in the rest pose."""
 
     def __init__(self, gltf, binary, animation=None):
         self.gltf = gltf
@@ -125,16 +125,16 @@ class Poser:
         }
 
     def compute_matrices(self, values):
-        """World matrix of each node."""
+        """Return node index -> world matrix."""
         matrices = {}
 
-        def visit(index, above):
+        def visit(index, parent_matrix):
             node = self.gltf["nodes"][index]
             if "matrix" in node:
                 local = tuple(node["matrix"])
             else:
                 local = compose(*(values.get((index, path), node.get(path, rest)) for path, rest in REST.items()))
-            matrices[index] = multiply(above, local)
+            matrices[index] = multiply(parent_matrix, local)
             for child in node.get("children", ()):
                 visit(child, matrices[index])
 
@@ -143,7 +143,7 @@ class Poser:
         return matrices
 
     def compute_points(self, node_index, time):
-        """World positions of the vertices of a node's first primitive."""
+        """Return the world positions of the vertices of a node's first primitive."""
         values = self.compute_values(time)
         matrices = self.compute_matrices(values)
         node = self.gltf["nodes"][node_index]
@@ -158,10 +158,10 @@ class Poser:
         if "skin" not in node:
             return [transform(matrices[node_index], point) for point in points]
         skin = self.gltf["skins"][node["skin"]]
-        moves = [multiply(matrices[joint], bind) for joint, bind in zip(skin["joints"], self.read(skin["inverseBindMatrices"]))]
+        joint_matrices = [multiply(matrices[joint], bind) for joint, bind in zip(skin["joints"], self.read(skin["inverseBindMatrices"]))]
         result = []
         attributes = primitive["attributes"]
-        for point, joints, shares in zip(points, self.read(attributes["JOINTS_0"]), self.read(attributes["WEIGHTS_0"])):
-            moved = [(share, transform(moves[joint], point)) for joint, share in zip(joints, shares) if share > 0.0]
-            result.append(tuple(sum(share * position[axis] for share, position in moved) for axis in range(3)))
+        for point, joints, joint_weights in zip(points, self.read(attributes["JOINTS_0"]), self.read(attributes["WEIGHTS_0"])):
+            moved = [(fraction, transform(joint_matrices[joint], point)) for joint, fraction in zip(joints, joint_weights) if fraction > 0.0]
+            result.append(tuple(sum(fraction * position[axis] for fraction, position in moved) for axis in range(3)))
         return result

@@ -1,4 +1,4 @@
-"""What demo_project/project.cfg lists."""
+"""Reads the list of scenes in demo_project/project.cfg."""
 
 import configparser
 import json
@@ -8,7 +8,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 
 def list_project_scenes():
-    """Paths below demo_project."""
+    """Return the paths of the scenes, relative to demo_project."""
     parser = configparser.ConfigParser(delimiters="=", interpolation=None)
     parser.read(os.path.join(ROOT, "demo_project", "project.cfg"), encoding="utf-8")
     return json.loads(parser["project"]["scenes"])

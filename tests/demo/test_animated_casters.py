@@ -1,4 +1,4 @@
-"""The figure of courtyard is one closed body whose skin and walk hold together, and its flag waves from the pole on."""
+"""Animated casters of courtyard: the figure is a closed mesh with a valid skin and walk, and the flag waves except at its edge on the pole."""
 
 import json
 import math
@@ -19,9 +19,9 @@ import make_foliage_scenes  # noqa: E402
 ANIMATION = "Walk"
 LOOP_S = 6.0
 CYCLE_S = 1.2
-MOST_BYTES = 700000
+MAX_BYTES = 700000
 GROUND_TOLERANCE_M = 0.01
-MOST_SLIDE_M = 0.005
+MAX_SLIDE_M = 0.005
 
 
 def load_courtyard():
@@ -52,7 +52,7 @@ class Courtyard(unittest.TestCase):
         return list(zip(flat[::3], flat[1::3], flat[2::3]))
 
     def find_sole(self, side):
-        """Vertices below a foot that follow it alone, at rest."""
+        """Return the vertices of a sole: those on the ground, at rest, that only the foot's joint moves."""
         foot = self.joint_names.index("Foot " + side)
         found = []
         for index, (point, joints, weights) in enumerate(zip(*(self.read("Figure", name) for name in ("POSITION", "JOINTS_0", "WEIGHTS_0")))):
@@ -117,7 +117,7 @@ class Walk(Courtyard):
                 self.assertLess(max(map(math.dist, first, last)), 1e-6)
 
     def test_it_moves_as_smoothly_through_the_loop_s_end_as_elsewhere(self):
-        """A whole cycle later each vertex is in the same motion, farther round the circle."""
+        """One cycle later each vertex moves in the same way, farther along the circular path."""
         step_s = 0.01
         node = self.find_node("Figure")
         bends = []
@@ -142,7 +142,7 @@ class Walk(Courtyard):
                 times = [CYCLE_S * (cycle + offset - 0.2 + 0.025 * index) for index in range(11)]
                 poses = [self.walk.compute_points(self.find_node("Figure"), time) for time in times]
                 for pose in poses[1:]:
-                    self.assertLess(max(math.dist(pose[index], poses[0][index]) for index in sole), MOST_SLIDE_M)
+                    self.assertLess(max(math.dist(pose[index], poses[0][index]) for index in sole), MAX_SLIDE_M)
 
     def test_knees_bend_forward_and_arms_swing_against_the_legs(self):
         root, products = self.find_node("Root"), []
@@ -157,6 +157,7 @@ class Walk(Courtyard):
             for side in "LR":
                 hip, knee, foot = (get_along("%s %s" % (name, side)) for name in ("Upper leg", "Lower leg", "Foot"))
                 self.assertGreater(knee, 0.5 * (hip + foot) - 0.005)
+                # Bent elbows hold the hands about 0.1 m ahead of the shoulders on average.
                 products.append((foot - hip) * (get_along("Hand " + side) - get_along("Upper arm " + side) - 0.1))
         self.assertLess(sum(products), 0.0)
 
@@ -175,7 +176,7 @@ class Walk(Courtyard):
         self.assertEqual(paths["translation", "LINEAR"], [self.find_node("Root")])
         self.assertEqual(paths["weights", "LINEAR"], [self.find_node("Flag")])
 
-    def test_tangents_of_the_hips_are_those_of_their_path(self):
+    def test_tangents_of_the_hips_follow_their_path(self):
         _node, _path, times, rows, _interpolation = next(channel for channel in self.walk.channels if channel[4] == "CUBICSPLINE")
         values = rows[1::3]
         for index in range(1, len(times) - 1):
@@ -187,7 +188,7 @@ class Walk(Courtyard):
                 self.assertLess(abs(tangent - slope), 0.6 * abs(tangent) + 1e-5)
 
     def test_the_file_is_small(self):
-        self.assertLess(len(self.binary), MOST_BYTES)
+        self.assertLess(len(self.binary), MAX_BYTES)
 
 
 class Flag(Courtyard):

@@ -1,4 +1,4 @@
-"""Scenes of merged and open parts are made from a seed alone, and have in them what techniques are not tuned for."""
+"""Generated scenes of merged and open parts depend only on their seed, and contain geometry that techniques are not tuned for."""
 
 import math
 import os
@@ -19,7 +19,7 @@ import make_artist_scenes  # noqa: E402
 from project_scenes import list_project_scenes  # noqa: E402
 
 SEEDS = (1, 2, 7)
-MOST_TRIANGLES = {"kitbash": 15000, "rigging": 60000, "grass": 10000}
+MAX_TRIANGLES = {"kitbash": 15000, "rigging": 60000, "grass": 10000}
 
 
 def build_meshes(seed):
@@ -31,7 +31,7 @@ def build_meshes(seed):
     }
 
 
-def count_faces_of_edges(mesh):
+def count_edges_by_faces(mesh):
     """Count the edges, welded by position, that have one face, two, three or more."""
     counts = {}
     for triangle in mesh.triangles:
@@ -43,7 +43,7 @@ def count_faces_of_edges(mesh):
     return faces.count(1), faces.count(2), len(faces) - faces.count(1) - faces.count(2)
 
 
-def find_doubled_faces(mesh):
+def count_duplicate_faces(mesh):
     faces = [frozenset(mesh.positions[index] for index in triangle) for triangle in mesh.triangles]
     return len(faces) - len(set(faces))
 
@@ -75,18 +75,18 @@ class ArtistMeshes(unittest.TestCase):
         for seed in SEEDS:
             with self.subTest(seed=seed):
                 mesh = artist_shapes.make_kitbash(random.Random(seed), 300)
-                open_count, manifold_count, branched_count = count_faces_of_edges(mesh)
+                open_count, manifold_count, branched_count = count_edges_by_faces(mesh)
                 self.assertGreater(open_count, 300)
                 self.assertGreater(manifold_count, 1000)
                 self.assertGreater(branched_count, 20)
-                self.assertGreater(find_doubled_faces(mesh), 20)
+                self.assertGreater(count_duplicate_faces(mesh), 20)
                 heights = [position[1] for position in mesh.positions]
                 self.assertLess(min(heights), -0.05)
                 self.assertGreater(max(heights), 1.2)
 
-    def test_no_part_of_the_rigging_is_closed(self):
+    def test_hull_and_rigging_have_open_edges(self):
         for name in ("hull", "rigging"):
-            open_count, _, _ = count_faces_of_edges(build_meshes(1)[name])
+            open_count, _, _ = count_edges_by_faces(build_meshes(1)[name])
             self.assertGreater(open_count, 100, name)
 
     def test_each_blade_begins_below_the_ground_and_ends_above_it(self):
@@ -96,11 +96,11 @@ class ArtistMeshes(unittest.TestCase):
         for first in range(0, len(mesh.positions), vertex_count):
             self.assertLess(mesh.positions[first][1], -0.01)
             self.assertGreater(mesh.positions[first + vertex_count - 1][1], 0.1)
-        self.assertEqual(count_faces_of_edges(mesh)[2], 0)
+        self.assertEqual(count_edges_by_faces(mesh)[2], 0)
 
     def test_lights_are_further_from_all_parts_than_five_times_their_size(self):
         nodes = make_artist_scenes.make_artist_set().root["nodes"]
-        size_m = make_artist_scenes.LIGHT_SHARE * make_artist_scenes.SCENE_SIZE_M
+        size_m = make_artist_scenes.LIGHT_SIZE_FRACTION * make_artist_scenes.SCENE_SIZE_M
         for node in nodes:
             if node["name"] in ("Spot", "Omni"):
                 for seed in SEEDS:
@@ -124,7 +124,7 @@ class ArtistScenes(unittest.TestCase):
                 root["accessors"][mesh["primitives"][0]["indices"]]["count"] // 3
                 for mesh in root["meshes"] if mesh["name"] != "Ground"
             )  # fmt: skip
-            self.assertLessEqual(triangles, MOST_TRIANGLES[name], name)
+            self.assertLessEqual(triangles, MAX_TRIANGLES[name], name)
             self.assertGreater(triangles, 3000, name)
 
     def test_each_scene_has_three_lights_of_a_tenth_of_its_size(self):

@@ -1,4 +1,4 @@
-"""Scenes of cut-out casters are made from a seed alone, and their textures cut what their formulas define."""
+"""Generated scenes of cut-out casters depend only on their seed, and the alpha of their textures follows the shapes' formulas."""
 
 import os
 import random

@@ -1,4 +1,4 @@
-"""Meshes of Debian packages become scenes, and what is missing or broken is named while the others go on."""
+"""Meshes of Debian packages are converted to scenes. Missing or broken ones are reported, and the others are still converted."""
 
 import contextlib
 import io
@@ -35,7 +35,7 @@ class PackageMeshes(unittest.TestCase):
         self.folder = os.path.join(self.holder.name, "out")
 
     def make(self, meshes):
-        """Names that failed, and the messages."""
+        """Convert meshes. Return (names that failed, messages on stderr)."""
         messages = io.StringIO()
         with contextlib.redirect_stderr(messages), contextlib.redirect_stdout(io.StringIO()):
             failed = make_package_meshes.make_scenes(meshes, self.folder)
@@ -83,7 +83,7 @@ class PackageMeshes(unittest.TestCase):
         with self.assertRaisesRegex(package_files.MeshUnavailable, "no-such-package is not installed"):
             package_files.find_package_file("no-such-package", "/x.obj")
 
-    def test_an_obj_is_read_with_polygons_negative_indices_and_foreign_letters(self):
+    def test_an_obj_is_read_with_polygons_negative_indices_and_bytes_that_are_not_utf_8(self):
         path = os.path.join(self.holder.name, "mesh.obj")
         with open(path, "wb") as file:
             file.write(b"o \xe6\xff\n" + TETRAHEDRON.encode() + b"f 1 2 4 3\n")
@@ -95,21 +95,21 @@ class PackageMeshes(unittest.TestCase):
         points = make_package_meshes.fit_points([(10, 500, 0), (30, 500, 0), (10, 540, 70)], make_package_meshes.UPRIGHT)
         heights = [point[1] for point in points]
         self.assertAlmostEqual(min(heights), make_package_meshes.LIFT_M)
-        self.assertLessEqual(max(heights) - min(heights), make_package_meshes.MOST_HEIGHT_M + 1e-9)
+        self.assertLessEqual(max(heights) - min(heights), make_package_meshes.MAX_HEIGHT_M + 1e-9)
         for axis in (0, 2):
             values = [point[axis] for point in points]
             self.assertAlmostEqual(min(values), -max(values))
-            self.assertLessEqual(max(values), 0.5 * make_package_meshes.MOST_WIDTH_M + 1e-9)
+            self.assertLessEqual(max(values), 0.5 * make_package_meshes.MAX_WIDTH_M + 1e-9)
 
-    def test_turns_take_their_axis_up(self):
-        for turn, upward in (
+    def test_rotations_turn_their_axis_up(self):
+        for rotation, upward in (
             (make_package_meshes.Z_UP, (0, 0, 1)),
             (make_package_meshes.Z_DOWN, (0, 0, -1)),
             (make_package_meshes.X_DOWN, (-1, 0, 0)),
         ):
-            self.assertLess(math.dist(gltf_writer.rotate(turn, upward), (0, 1, 0)), 1e-12)
+            self.assertLess(math.dist(gltf_writer.rotate(rotation, upward), (0, 1, 0)), 1e-12)
 
-    def test_doubled_faces_stay_and_those_without_area_go(self):
+    def test_duplicate_faces_stay_and_degenerate_ones_are_removed(self):
         points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (2.0, 0.0, 0.0)]
         mesh = make_package_meshes.make_creased_mesh(points, [(0, 1, 2), (0, 1, 2), (0, 2, 1), (0, 1, 3), (0, 0, 1)])
         self.assertEqual(len(mesh.triangles), 3)

@@ -20,7 +20,7 @@ printf '%s\\n' "$@" > "$(dirname "$0")/arguments"
 
 class RunDemo(unittest.TestCase):
     def run_script(self, *arguments, fails=False):
-        """Return (result, what the program got)."""
+        """Run the script with a stand-in for the program. Return (finished process, arguments that the program got)."""
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "gnomon")
             with open(program, "w", encoding="utf-8") as file:
@@ -31,33 +31,33 @@ class RunDemo(unittest.TestCase):
             command = [SCRIPT, "--no-build", "--no-window", "--out", os.path.join(folder, "out"), *arguments]
             environment = {**os.environ, "GNOMON": program}
             result = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False)
-            words = []
+            received = []
             if os.path.isfile(os.path.join(folder, "arguments")):
                 with open(os.path.join(folder, "arguments"), encoding="utf-8") as file:
-                    words = file.read().splitlines()
-            return result, words
+                    received = file.read().splitlines()
+            return result, received
 
-    def get_value(self, words, option):
-        return words[words.index(option) + 1] if option in words else None
+    def get_value(self, received, option):
+        return received[received.index(option) + 1] if option in received else None
 
     def test_the_default_is_short_and_its_scenes_are_in_the_project(self):
-        result, words = self.run_script()
+        result, received = self.run_script()
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(words[:2], ["report", "demo_project"])
-        self.assertEqual(self.get_value(words, "--settings"), "default")
+        self.assertEqual(received[:2], ["report", "demo_project"])
+        self.assertEqual(self.get_value(received, "--settings"), "default")
         names = {os.path.splitext(os.path.basename(path))[0] for path in list_project_scenes()}
-        self.assertLessEqual(set(self.get_value(words, "--scenes").split(",")), names)
+        self.assertLessEqual(set(self.get_value(received, "--scenes").split(",")), names)
 
     def test_all_measures_every_scene_and_level(self):
-        _, words = self.run_script("--all", "--skip", "package_*")
-        self.assertNotIn("--scenes", words)
-        self.assertNotIn("--settings", words)
-        self.assertEqual(self.get_value(words, "--skip"), "package_*")
+        _, received = self.run_script("--all", "--skip", "package_*")
+        self.assertNotIn("--scenes", received)
+        self.assertNotIn("--settings", received)
+        self.assertEqual(self.get_value(received, "--skip"), "package_*")
 
     def test_options_are_passed_on(self):
-        _, words = self.run_script("--size", "64x32", "--samples", "16", "--frames", "3", "--scenes", "sphere", "--device", "1")
+        _, received = self.run_script("--size", "64x32", "--samples", "16", "--frames", "3", "--scenes", "sphere", "--device", "1")
         for option, value in (("--size", "64x32"), ("--samples", "16"), ("--frames", "3"), ("--scenes", "sphere"), ("--device", "1")):
-            self.assertEqual(self.get_value(words, option), value)
+            self.assertEqual(self.get_value(received, option), value)
 
     def test_a_failing_report_ends_with_1(self):
         self.assertEqual(self.run_script(fails=True)[0].returncode, 1)
@@ -65,10 +65,10 @@ class RunDemo(unittest.TestCase):
     def test_wrong_usage_ends_with_2(self):
         for arguments in (("--gone",), ("--size", "64"), ("--samples", "0"), ("--size",)):
             with self.subTest(arguments=arguments):
-                result, words = self.run_script(*arguments)
+                result, received = self.run_script(*arguments)
                 self.assertEqual(result.returncode, 2)
                 self.assertIn("ERROR: ", result.stderr)
-                self.assertEqual(words, [])
+                self.assertEqual(received, [])
 
 
 if __name__ == "__main__":

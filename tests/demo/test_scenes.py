@@ -1,4 +1,4 @@
-"""The demo scenes are what their generator writes, and what the study defines."""
+"""The committed demo scenes equal the output of their generator, and have the values that the study defines."""
 
 import json
 import math
@@ -31,7 +31,7 @@ def find_node(scene, name):
 
 
 def distance_from_axis(node, point):
-    """Return the distance of the point from the ray along -Z of a camera's or light's node."""
+    """Return the distance of the point from the viewing axis, the local Z axis, of a camera's or light's node."""
     ahead = gltf_writer.rotate(node["rotation"], (0.0, 0.0, -1.0))
     offset = gltf_writer.subtract(point, node["translation"])
     return math.sqrt(sum(value * value for value in gltf_writer.cross(offset, ahead)))
@@ -82,8 +82,8 @@ class SceneFiles(unittest.TestCase):
                 nodes = load_scene(name)["nodes"]
                 self.assertEqual(len({node["name"] for node in nodes}), len(nodes))
                 for node in nodes:
-                    turn = node.get("rotation", (0, 0, 0, 1))
-                    self.assertAlmostEqual(sum(value * value for value in turn), 1.0, places=8)
+                    rotation = node.get("rotation", (0, 0, 0, 1))
+                    self.assertAlmostEqual(sum(value * value for value in rotation), 1.0, places=8)
 
     def test_the_project_lists_every_scene(self):
         with open(os.path.join(ROOT, "demo_project", "project.cfg"), encoding="utf-8") as file:
@@ -114,7 +114,7 @@ class StudyNumbers(unittest.TestCase):
                 self.assertAlmostEqual(field_of_view, 48.9 if is_terrain else 36.87, places=6)
                 self.assertEqual(scene["scenes"][0]["extras"]["scene_size"], 4)
 
-    def test_every_light_has_widths_that_suit_fins(self):
+    def test_every_light_has_fin_widths_in_range(self):
         for name in make_scenes.SCENES:
             for light in load_scene(name)["extensions"]["KHR_lights_punctual"]["lights"]:
                 with self.subTest(scene=name, light=light["name"]):
@@ -148,7 +148,7 @@ class StudyNumbers(unittest.TestCase):
 
 
 class MeshCheck(unittest.TestCase):
-    """The generator's own check refuses what it should."""
+    """The generator's check of meshes accepts valid meshes and refuses broken ones."""
 
     def test_a_closed_box_is_accepted(self):
         shapes.make_box((1.0, 2.0, 3.0)).check("box")

@@ -12,7 +12,7 @@ DOC = os.path.join(ROOT, "doc")
 GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
-LARGEST_IMAGE_BYTES = 80 * 1024
+MAX_IMAGE_BYTES = 80 * 1024
 TIMEOUT_S = 60
 
 sys.path.insert(0, DOC)
@@ -25,7 +25,7 @@ def read(path):
 
 
 def find_pages():
-    """README.md and every page below doc/."""
+    """Return the paths of README.md and every page below doc/."""
     pages = [os.path.join(ROOT, "README.md")]
     for folder, _, names in os.walk(DOC):
         pages += [os.path.join(folder, name) for name in sorted(names) if name.endswith(".md")]
@@ -33,7 +33,7 @@ def find_pages():
 
 
 def find_links(path):
-    """Relative links of a page, without those in code."""
+    """Return the relative links of a page, without those in code."""
     found = LINK.findall(CODE.sub("", read(path)))
     return [link for link in found if not re.match(r"[a-z]+:", link)]
 
@@ -54,7 +54,7 @@ def resolve_link(page, link):
 
 
 def load_techniques():
-    """Techniques, and the mask filters behind them, which have pages of the same kind."""
+    """Return the techniques and the mask filters, which have pages of the same kind."""
     found = []
     for command in ("techniques", "filters"):
         result = subprocess.run([GNOMON, command, "--json"], capture_output=True, text=True, timeout=TIMEOUT_S, check=True)
@@ -90,7 +90,7 @@ class LinkTest(unittest.TestCase):
             with self.subTest(image=name):
                 path = os.path.join(folder, name)
                 self.assertIn(path, used)
-                self.assertLessEqual(os.path.getsize(path), LARGEST_IMAGE_BYTES)
+                self.assertLessEqual(os.path.getsize(path), MAX_IMAGE_BYTES)
 
 
 class TechniquePageTest(unittest.TestCase):

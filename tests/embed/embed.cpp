@@ -1,10 +1,10 @@
-// A host that has nothing but shadows: no renderer, no nodes, no files of scenes. It links core,
+// A minimal host of the shadow modules: no renderer, no nodes, no scene files. It links core,
 // scene, mesh_tools, render_graph, a rendering device, shadows and one technique; doc/embedding.md
 // walks through it.
 //
-//     gnomon_embed OUT.f32                      draws its own depth; normals come from that
-//     gnomon_embed OUT.f32 DEPTH.f32 NORMAL.u32 what `gnomon visibility --surfaces` wrote of the
-//     scene
+//     gnomon_embed OUT.f32                      draws its own depth and takes normals from it
+//     gnomon_embed OUT.f32 DEPTH.f32 NORMAL.u32 reads the depth and normals that `gnomon visibility
+//     --surfaces` wrote
 //
 // OUT.f32: the light's visibility in each pixel, rows from the top; -1 where there is no receiver.
 
@@ -37,7 +37,7 @@ std::shared_ptr<const Mesh> make_quad(const char *p_name, const glm::vec3 &p_cor
 			{ normal, normal, normal, normal }, { 0, 1, 2, 0, 2, 3 });
 }
 
-/// The host's world in the words of shadows: what casts and what receives, one light, the camera.
+/// Describes the host's world for the shadow modules: casters, receivers, one light and the camera.
 /// test_embed.py writes the same scene as a glTF file.
 std::shared_ptr<const SceneSnapshot> make_snapshot() {
 	auto snapshot = std::make_shared<SceneSnapshot>();
@@ -62,7 +62,7 @@ std::shared_ptr<const SceneSnapshot> make_snapshot() {
 	return snapshot;
 }
 
-/// The depth that a host draws anyway, reversed: near / z.
+/// Draws the depth that a host has anyway, as reversed Z: near / z.
 RGTexture add_depth_pass(
 		RenderGraph &r_graph, ShadowSystem &r_shadows, const SceneSnapshot &p_scene) {
 	const RGTexture depth = r_graph.create_texture({ "depth", Format::D32_SFLOAT, SIZE_PX, 1,
@@ -92,7 +92,7 @@ RGTexture add_depth_pass(
 	return depth;
 }
 
-/// A texture that somebody else has drawn.
+/// Loads raw texels that another program drew. Throws Error if they are not SIZE_PX texels.
 OwnedTexture load_texture(RenderingDevice &r_device, const char *p_path, Format p_format) {
 	const std::vector<uint8_t> texels = load_file(p_path);
 	if (texels.size() != size_t(SIZE_PX.x) * SIZE_PX.y * get_texel_size_bytes(p_format)) {
@@ -130,7 +130,7 @@ void run(const char *p_out, const char *p_depth, const char *p_normals) {
 		surfaces.depth = add_depth_pass(graph, shadows, *scene);
 	}
 	frame.set_surfaces(surfaces);
-	MaskReadback readback; // a host's own passes read the mask here
+	MaskReadback readback; // a real host's passes would use the mask here
 	for (const LightSnapshot &light : scene->lights) {
 		const LightShadow shadow = frame.add_light(light);
 		readback.add(graph, shadow.mask, shadow.receivers);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shadows without our renderer: tests/embed/embed.cpp compared with `gnomon visibility`, on the same scene.
+"""Tests shadows without Gnomon's renderer: compares tests/embed/embed.cpp with `gnomon visibility` on the same scene.
 
 Needs bin/gnomon and bin/gnomon_embed.
 """
@@ -20,8 +20,8 @@ from mask_file import load_mask  # noqa: E402
 
 SIZE = "256x256"
 TIMEOUT_S = 300
-STEP = 1 / 255
-# As embed.cpp has them: corner, right, up.
+STEP = 1 / 255  # of an 8-bit mask
+# The quads of embed.cpp: corner, right, up.
 QUADS = {
     "wall": ((-3, -1.5, -1.5), (6, 0, 0), (0, 4.5, 0)),
     "ground": ((-3, -1.5, 4.5), (6, 0, 0), (0, 0, -6)),
@@ -31,7 +31,7 @@ QUADS = {
 
 
 def write_scene(folder):
-    """The scene of embed.cpp as a file. All numbers are exact in float32, and nothing is turned."""
+    """Write the scene of embed.cpp as a glTF file. All numbers are exact in float32, and nothing is rotated."""
     scene = Document(8)
     material = scene.add_material("plain", (1.0, 1.0, 1.0), is_double_sided=True)
     for name, (corner, right, up) in QUADS.items():
@@ -49,10 +49,10 @@ def write_scene(folder):
     return os.path.join(folder, "embed.gltf")
 
 
-def run(*words):
-    result = subprocess.run(words, capture_output=True, text=True, check=False, timeout=TIMEOUT_S, cwd=ROOT)
+def run(*arguments):
+    result = subprocess.run(arguments, capture_output=True, text=True, check=False, timeout=TIMEOUT_S, cwd=ROOT)
     if result.returncode != 0:
-        raise AssertionError("%s ended with %d: %s" % (" ".join(words), result.returncode, result.stderr))
+        raise AssertionError("%s ended with %d: %s" % (" ".join(arguments), result.returncode, result.stderr))
     return result.stdout
 
 

@@ -1,5 +1,5 @@
 // fuzz: modules=core sources=modules/rendering_device_vulkan/pipeline_cache_header.cpp
-// Any bytes as a file of the cache, and as the pipelines that a driver left there.
+// Parses arbitrary bytes as a file of the cache, and as pipeline cache data of a driver.
 #include "modules/core/files.h"
 #include "modules/rendering_device_vulkan/pipeline_cache_header.h"
 
@@ -11,21 +11,22 @@ using namespace gnomon;
 
 namespace {
 
-/// Of the device that this file's inputs are for.
-const VkPhysicalDeviceProperties MAKER = { .vendorID = 0x10005,
+/// The device whose pipeline caches the corpus contains.
+const VkPhysicalDeviceProperties DEVICE_PROPERTIES = { .vendorID = 0x10005,
 	.pipelineCacheUUID = { 'G', 'N', 'O', 'M', 'O', 'N' } };
 
-void check_foreign_makers(std::span<const uint8_t> p_bytes) {
-	for (size_t bit = 0; bit < 8 * std::size(MAKER.pipelineCacheUUID); ++bit) {
-		VkPhysicalDeviceProperties other = MAKER;
+/// Checks that data of DEVICE_PROPERTIES is refused for devices that differ from it in one bit.
+void check_other_devices(std::span<const uint8_t> p_bytes) {
+	for (size_t bit = 0; bit < 8 * std::size(DEVICE_PROPERTIES.pipelineCacheUUID); ++bit) {
+		VkPhysicalDeviceProperties other = DEVICE_PROPERTIES;
 		other.pipelineCacheUUID[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
 		GNOMON_ASSERT(!is_pipeline_cache_of(p_bytes, other), "bit ", bit, " of the UUID");
 	}
 	for (uint32_t bit = 0; bit < 32; ++bit) {
-		VkPhysicalDeviceProperties other = MAKER;
+		VkPhysicalDeviceProperties other = DEVICE_PROPERTIES;
 		other.vendorID ^= 1u << bit;
 		GNOMON_ASSERT(!is_pipeline_cache_of(p_bytes, other), "bit ", bit, " of the vendor");
-		other = MAKER;
+		other = DEVICE_PROPERTIES;
 		other.deviceID ^= 1u << bit;
 		GNOMON_ASSERT(!is_pipeline_cache_of(p_bytes, other), "bit ", bit, " of the device");
 	}
@@ -43,8 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 			GNOMON_ASSERT(std::ranges::equal(build_cache_entry(*stored), bytes),
 					"an entry that is never written is accepted");
 		}
-		if (is_pipeline_cache_of(bytes, MAKER)) {
-			check_foreign_makers(bytes);
+		if (is_pipeline_cache_of(bytes, DEVICE_PROPERTIES)) {
+			check_other_devices(bytes);
 		}
 	});
 }

@@ -1,6 +1,6 @@
 // fuzz: modules=scene
-// Any bytes as a mesh and a material whose image cuts it, in the order in which build_cut of
-// make_seeds.py writes them.
+// Reads arbitrary bytes as a mesh and a material whose image cuts it, and cuts the mesh. build_cut
+// of make_seeds.py writes the same format.
 #include "modules/scene/cut_mesh.h"
 
 #include "tests/fuzz/fuzz_target.h"
@@ -15,18 +15,18 @@ using namespace gnomon;
 
 namespace {
 
-const uint32_t MOST_TEXELS_A_SIDE = 24;
-const uint32_t MOST_VERTICES = 32;
-const uint32_t MOST_TRIANGLES = 32;
-const uint32_t FEWEST_EDGES = 4; // of a budget
-// A triangle of the mesh meets so many parts of a clamped plane, or tiles next to those that it
-// covers.
-const uint64_t MOST_PARTS = 9;
-// Budgets are of edges, and long triangles look at more of them than they cover. Three sides cut a
-// triangle of an outline into up to four, and split those of whole neighbours.
-const uint64_t TRIANGLES_AN_EDGE = 32;
+const uint32_t MAX_TEXELS_PER_SIDE = 24;
+const uint32_t MAX_VERTEX_COUNT = 32;
+const uint32_t MAX_TRIANGLE_COUNT = 32;
+const uint32_t MIN_EDGE_COUNT = 4; // smallest budget of outline edges
+// A triangle of the mesh overlaps at most so many parts of a clamped texture plane, or tiles next
+// to those that it covers.
+const uint64_t MAX_OVERLAPPED_PARTS = 9;
+// Budgets count edges, and long triangles test more edges than they cover. The three sides of a
+// mesh triangle cut a triangle of an outline into up to four, and also split its uncut neighbours.
+const uint64_t MAX_TRIANGLES_PER_EDGE = 32;
 
-/// Values from the front of the input; zeros behind its end.
+/// Reads values from the front of the input, and zeros after its end.
 class InputReader {
 public:
 	InputReader(const uint8_t *p_data, size_t p_size) : rest(p_data, p_size) {}
@@ -38,9 +38,9 @@ public:
 		rest = rest.subspan(count);
 		return value;
 	}
-	/// 0 .. p_count - 1
+	/// An index from 0 to p_count - 1.
 	uint32_t read_index(uint32_t p_count) { return read<uint8_t>() % p_count; }
-	/// As a reader lets it pass: in range, and finite.
+	/// A finite value in the range, as file importers guarantee; 0 if the input's value is outside.
 	float read_float(float p_minimum, float p_maximum) {
 		const float value = read<float>();
 		return value >= p_minimum && value <= p_maximum ? value : 0.0f;
@@ -69,8 +69,8 @@ Material read_material(InputReader &r_input) {
 std::shared_ptr<const Mesh> read_mesh(InputReader &r_input) {
 	const bool has_uvs = r_input.read_index(4) != 0; // more often than not
 	const bool has_colors = r_input.read_index(2) != 0;
-	const uint32_t vertex_count = 1 + r_input.read_index(MOST_VERTICES);
-	const uint32_t triangle_count = 1 + r_input.read_index(MOST_TRIANGLES);
+	const uint32_t vertex_count = 1 + r_input.read_index(MAX_VERTEX_COUNT);
+	const uint32_t triangle_count = 1 + r_input.read_index(MAX_TRIANGLE_COUNT);
 	std::vector<glm::vec3> positions;
 	MeshAttributes attributes;
 	for (uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
@@ -95,8 +95,8 @@ std::shared_ptr<const Mesh> read_mesh(InputReader &r_input) {
 }
 
 std::shared_ptr<const Image> read_image(InputReader &r_input) {
-	const glm::uvec2 size_px(
-			r_input.read_index(MOST_TEXELS_A_SIDE + 1), r_input.read_index(MOST_TEXELS_A_SIDE + 1));
+	const glm::uvec2 size_px(r_input.read_index(MAX_TEXELS_PER_SIDE + 1),
+			r_input.read_index(MAX_TEXELS_PER_SIDE + 1));
 	std::vector<uint8_t> texels;
 	for (uint32_t texel = 0; texel < size_px.x * size_px.y; ++texel) {
 		texels.insert(texels.end(), { 0, 0, 0, r_input.read<uint8_t>() });
@@ -104,7 +104,7 @@ std::shared_ptr<const Image> read_image(InputReader &r_input) {
 	return texels.empty() ? nullptr : make_image("image", size_px, std::move(texels));
 }
 
-/// Of a triangle, and how much of it rounding its corners may make.
+/// The area of a triangle, and the part of it that rounding of its corners may cause.
 struct Area {
 	double value = 0;
 	double rounding = 0;
@@ -112,17 +112,18 @@ struct Area {
 
 Area compute_area(const Mesh &p_mesh, size_t p_triangle) {
 	glm::dvec3 corners[3];
-	double farthest = 0;
+	double max_coordinate = 0;
 	for (size_t corner = 0; corner < 3; ++corner) {
 		corners[corner] = p_mesh.positions_node[p_mesh.indices[3 * p_triangle + corner]];
 		for (int axis = 0; axis < 3; ++axis) {
-			farthest = std::max(farthest, std::abs(corners[corner][axis]));
+			max_coordinate = std::max(max_coordinate, std::abs(corners[corner][axis]));
 		}
 	}
 	const glm::dvec3 b = corners[1] - corners[0];
 	const glm::dvec3 c = corners[2] - corners[0];
-	const double moved = farthest * FLT_EPSILON + FLT_MIN;
-	return { glm::length(glm::cross(b, c)) / 2, (glm::length(b) + glm::length(c) + moved) * moved };
+	const double corner_error = max_coordinate * FLT_EPSILON + FLT_MIN;
+	return { glm::length(glm::cross(b, c)) / 2,
+		(glm::length(b) + glm::length(c) + corner_error) * corner_error };
 }
 
 void check_areas(const Mesh &p_mesh, const Mesh &p_cut) {
@@ -161,9 +162,9 @@ void check_cut(const std::shared_ptr<const Mesh> &p_mesh, const Mesh &p_cut,
 		GNOMON_ASSERT(source < p_mesh->get_triangle_count(), "source ", source, " of ",
 				p_mesh->get_triangle_count());
 	}
-	const uint64_t most = TRIANGLES_AN_EDGE *
+	const uint64_t most = MAX_TRIANGLES_PER_EDGE *
 			(p_budget.edges_per_mesh +
-					MOST_PARTS * p_mesh->get_triangle_count() * p_budget.edges_per_tile);
+					MAX_OVERLAPPED_PARTS * p_mesh->get_triangle_count() * p_budget.edges_per_tile);
 	GNOMON_ASSERT(p_cut.get_triangle_count() <= most, p_cut.get_triangle_count(),
 			" triangles, must be at most ", most);
 	check_areas(*p_mesh, p_cut);
@@ -176,8 +177,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		InputReader input(p_data, p_size);
 		Material material = read_material(input);
 		OutlineBudget budget;
-		budget.edges_per_tile = FEWEST_EDGES << input.read_index(9);
-		budget.edges_per_mesh = FEWEST_EDGES << input.read_index(13);
+		budget.edges_per_tile = MIN_EDGE_COUNT << input.read_index(9);
+		budget.edges_per_mesh = MIN_EDGE_COUNT << input.read_index(13);
 		const auto mesh = read_mesh(input);
 		material.base_color_texture.image = read_image(input);
 		std::shared_ptr<const Mesh> cut;

@@ -1,6 +1,6 @@
 // fuzz: modules=gltf_scene
-// Any bytes as a .gltf or .glb file, up to the snapshot that a renderer gets, and its animations
-// played.
+// Parses arbitrary bytes as a .gltf or .glb file, builds the snapshot that a renderer gets, and
+// plays the animations.
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/scene/animation.h"
 #include "modules/scene/mesh_pose.h"
@@ -15,7 +15,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Vertices at a pose are within its bounds, up to rounding.
+/// Checks that the vertices of each pose are within its bounds, up to rounding.
 void check_poses(const SceneSnapshot &p_snapshot) {
 	for (const InstanceSnapshot &instance : p_snapshot.instances) {
 		if (!instance.pose) {
@@ -27,18 +27,20 @@ void check_poses(const SceneSnapshot &p_snapshot) {
 			const double beyond = bounds.compute_distance(glm::dvec3(position));
 			GNOMON_ASSERT(beyond <= 1e-5 * size, "a vertex is ", beyond, " m beyond its bounds");
 		}
-		instance.get_posed_caster_mesh();
+		instance.get_posed_caster_mesh(); // only checks that it does not crash
 	}
 }
 
-/// Each animation before, at and after its times. A pose that no float holds is an Error.
+/// Poses the scene with the first animations, each before, at the start of, within and at the end
+/// of its time range, and then at rest. A pose beyond the range of float is an Error.
 void play(Scene &r_scene) {
-	const size_t MOST_ANIMATIONS = 4; // the rest would be the same again
+	const size_t MAX_ANIMATION_COUNT = 4; // more would only repeat the same checks
 	const Camera3D camera;
-	for (size_t index = 0; index < std::min(r_scene.animations.size(), MOST_ANIMATIONS); ++index) {
+	for (size_t index = 0; index < std::min(r_scene.animations.size(), MAX_ANIMATION_COUNT);
+			++index) {
 		const Animation &animation = *r_scene.animations[index];
-		for (const double share : { -1.0, 0.0, 0.3, 1.0 }) {
-			pose_scene(r_scene, &animation, share * animation.duration_s);
+		for (const double fraction : { -1.0, 0.0, 0.3, 1.0 }) {
+			pose_scene(r_scene, &animation, fraction * animation.duration_s);
 			check_poses(*build_snapshot(r_scene, camera));
 		}
 	}
@@ -49,7 +51,7 @@ void play(Scene &r_scene) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 	return run_reader([&] {
-		// A folder that does not exist: no input reads a file.
+		// The folder does not exist, so that no input can read a file.
 		const auto scene = parse_gltf({ p_data, p_size }, "/nonexistent/scene.gltf");
 		for (const Node3D *node : scene->find_nodes<Node3D>()) {
 			const PropertyList list = list_node_properties(*node);

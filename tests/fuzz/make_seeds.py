@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Writes seeds of fuzz targets into a folder.
 
-    make_seeds.py scenes SCENE... FOLDER   of gltf: small forms of scenes
-    make_seeds.py textures FOLDER          of gltf: a card with images of every kind, whole and broken
-    make_seeds.py motion FOLDER            of gltf: cards that skins, morph targets and animations move
-    make_seeds.py cut_mesh FOLDER          of cut_mesh: meshes, materials and masks
+    make_seeds.py scenes SCENE... FOLDER   target gltf: reduced scenes
+    make_seeds.py textures FOLDER          target gltf: a card with images of every kind, valid and broken
+    make_seeds.py motion FOLDER            target gltf: cards that skins, morph targets and animations move
+    make_seeds.py cut_mesh FOLDER          target cut_mesh: meshes, materials and masks
 
-Each .gltf or .glb scene becomes FOLDER/<name>.gltf, with its buffer inside, and FOLDER/<name>.glb: all that the file
-states, but no accessor of more than a few elements, so that mutations hit what matters. Images are skipped; the cards
-have them.
+Each .gltf or .glb scene becomes FOLDER/<name>.gltf, with its buffer inside, and FOLDER/<name>.glb: they have
+the file's whole structure, but only a few elements per accessor, so that mutations hit the structure. Images are dropped,
+because the cards have them.
 """
 
 import base64
@@ -22,8 +22,8 @@ import seed_images
 COMPONENT_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 INDEX_FORMATS = {5121: "B", 5123: "<H", 5125: "<I"}
 TYPE_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-MOST_VERTICES = 4
-MOST_INDICES = 6
+MAX_VERTEX_COUNT = 4
+MAX_INDEX_COUNT = 6
 
 
 def read_scene(path):
@@ -59,7 +59,7 @@ def find_index_accessors(document):
 
 
 def shrink(document, buffers):
-    """Cuts every accessor to its first elements, in one buffer whose bytes are returned."""
+    """Cut every accessor to its first elements, put them into one buffer, and remove the images. Return the buffer's bytes."""
     indices = find_index_accessors(document)
     packed = bytearray()
     views = []
@@ -69,12 +69,12 @@ def shrink(document, buffers):
         element_bytes = component_bytes * TYPE_COUNTS[accessor["type"]]
         stride = view.get("byteStride", element_bytes)
         first = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        count = min(accessor["count"], MOST_INDICES if number in indices else MOST_VERTICES)
+        count = min(accessor["count"], MAX_INDEX_COUNT if number in indices else MAX_VERTEX_COUNT)
         source = buffers[view["buffer"]]
         elements = [source[first + i * stride :][:element_bytes] for i in range(count)]
         if number in indices:
             letter = INDEX_FORMATS[accessor["componentType"]]
-            elements = [struct.pack(letter, struct.unpack(letter, e)[0] % MOST_VERTICES) for e in elements]
+            elements = [struct.pack(letter, struct.unpack(letter, e)[0] % MAX_VERTEX_COUNT) for e in elements]
         views.append({"buffer": 0, "byteOffset": len(packed), "byteLength": count * element_bytes})
         packed += b"".join(elements)
         packed += bytes(-len(packed) % 4)
@@ -128,7 +128,7 @@ MIPMAP_FILTERS = (9984, 9985, 9986, 9987)
 
 
 class Card:
-    """A quad that shows an image, with two sets of coordinates and vertex colours, before a camera."""
+    """A textured quad in front of a camera, with two sets of texture coordinates and vertex colours."""
 
     def __init__(self):
         self.packed = bytearray()
@@ -181,21 +181,21 @@ class Card:
         return len(self.document["accessors"]) - 1
 
     def set_image(self, data, media_type, is_inside=True):
-        """Inside: in a buffer view; else as a data URI."""
+        """Set the image's data. is_inside: store it in a buffer view, else as a data URI."""
         self.document["images"][0] = (
             {"bufferView": self.add_view(data), "mimeType": media_type}
             if is_inside
             else {"uri": make_data_uri(media_type, data)}
         )
 
-    def mask(self, cutoff):
+    def enable_alpha_mask(self, cutoff):
         self.material.update({"alphaMode": "MASK", "alphaCutoff": cutoff})
 
 
 def make_masked_card():
     card = Card()
     card.set_image(seed_images.make_leaf_png(), "image/png")
-    card.mask(0.5)
+    card.enable_alpha_mask(0.5)
     card.document["samplers"] = [
         {"wrapS": wrap, "wrapT": CLAMP, "magFilter": NEAREST if wrap == CLAMP else LINEAR, "minFilter": min_filter}
         for wrap in (MIRROR, CLAMP, REPEAT)
@@ -206,7 +206,7 @@ def make_masked_card():
 
 
 def make_blended_card():
-    """Two sets of coordinates, moved, and each kind of texture."""
+    """A blended card with a texture transform, the second set of coordinates, and each kind of texture."""
     card = Card()
     card.set_image(seed_images.make_leaf_png(), "image/png", is_inside=False)
     transform = {"offset": [0.25, -1], "rotation": 0.7, "scale": [2, -1.5], "texCoord": 1}
@@ -226,7 +226,7 @@ def make_blended_card():
 def make_transparent_card():
     card = Card()
     card.set_image(seed_images.make_jpeg(), "image/jpeg", is_inside=False)
-    card.mask(0.25)
+    card.enable_alpha_mask(0.25)
     card.material["extensions"] = {
         "KHR_materials_transmission": {"transmissionFactor": 0.5},
         "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationDistance": 1, "attenuationColor": [1, 0.5, 0]},
@@ -237,7 +237,7 @@ def make_transparent_card():
 def make_card_of(image, media_type):
     card = Card()
     card.set_image(image, media_type)
-    card.mask(0.5)
+    card.enable_alpha_mask(0.5)
     return card
 
 
@@ -259,7 +259,7 @@ def make_card_without_coordinates():
 
 
 def make_card_without_image():
-    """It has neither uri nor bufferView; another texture has no source."""
+    """A card whose image has neither uri nor bufferView, and whose second texture has no source."""
     card = Card()
     card.document["textures"].append({})
     card.material["emissiveTexture"] = {"index": 1}
@@ -291,7 +291,7 @@ def write_textures(folder):
 
 
 def add_skin(card, joint_sets):
-    """Add a skin of two joints, both of which each vertex follows; joint_sets: sets of four joints and weights a vertex."""
+    """Add a skin of two joints that both move each vertex. joint_sets: sets of four joints and weights per vertex."""
     corners = 4
     for number in range(joint_sets):
         joints = struct.pack("<16B", *(0, 1, 0, 1) * corners)
@@ -299,28 +299,28 @@ def add_skin(card, joint_sets):
         card.primitive["attributes"]["JOINTS_%d" % number] = card.add_accessor(joints, 5121, "VEC4", corners)
         card.primitive["attributes"]["WEIGHTS_%d" % number] = card.add_accessor(weights, 5126, "VEC4", corners)
     identity = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
-    binds = card.add_accessor(struct.pack("<32f", *identity * 2), 5126, "MAT4", 2)
+    inverse_binds = card.add_accessor(struct.pack("<32f", *identity * 2), 5126, "MAT4", 2)
     card.document["nodes"] += [{"children": [3]}, {"translation": [0, 0.5, 0]}]
     card.document["scenes"][0]["nodes"].append(2)
-    card.document["skins"] = [{"joints": [2, 3], "skeleton": 2, "inverseBindMatrices": binds}]
+    card.document["skins"] = [{"joints": [2, 3], "skeleton": 2, "inverseBindMatrices": inverse_binds}]
     card.document["nodes"][0]["skin"] = 0
 
 
 def add_targets(card):
-    moves = card.add_accessor(struct.pack("<12f", *(0, 0, 0.5) * 4), 5126, "VEC3", 4)
-    card.primitive["targets"] = [{"POSITION": moves, "NORMAL": moves, "TANGENT": moves}, {"POSITION": moves}]
+    deltas = card.add_accessor(struct.pack("<12f", *(0, 0, 0.5) * 4), 5126, "VEC3", 4)
+    card.primitive["targets"] = [{"POSITION": deltas, "NORMAL": deltas, "TANGENT": deltas}, {"POSITION": deltas}]
     card.document["meshes"][0]["weights"] = [0.5, 0]
 
 
 def add_animation(card, kind):
-    """Translation and rotation of node 1, scale of the last node, weights of the mesh's."""
+    """Animate translation and rotation of node 1, the scale of the last node, and the weights of the mesh's node."""
     times = card.add_accessor(struct.pack("<2f", 0, 1), 5126, "SCALAR", 2)
-    parts = 3 if kind == "CUBICSPLINE" else 1
+    values_per_key = 3 if kind == "CUBICSPLINE" else 1
     samplers, channels = [], []
     last = len(card.document["nodes"]) - 1
     shapes = {"translation": (1, "VEC3", 3), "rotation": (1, "VEC4", 4), "scale": (last, "VEC3", 3), "weights": (0, "SCALAR", 2)}
     for path, (node, shape, width) in shapes.items():
-        values = [0.5 + 0.25 * index for index in range(2 * parts * width)]
+        values = [0.5 + 0.25 * index for index in range(2 * values_per_key * width)]
         count = len(values) // (1 if shape == "SCALAR" else width)
         output = card.add_accessor(struct.pack("<%df" % len(values), *values), 5126, shape, count)
         samplers.append({"input": times, "output": output, "interpolation": kind})
@@ -357,18 +357,18 @@ def write_motion(folder):
 
 IDENTITY = (1, 0, 0, 1, 0, 0)
 WRAPS = {"clamp": 0, "repeat": 1, "mirror": 2}
-FEWEST_EDGES = 4
+MIN_EDGE_COUNT = 4
 
 
 def build_cut(uvs, positions=None, alphas=None, size=(8, 8), texels=None, wraps=("repeat", "repeat"), nearest=False,
         blend=False, cutoff=0.5, alpha=1.0, transform=IDENTITY, edges=(1024, 16384)):  # fmt: skip
-    """The bytes that cut_mesh_fuzz.cpp reads: triangles whose corners are the vertices in their order."""
+    """Return an input of cut_mesh_fuzz.cpp. The corners of its triangles are the vertices in their order."""
     count = len(uvs) // 3 * 3
     positions = positions or [(float(i % 3 == 1), float(i % 3 == 2), float(i // 3)) for i in range(count)]
     texels = texels or [min(255, 31 * abs(x - 3) + 31 * abs(y - 4)) for y in range(size[1]) for x in range(size[0])]
     data = bytes([blend, WRAPS[wraps[0]], WRAPS[wraps[1]], nearest, 0])
     data += struct.pack("<8f", cutoff, alpha, *transform)
-    data += bytes([(most // FEWEST_EDGES).bit_length() - 1 for most in edges])
+    data += bytes([(most // MIN_EDGE_COUNT).bit_length() - 1 for most in edges])
     data += bytes([1, alphas is not None, count - 1, count // 3 - 1])
     for index in range(count):
         data += struct.pack("<5f", *positions[index], *uvs[index])

@@ -1,5 +1,5 @@
 // fuzz: modules=masks
-// Any bytes as an OpenEXR mask. What is read can be written, and is then read alike.
+// Decodes arbitrary bytes as an OpenEXR mask. A decoded mask must survive encoding and decoding.
 #include "modules/masks/mask_image.h"
 
 #include "tests/fuzz/fuzz_target.h"
@@ -10,11 +10,11 @@ using namespace gnomon;
 
 namespace {
 
-/// Encoding takes its time; a few rows test as much as many.
+/// Larger masks are not encoded again: that is slow and tests nothing more.
 constexpr size_t MAX_WRITTEN_PIXELS = 1 << 16;
 
 bool is_same(const std::vector<float> &p_first, const std::vector<float> &p_second) {
-	// As bytes: a NaN equals nothing.
+	// Compares bytes, because NaN does not equal itself.
 	return p_first.size() == p_second.size() &&
 			std::memcmp(p_first.data(), p_second.data(), p_first.size() * sizeof(float)) == 0;
 }

@@ -1,5 +1,6 @@
 // fuzz: modules=core
-// Any text as a project.cfg: what is read of it stays when its list of disabled modules is written.
+// Parses arbitrary text as a project.cfg. Replacing the list of disabled modules must change
+// nothing else.
 #include "modules/core/project.h"
 
 #include "tests/fuzz/fuzz_target.h"

@@ -1,5 +1,6 @@
 // fuzz: modules=scene
-// Any text as `--set` gets it. What is accepted is in range, and is accepted again as it is shown.
+// Parses arbitrary text as an argument of `--set`. An accepted value must be in range, and its
+// formatted text must parse to the same value.
 #include "modules/scene/light_setting.h"
 #include "modules/scene/nodes.h"
 
@@ -11,7 +12,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Every type, with and without what can be declared of it.
+/// Properties of every type, with and without a range, a unit and a special value.
 const PropertyList &get_own_list() {
 	static const PropertyList own = [] {
 		PropertyList list;

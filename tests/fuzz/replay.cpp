@@ -1,6 +1,7 @@
-// Feeds files to a fuzz target, each in a process of its own, without libFuzzer.
+// Runs a fuzz target on files without libFuzzer, each file in its own process.
 //     replay_<target> [--limit-s N] FILE|FOLDER...
-// A crash, a sanitizer's report, a leak, an uncaught exception or more than N (10) seconds fails.
+// An input fails on a crash, a sanitizer's report, a leak, an uncaught exception, or if it takes
+// more than N seconds (default: 10).
 // Last line: N passed, N failed, N skipped. Exit code: 0 all passed, 1 not, 2 wrong usage.
 #include "tests/fuzz/fuzz_target.h"
 
@@ -40,7 +41,8 @@ std::vector<fs::path> list_inputs(const fs::path &p_path) {
 	return inputs;
 }
 
-/// Never returns. The exit code is 0, or the leak check's.
+/// Runs the target on one input. Never returns: exits with 0, with the code of the leak check, or
+/// with 2 if the input cannot be read.
 [[noreturn]] void run_target(const fs::path &p_input, unsigned p_limit_s) {
 	std::ifstream stream(p_input, std::ios::binary);
 	if (!stream) {
@@ -59,7 +61,7 @@ std::vector<fs::path> list_inputs(const fs::path &p_path) {
 	std::exit(0);
 }
 
-/// Empty when the input passed.
+/// Runs one input in a child process and describes its failure. Empty when it passed.
 std::string find_failure(const fs::path &p_input, unsigned p_limit_s) {
 	std::fflush(nullptr);
 	const pid_t child = ::fork();

@@ -3,8 +3,8 @@
 
     replay_corpus.py SUFFIX        of bin/replay_<target>.SUFFIX, as scons names it: release_address_undefined
 
-A target that is not built is skipped, with a message; one without a corpus fails. The last line is
-"N passed, N failed, N skipped", an input counts as one.
+A target that is not built is skipped with a message. A target without a corpus fails. The last line is
+"N passed, N failed, N skipped" and counts inputs.
 """
 
 import os

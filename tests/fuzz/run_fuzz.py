@@ -3,9 +3,9 @@
 
     run_fuzz.py [--seconds N] [--jobs N] [--limit-s N] [TARGET]...
 
-Each target runs for N seconds (default: $FUZZ_SECONDS, else 600), as many at once as there are jobs (default: one a
-core). An input may take as long as the limit (default: 10 s; longer where other programs have the cores). What a
-target learns stays in build/fuzz/<target>/corpus, where the next run goes on; what goes wrong (crash-*, leak-*,
+Each target runs for N seconds (default: $FUZZ_SECONDS, else 600), as many at once as there are jobs (default: one per
+core). An input may take as long as the limit (default: 10 s; set more if other programs use the cores). New
+inputs are stored in build/fuzz/<target>/corpus, with which the next run continues, and findings (crash-*, leak-*,
 timeout-*, oom-*) in build/fuzz/<target>/findings, next to the log. A target passes when it ran and has no new finding.
 The last line is "N passed, N failed, N skipped".
 """
@@ -21,7 +21,7 @@ import fuzz_targets
 MAX_INPUT_BYTES = 1 << 16
 LIMIT_S = 10  # of one input, unless --limit-s is given
 MEMORY_MIB = 2048
-GRACE_S = 120
+GRACE_S = 120  # after its time is over a target is killed if it has not ended
 
 
 def run_target(target, seconds, limit_s):

@@ -21,19 +21,19 @@ def pack_rows(width, height, alphas):
 
 
 def build_png(width, height, alphas, before=b"", after=b""):
-    """before, after: chunks on either side of its rows."""
+    """Build a PNG. before, after: chunks before and after its rows."""
     rows = build_chunk(b"IDAT", pack_rows(width, height, alphas))
     return PNG_SIGNATURE + build_header(width, height) + before + rows + after + build_chunk(b"IEND", b"")
 
 
 def make_leaf_png():
-    """8 x 8 texels, with a round hole whose border has alphas between."""
+    """8 x 8 texels, with a round hole whose border has intermediate alphas."""
     alphas = [min(255, max(0, ((x - 3) ** 2 + (y - 4) ** 2 - 4) * 60)) for y in range(8) for x in range(8)]
     return build_png(8, 8, alphas)
 
 
 def make_animated_png():
-    """Two frames; a reader that does not know its chunks shows the first."""
+    """An animated PNG of two frames. Readers without support for it show the first frame."""
     alphas = [255, 0, 128, 64]
     control = struct.pack(">IIIIHHBB", 2, 2, 0, 0, 1, 10, 0, 0)
     before = build_chunk(b"acTL", struct.pack(">II", 2, 0)) + build_chunk(b"fcTL", struct.pack(">I", 0) + control)
@@ -43,7 +43,7 @@ def make_animated_png():
 
 
 def make_huge_png(width=20000, height=20000):
-    """A header that is in order, and next to no rows."""
+    """A valid header of a huge image, followed by almost no rows."""
     rows = build_chunk(b"IDAT", zlib.compress(bytes(100)))
     return PNG_SIGNATURE + build_header(width, height) + rows + build_chunk(b"IEND", b"")
 
@@ -54,14 +54,14 @@ def make_truncated_png():
 
 
 def make_jpeg(component_count=3):
-    """8 x 8 texels of one colour: baseline, each block a constant and an end of block of one bit."""
+    """A baseline JPEG of 8 x 8 texels of one colour. The DC value and the end of each block take one bit each."""
 
     def build_segment(marker, data):
         return struct.pack(">BBH", 0xFF, marker, len(data) + 2) + data
 
     components = range(1, component_count + 1)
     frame = struct.pack(">BHHB", 8, 8, 8, component_count) + b"".join(bytes((i, 0x11, 0)) for i in components)
-    one_code = bytes([1] + 15 * [0]) + b"\0"  # of one bit: 0
+    one_code = bytes([1] + 15 * [0]) + b"\0"  # a Huffman table whose only code, of one bit, is for the value 0
     scan = bytes([component_count]) + b"".join(bytes((i, 0)) for i in components) + bytes((0, 63, 0))
     return (
         b"\xff\xd8"

@@ -1,4 +1,4 @@
-"""Khronos's gltf-validator finds no more wrong with the files that Gnomon writes than with those it read."""
+"""Files that Gnomon writes have no more errors, according to Khronos's gltf-validator, than the files that it read."""
 
 import json
 import os
@@ -17,7 +17,7 @@ from gltf_writer import save_files  # noqa: E402
 
 TESTS = os.path.join(ROOT, "bin", "gnomon_tests")
 PACKAGE = {"gltf-validator": ("2.0.0-dev.3.10", "4e03dbdc3bc0d1342afd5d2d7ae341a7e3474502ccb872b02dbbaddaee0fdec6")}
-LEAST_FILES = 30
+MIN_FILE_COUNT = 30
 # Prints {path: [[code, pointer], ...]} of the errors of each file that is named.
 SCRIPT = """
 const fs = require("fs"), path = require("path"), validator = require("./gltf-validator");
@@ -60,15 +60,16 @@ class Validator(unittest.TestCase):
     def test_saved_samples_have_no_new_errors(self):
         saved = os.path.join(self.folder, "saved")
         os.makedirs(saved)
-        words = ["--test-case=*every file of assimp-testmodels loads and saves*"]
-        result = subprocess.run([TESTS, *words], env={**os.environ, "GNOMON_SAVED_FOLDER": saved}, capture_output=True, text=True, check=False)
+        arguments = ["--test-case=*each file of assimp-testmodels loads and saves*"]
+        environment = {**os.environ, "GNOMON_SAVED_FOLDER": saved}
+        result = subprocess.run([TESTS, *arguments], env=environment, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stdout)
         pairs = {}
         for name in os.listdir(saved):
             if name.endswith(".txt"):
                 with open(os.path.join(saved, name), encoding="utf-8") as file:
                     pairs[os.path.join(saved, name[:-4] + ".glb")] = file.read()
-        self.assertGreaterEqual(len(pairs), LEAST_FILES)
+        self.assertGreaterEqual(len(pairs), MIN_FILE_COUNT)
         found = self.validate(sorted({*pairs, *pairs.values()}))
         for written, source in pairs.items():
             with self.subTest(source):

@@ -1,4 +1,4 @@
-"""The demo's Godot project with the add-on's tests in it, in build/godot_addon."""
+"""Writes build/godot_addon: the demo's Godot project with the add-on's tests."""
 
 import os
 import shutil
@@ -20,7 +20,7 @@ def write():
 
 
 def report(passed, failures, skipped=0):
-    """Prints what failed and the last line. The exit code."""
+    """Print the failures and the summary line. Return the exit code."""
     if not passed and not failures:
         failures = ["no test ran"]
     for failure in failures:

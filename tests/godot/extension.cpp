@@ -1,5 +1,5 @@
-// A library that Godot loads: runs the tests on a device of Godot's own, and ends Godot with their
-// exit code. Arguments of doctest are in $GNOMON_TEST_ARGUMENTS, separated by lines.
+// A library that Godot loads. It runs the tests on Godot's RenderingDevice and ends Godot with
+// their exit code. $GNOMON_TEST_ARGUMENTS has doctest's arguments, one per line.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_interface.h"
@@ -32,7 +32,7 @@ int run() {
 void initialize(void *, GDExtensionInitializationLevel p_level) {
 	if (p_level == GDEXTENSION_INITIALIZATION_SCENE) {
 		GDExtensionMainLoopCallbacks callbacks = {};
-		callbacks.startup_func = [] { // there is a RenderingServer now
+		callbacks.startup_func = [] { // now the RenderingServer exists
 			const int result = run();
 			std::cout.flush();
 			std::fflush(nullptr);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the tests of tests/godot/addon, GDScript, inside $GODOT with the add-on of demo_project/godot.
 
-Arguments are names of tests. Warnings and errors that Godot logs fail the run, but for those that tests expect. Last line:
+Arguments are names of tests. Warnings and errors that Godot logs fail the run, except those that tests expect. Last line:
 N passed, N failed, N skipped.
 """
 
@@ -11,7 +11,7 @@ import sys
 import addon_project
 import godot_project
 
-# (what a message has, how often it is logged): expected by tests.
+# Messages that tests cause: (text that they contain, how often they are logged).
 EXPECTED = (
     ("technique is no such technique, must be", 1),
     ("rendering/gnomon/default_technique is nothing, must be", 1),
@@ -19,7 +19,7 @@ EXPECTED = (
     ("penumbra_outer_width is -5, must be", 1),
     ("penumbra_outer_width is nan, must be", 1),
     ("has an orthogonal projection", 1),
-    ('RIDs of type "Texture" were leaked', 1),  # by Godot, of each reflection probe that was drawn
+    ('RIDs of type "Texture" were leaked', 1),  # a leak of Godot itself, for each reflection probe that was drawn
     ("is cut out by alpha", 1),
     ("is transparent or drawn without depth", 3),
     ("has a rim", 4),
@@ -36,7 +36,7 @@ EXPECTED = (
 
 
 def find_unexpected(output, is_whole):
-    """Messages that no test expects, and expected ones that did not come as often as they should."""
+    """Return unexpected messages, and expected ones that were logged more or, in a whole run, less often than expected."""
     unexpected = []
     counts = dict.fromkeys((text for text, _count in EXPECTED), 0)
     for line in godot_project.find_messages(output):

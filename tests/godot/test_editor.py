@@ -20,7 +20,7 @@ import measure_godot
 FOLDER = os.path.join(addon_project.ROOT, "build", "godot_editor")
 SOURCES = os.path.join(addon_project.ROOT, "tests", "godot", "editor")
 NODES = [".", "WorldEnvironment", "Ground", "Box", "Camera", "Light", "Light/GnomonShadow3D"]
-# Of an editor that a script quits, or that runs without what a desktop has, and of a scene whose extension is missing.
+# Messages of an editor that a script quits, that runs without desktop services, or whose extension is missing.
 EDITOR_HARMLESS = re.compile(r"absolute paths from outside the active scene tree|text-to-speech|speech-dispatcher|libspeechd|D-Bus|dbus|Blender|SDK|editor_settings")
 PRESET = """[preset.0]
 name="Linux"
@@ -36,9 +36,9 @@ binary_format/embed_pck=false
 binary_format/architecture="x86_64"
 """
 EXPORTED = os.path.join(FOLDER, "exported")
-MOST_RMSE = 0.006
+MAX_RMSE = 0.006
 SAMPLES = 1024
-LEAST_LIGHT = 0.02  # of an image that counts
+MIN_LIGHT = 0.02  # pixels where the light adds less are not compared
 MISSING = re.compile(r"GnomonShadow3D|gnomon\.gdextension|addons/gnomon")
 
 
@@ -60,7 +60,7 @@ def write_project():
 
 
 def run_editor():
-    """Names of what passed, and what failed."""
+    """Run the editor. Return (its output, names of passed checks, failures)."""
     arguments = ["--editor", "--path", FOLDER] + godot_project.DEVICE_OPTIONS
     code, output = godot_project.start_godot(arguments + ["--resolution", "1200x900"])
     print(output)
@@ -71,7 +71,7 @@ def run_editor():
 
 
 def run_game(name):
-    """Runs the saved scene. What it printed."""
+    """Run the saved scene and return its output."""
     output = godot_project.run("res://game.tscn", [name, FOLDER], 320, FOLDER)
     print(output)
     return output
@@ -82,17 +82,17 @@ def find_nodes(output):
 
 
 def measure(name, output):
-    """RMSE in the penumbra of what LightImages stored as NAME, against the reference; infinite when it stored nothing."""
+    """Return the RMSE in the penumbra of the images that LightImages stored as NAME, against the reference. Infinite if none."""
     size = re.search(r"^SIZE %s (\d+) (\d+)$" % name, output, re.MULTILINE)
     if size is None:
         return math.inf
     width, height = map(int, size.groups())
     stem = os.path.join(FOLDER, name)
     shadow, lit, dark = (godot_images.load_rows("%s_%s.f32" % (stem, part), width)[0] for part in ("shadow", "lit", "dark"))
-    shares = [(s - d) / (l - d) if l - d > LEAST_LIGHT else -1.0 for s, l, d in zip(shadow, lit, dark)]
-    godot_images.save_gray_png(stem + "_shares.png", shares, width)
+    visibilities = [(s - d) / (l - d) if l - d > MIN_LIGHT else -1.0 for s, l, d in zip(shadow, lit, dark)]
+    godot_images.save_gray_png(stem + "_visibility.png", visibilities, width)
     reference = measure_godot.trace_reference(stem + ".gltf", "Light", stem + "_reference", (width, height), SAMPLES, "ViewCamera")
-    rmse = measure_godot.compute_rmse(reference, shares, reference.find_penumbra())
+    rmse = measure_godot.compute_rmse(reference, visibilities, reference.find_penumbra())
     print("%s: RMSE %.4f over %d x %d pixels" % (name, rmse, width, height))
     return rmse
 
@@ -100,7 +100,7 @@ def measure(name, output):
 def export_game():
     """Export the game and return what Godot logged."""
     with open(os.path.join(FOLDER, "project.godot"), "a", encoding="utf-8") as file:
-        file.write('[application]\nrun/main_scene="res://game.tscn"\n')  # not before: the editor would open it
+        file.write('[application]\nrun/main_scene="res://game.tscn"\n')  # only now, because the editor would open it
     os.makedirs(EXPORTED)
     open(os.path.join(EXPORTED, ".gdignore"), "w").close()
     with open(os.path.join(FOLDER, "export_presets.cfg"), "w", encoding="utf-8") as file:
@@ -126,7 +126,7 @@ def main():
 
     def check_rmse(name, printed):
         rmse = measure(name, printed)
-        check("the %s shows the reference's shadow" % name, rmse <= MOST_RMSE, "RMSE %.4f, at most %.4f" % (rmse, MOST_RMSE))
+        check("the %s shows the reference's shadow" % name, rmse <= MAX_RMSE, "RMSE %.4f, at most %.4f" % (rmse, MAX_RMSE))
 
     check_rmse("view", output)
     output = run_game("game")
@@ -150,7 +150,7 @@ def main():
     output = run_game("without")
     messages = godot_project.find_messages(output)
     check("without the add-on no node is lost", find_nodes(output) == NODES, find_nodes(output))
-    check("without the add-on only that is logged", all(MISSING.search(line) for line in messages), messages)
+    check("without the add-on only its absence is logged", all(MISSING.search(line) for line in messages), messages)
     return addon_project.report(passed, failures, skipped)
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs tests of the engine inside Godot, on a device over Godot's RenderingDevice.
 
-$GODOT runs a project that is in build/godot_tests and loads bin/libgnomon_tests.godot.so (`scons godot=yes`). That
-library runs the test cases and ends Godot. What Godot logs as an error fails the run. Last line: N passed, N failed,
+$GODOT runs the project in build/godot_tests, which loads bin/libgnomon_tests.godot.so (`scons godot=yes`). That
+library runs the test cases and ends Godot. Every error that Godot logs fails the run. Last line: N passed, N failed,
 N skipped. Arguments are doctest's.
 """
 
@@ -17,7 +17,7 @@ import godot_project  # noqa: E402
 
 FOLDER = os.path.join(ROOT, "build", "godot_tests")
 LIBRARY = "libgnomon_tests.godot.so"
-LEAST_CASES = 120  # fewer: the library lacks modules
+MIN_CASE_COUNT = 120  # fewer: the library lacks modules
 FILES = {
     "project.godot": 'config_version=5\n[application]\nconfig/name="Gnomon\'s tests"\nrun/main_scene="res://main.tscn"\n',
     "main.tscn": '[gd_scene format=3]\n\n[node name="Main" type="Node"]\n',
@@ -27,7 +27,7 @@ FILES = {
 }
 # Patterns of doctest; a comma would end one.
 SKIPPED = (
-    # Nothing can be made to fail, the reference is not built for Godot.
+    # Faults cannot be injected into Godot's device, and the reference is not built for Godot.
     "*a lost device is reported*",
     "*a refused submission reads nothing back*",
     "*the reference integrates the same edge*",
@@ -41,7 +41,7 @@ SKIPPED = (
     "*layers are sorted*and one pass*",
     "*a scene with one layer has two empty ones*",
     "*casters across the light's near plane are clamped*",
-    # Moving casters are culled with conditional rendering only.
+    # Moving casters are culled only with conditional rendering, which Godot lacks.
     "*casters behind a wall are culled*",
     "*a caster that comes out from behind its wall*",
     "*random casters: culling never changes*",
@@ -91,9 +91,9 @@ def main():
     errors = re.findall(r"^ERROR: .*$", output, re.MULTILINE)
     for error in errors:
         print("FAILED: Godot logged " + error)
-    least = LEAST_CASES if len(sys.argv) == 1 else 1  # with arguments of doctest: whatever they choose
-    if not summary or passed + failed < least:
-        print("FAILED: %d test cases ran, at least %d are expected; Godot ended with %d" % (passed + failed, least, code))
+    min_count = MIN_CASE_COUNT if len(sys.argv) == 1 else 1  # doctest's arguments may select any number
+    if not summary or passed + failed < min_count:
+        print("FAILED: %d test cases ran, at least %d are expected; Godot ended with %d" % (passed + failed, min_count, code))
         failed += 1
     failed += len(errors)
     print("%d passed, %d failed, %d skipped" % (passed, failed, skipped))

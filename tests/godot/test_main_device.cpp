@@ -27,7 +27,7 @@ TEST_CASE("[GPU][Godot] masks from the device of Godot's frames equal those from
 	use_main_device(main);
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		const MaskResult expected = local.render_mask(scene, p_info.id);
 		for (int frame = 0; frame < 2; ++frame) { // the second reuses cached maps
 			const MaskResult found = main.render_mask(scene, p_info.id);

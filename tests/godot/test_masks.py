@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Masks that the add-on makes inside Godot equal those of `gnomon visibility` for the same scene.
 
-$GODOT renders the study scenes of demo_project/godot and exports them as glTF. Receivers that both have must agree within
-1/255 in 99.9 % of the pixels; pixels that only one has, outlines, are counted apart. The techniques are those of
-study/runner.gd. three_lights is imported by Godot, which then draws it with fewer triangles; kitbash and grass are generated scenes that
-nothing here was written for.
+$GODOT renders the study scenes of demo_project/godot and exports them as glTF. Of the pixels that are receivers in both masks, 99.9 % must
+agree within 1/255. Pixels that are receivers in only one, at outlines, are counted separately. The techniques are those of
+study/runner.gd. three_lights is imported by Godot, which then draws it with fewer triangles; kitbash and grass are generated scenes with
+which no technique was tuned.
 
-Cut-out scenes, leaves and courtyard, are compared as they are: both programs read the same file. Godot's importer rounds its
-coordinates to 16 bits, so that they must agree within 2/255 in 99.5 %. So must courtyard at four times of its animation, in which a
-skinned figure walks and a flag of morph targets waves.
+Cut-out scenes, leaves and courtyard, are compared directly: both programs read the same file. Godot's importer rounds the file's
+coordinates to 16 bits, so only 99.5 % of the receivers must agree, within 2/255. The same holds for courtyard at four times of its
+animation, in which a skinned figure walks and a flag of morph targets waves.
 
 A failed case leaves images in build/godot_masks: NAME_godot.png, NAME_gnomon.png, and NAME_difference.png, 16 times as bright.
 Last line: N passed, N failed, N skipped.
@@ -38,11 +38,11 @@ CASE_COUNT = 79
 OUT = os.path.join(ROOT, "build", "godot_masks")
 FILES = os.path.join(OUT, "files")
 SIZE = 400
-# Tolerance, and the share of receivers that must be within it.
+# Tolerance, and the fraction of receivers that must be within it.
 EXPORTED = (1.0 / 255.0, 0.999)
 SAME_FILE = (2.0 / 255.0, 0.995)
 DIFFERENCE_GAIN = 16.0
-MOST_OUTLINE = 0.001  # of all receivers
+MAX_OUTLINE_FRACTION = 0.001  # of all receivers
 
 
 def get_path(scene):
@@ -50,7 +50,7 @@ def get_path(scene):
 
 
 def make_scenes():
-    """Without scene_size: Godot's scenes have none, and the add-on measures the casters, as the program then does."""
+    """Write the generated scenes without scene_size. Godot's scenes have none, so add-on and program derive it from the casters."""
     for module, lights in ((make_artist_scenes, UNTUNED_LIGHTS), (make_foliage_scenes, CUT_OUT_LIGHTS)):
         for scene in sorted({scene for scene, _light in lights}):
             document = module.build_scene(scene)
@@ -59,7 +59,7 @@ def make_scenes():
 
 
 def render_in_program(gltf, light, technique, out):
-    """light: LIGHT, or LIGHT@SECONDS of the file's animation."""
+    """Compute the mask with bin/gnomon. light: LIGHT, or LIGHT@SECONDS for a time of the file's animation."""
     light, _at, seconds = light.partition("@")
     command = [os.path.join(ROOT, "bin", "gnomon"), "visibility", gltf, "--technique", technique, "--light", light, "--out", out]
     command += ["--size", "%dx%d" % (SIZE, SIZE), "--depth-alone", "--validation"]
@@ -78,14 +78,14 @@ def save_images(name, found, expected):
 
 
 def check_case(light, caster, technique):
-    """Return what is wrong; empty if nothing is. light may also be a scene; caster then names its light."""
+    """Compare one mask of Godot and return what is wrong, or "". light, caster: those of a study scene, or a scene and its light."""
     stem = os.path.join(OUT, "%s_%s" % (light, caster))
     name = "%s_%s" % (stem, technique)
     found, _height = godot_images.load_rows(name + ".f32", SIZE)
     is_cut_out = (light, caster) in CUT_OUT_LIGHTS + WALK_LIGHTS
     is_scene = is_cut_out or light == "imported" or (light, caster) in UNTUNED_LIGHTS
     gltf = get_path(light) if is_cut_out else stem + ".gltf"
-    tolerance, least_equal = SAME_FILE if is_cut_out else EXPORTED
+    tolerance, min_equal = SAME_FILE if is_cut_out else EXPORTED
     expected = render_in_program(gltf, caster if is_scene else "Light", technique, name + ".exr")
     both = equal = outline = shadowed = 0
     for pixel, value in enumerate(found):
@@ -99,7 +99,7 @@ def check_case(light, caster, technique):
     problem = ""
     if both < SIZE * SIZE / 4 or shadowed < 100:
         problem = "%d receivers, %d in shadow: not the study scene" % (both, shadowed)
-    elif equal < least_equal * both or outline > MOST_OUTLINE * both:
+    elif equal < min_equal * both or outline > MAX_OUTLINE_FRACTION * both:
         problem = "%d of %d receivers differ, %d pixels have one in one alone" % (both - equal, both, outline)
     if problem:
         save_images(name, found, expected)

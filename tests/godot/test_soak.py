@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Many frames inside $GODOT: no message, and no growth.
+"""Draws many frames inside $GODOT: nothing may be logged, and no resource count may grow.
 
-2,000 in which everything comes and goes (tests/godot/addon/soak.gd), those of the room with eight lights (room_soak.gd), and 1,000
-of courtyard, in which a skinned figure walks and a flag of morph targets waves (walk_soak.gd).
-After the first ones Godot's objects, nodes and resources must stay as many, and the memory of its RenderingDevice must not
+These are 2,000 frames in which everything is added and removed (tests/godot/addon/soak.gd), --room-frames of the room with eight
+lights (room_soak.gd), and 1,000 of courtyard, in which a skinned figure walks and a flag of morph targets waves (walk_soak.gd).
+After SETTLED frames the numbers of Godot's objects, nodes and resources and the memory of its RenderingDevice must not
 grow. Last line: N passed, N failed, N skipped.
 """
 
@@ -21,9 +21,9 @@ import make_foliage_scenes  # noqa: E402
 
 FRAMES = 2000
 WALK_FRAMES = 1000
-SETTLED = 200  # frames; of the room those in which everything was seen once
+SETTLED = 200  # frames; after so many the room has shown everything once
 NAMES = ("objects", "nodes", "resources", "bytes of textures", "bytes of buffers", "bytes of the device")
-PROCESS_GROWTH = 1.1  # of the process's memory, which the allocator and the driver round
+PROCESS_GROWTH = 1.1  # allowed factor of the process's memory, which the allocator and the driver round up
 
 
 def find_growth(reports):
@@ -53,10 +53,10 @@ def soak(scene, frames, options):
 
 
 def make_walk():
-    """The path of its file."""
+    """Write courtyard as a glTF file and return its path."""
     folder = os.path.join(addon_project.FOLDER, "walk")
     os.makedirs(folder)
-    open(os.path.join(folder, ".gdignore"), "w").close()  # it is read while the game runs
+    open(os.path.join(folder, ".gdignore"), "w").close()  # keeps Godot from importing it: the game reads it at run time
     gltf_writer.save_files(make_foliage_scenes.build_scene("courtyard").build_files("courtyard"), folder)
     return os.path.join(folder, "courtyard.gltf")
 

@@ -1,4 +1,4 @@
-"""A small tree that keeps every rule of test_layers.py, and one breach after another."""
+"""A small source tree that follows every rule of test_layers.py, and changes that each break one rule."""
 
 import os
 import shutil
@@ -21,7 +21,7 @@ def add_module(root, name, dependencies, layer):
 
 
 def make_small_tree(root):
-    """A tree that keeps every rule; each breach below is added to a copy of it."""
+    """Make a tree that follows every rule. Each breach below is added to a copy of it."""
     add_module(root, "core", [], 0)
     add_module(root, "rendering_device", ["core"], 1)
     add_module(root, "rendering_device_vulkan", ["core", "rendering_device"], 2)
@@ -66,7 +66,7 @@ def add_filter(root):
     add_file(root, "modules/renderer/a.cpp", 'find("mist");\n')
 
 
-# What is broken, how, and the rule that must notice.
+# (What is broken, the rule that must notice it, a function that breaks it.)
 BREACHES = (
     ("an include from the file's own folder", "check_root_relative_includes",
      lambda root: add_file(root, "modules/scene/light.h", '#include "node.h"\n')),
@@ -144,7 +144,7 @@ BREACHES = (
 
 
 def run_self_test(rules, find_breaches):
-    """Counts of passed and failed checks of the checks."""
+    """Check that every rule notices its breaches. Return (passed, failed)."""
     passed = failed = 0
     with tempfile.TemporaryDirectory() as folder:
         clean = os.path.join(folder, "clean")

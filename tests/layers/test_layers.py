@@ -86,7 +86,7 @@ class Tree:
         return self.texts[path]
 
     def get_includes(self, path):
-        """(line number, bracket, included path) of each include."""
+        """Return (line number, opening bracket or quote, included path) of each include."""
         text = self.get_text(path)
         return [(text.count("\n", 0, m.start()) + 1, m.group(1), m.group(2)) for m in INCLUDE.finditer(text)]
 
@@ -102,7 +102,7 @@ class Tree:
         return parts[1] if parts[0] == "modules" and len(parts) > 2 else None
 
     def find_techniques(self):
-        """module -> (ids, classes), from its register_types.cpp."""
+        """Return module -> (ids, classes) for the modules whose register_types.cpp registers techniques or mask filters."""
         found = {}
         for name in self.configs:
             path = "modules/%s/register_types.cpp" % name
@@ -143,7 +143,7 @@ def check_listed_dependencies(tree):
 
 
 def check_layers(tree):
-    """A dependency has a lower layer, so that modules of layer 4 never know each other."""
+    """A dependency has a lower layer, so that modules of layer 4 never depend on each other."""
     for name, config in tree.configs.items():
         for dependency in config["dependencies"]:
             if dependency not in tree.configs:
@@ -154,7 +154,7 @@ def check_layers(tree):
 
 
 def check_vulkan(tree):
-    """Vulkan's headers are included by rendering_device_vulkan alone.
+    """Only rendering_device_vulkan includes Vulkan's headers.
 
     The owner of a window needs the handle types, so desktop may include vulkan_handles.h.
     """
@@ -168,7 +168,7 @@ def check_vulkan(tree):
 
 
 def check_godot(tree):
-    """Godot's interface and what is generated from it are included by the backend over it and by the add-on alone."""
+    """Only the Godot backend and the add-on include Godot's interface and the headers generated from it."""
     users = ("modules/rendering_device_godot/", "modules/godot_addon/")
     for path in tree.find_sources(CPP, ("modules/",)):
         for line, _, name in tree.get_includes(path):
@@ -179,15 +179,15 @@ def check_godot(tree):
 def check_backends(tree):
     """A backend of rendering_device is chosen by the linker: no other module includes or lists it.
 
-    A window shows images of one backend, so desktop may; main lists it, so that a build without it is refused. The add-on
-    is made for one host, whose device it hands over.
+    desktop may include it, because a window presents images of one backend. main may list it, so that a build without it is
+    refused, but not include it. The add-on may do both, because it passes on the device of its host.
     """
     for path in tree.find_sources(CPP, ("modules/",)):
         module = tree.get_module(path)
         for line, _, name in tree.get_includes(path):
             included = tree.get_module(name)
             if included and BACKEND.fullmatch(included) and module not in (included, "desktop", "godot_addon"):
-                yield "%s:%d: includes %s; only desktop may" % (path, line, name)
+                yield "%s:%d: includes %s; only desktop and godot_addon may" % (path, line, name)
     for name, config in tree.configs.items():
         for dependency in config["dependencies"]:
             if BACKEND.fullmatch(dependency) and name not in BACKEND_USERS:
@@ -195,7 +195,7 @@ def check_backends(tree):
 
 
 def check_test_headers(tree):
-    """Headers in a folder of tests, such as what tests may do to a device, are included by tests only."""
+    """Only tests include headers in a tests folder, such as those that give tests access to a device."""
     for path in tree.find_sources(CPP):
         if path.startswith("tests/") or "/tests/" in path:
             continue
@@ -205,7 +205,7 @@ def check_test_headers(tree):
 
 
 def check_window_library(tree):
-    """GLFW is included by desktop, main and editor alone: the window, and the names of its keys."""
+    """Only desktop, main and editor include GLFW: for the window and its key codes."""
     for path in tree.find_sources(CPP):
         for line, _, name in tree.get_includes(path):
             if re.search(r"GLFW|glfw", name) and not path.startswith(WINDOW_OWNERS):
@@ -227,19 +227,19 @@ def check_modules_without_device(tree):
 
 
 def check_registration_is_readable(tree):
-    """register_types.cpp names its ids as literals, so that the next rule knows them."""
+    """register_types.cpp writes ids as literals, so that check_technique_names finds them."""
     for module, (ids, classes) in tree.find_techniques().items():
         if not ids or not classes:
             yield 'modules/%s/register_types.cpp: write ShadowRegistry::add({ "id", ... make_unique<Class>' % module
 
 
 def check_technique_names(tree):
-    """The id and class of a technique or mask filter occur only where they go when it is deleted."""
+    """The id and class of a technique or mask filter occur only in its module, its shaders, and TECHNIQUE_FOLDERS."""
     techniques = tree.find_techniques()
-    shown = SOURCES + ("SCsub", "SConstruct", ".json", ".cfg", ".html")
+    checked_endings = SOURCES + ("SCsub", "SConstruct", ".json", ".cfg", ".html")
     for path in tree.files:
         is_project = path.startswith(PROJECT_FOLDERS) or path == "SConstruct"
-        if not is_project or not path.endswith(shown) or path.startswith(TECHNIQUE_FOLDERS):
+        if not is_project or not path.endswith(checked_endings) or path.startswith(TECHNIQUE_FOLDERS):
             continue
         for module, (ids, classes) in techniques.items():
             if path.startswith(("modules/%s/" % module, "shaders/%s/" % module)):
@@ -283,7 +283,7 @@ def check_file_names(tree):
 
 
 def check_file_lengths(tree):
-    """No file is longer than 800 lines; above 400 it is noted."""
+    """No file is longer than 800 lines. A file of more than 400 lines gets a note."""
     for path in tree.find_sources(SOURCES):
         count = tree.get_text(path).count("\n")
         if count > REFUSED_LINES:
@@ -293,7 +293,7 @@ def check_file_lengths(tree):
 
 
 def check_top_level(tree):
-    """The top level holds what doc/architecture.md draws, and nothing else."""
+    """The top level has exactly the entries that doc/architecture.md shows."""
     files = tree.files
     if os.path.exists(os.path.join(tree.root, ".git")):
         # What is not committed yet (a custom.py, notes) is the developer's own.
@@ -324,7 +324,7 @@ RULES = (
 
 
 def find_breaches(root):
-    """rule name -> its breaches"""
+    """Return rule name -> its breaches."""
     tree = Tree(root)
     if not tree.configs:
         raise SystemExit("ERROR: %s: no modules found below modules/" % root)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Builds without modules. The smallest game: a program that loads a scene and draws it headless, without editor,
-report and window; and programs that lack the report or parts of it.
+"""Tests builds with disabled modules: the smallest game, which loads a scene and draws it headless, without editor,
+report and window, and programs that lack the report or parts of it.
 
     test_minimal.py --plan           queries scons for what it would build and from which files; compiles nothing
     test_minimal.py [--jobs N]       builds them in a copy of the tree and runs them
-    test_minimal.py --write-sizes    builds it and writes the table of sizes in doc/getting_started.md
+    test_minimal.py --write-sizes    builds only the smallest game, and writes the table of sizes in doc/getting_started.md
 
-What is missing is disabled by module_<name>_enabled=no.
+Modules are disabled by module_<name>_enabled=no.
 """
 
 import argparse
@@ -27,7 +27,7 @@ ABSENT_COMMANDS = {"edit": "editor", "visibility": "masks", "compare": "masks", 
 PROGRAM = "bin/gnomon"
 SCENE = os.path.join("demo_project", "scenes", "sphere.gltf")
 SMALL_REPORT = ("report", SCENE, "--size", "16x16", "--samples", "4", "--scaling", "none", "--out", "report")
-# Modules that are disabled together; words that are refused then, and the module that the refusal names; words that work.
+# (Modules that are disabled together, arguments that are refused then, module that the refusal names, arguments that work.)
 PARTIAL_BUILDS = (
     (("stability_report",), (*SMALL_REPORT, "--stability", "quick"), "stability_report", SMALL_REPORT),
     (("stability_report",), (*SMALL_REPORT, "--sweeps", "scale"), "stability_report", SMALL_REPORT),
@@ -49,7 +49,7 @@ import test_removal  # noqa: E402
 
 
 def find_default_technique():
-    """The module of the technique with the highest default_rank, and its id."""
+    """Return (module, id) of the technique with the highest default_rank."""
     best = (0, "", "")
     for module, (ids, _) in test_layers.Tree(ROOT).find_techniques().items():
         with open(os.path.join(ROOT, "modules", module, "register_types.cpp"), encoding="utf-8") as file:
@@ -61,7 +61,7 @@ def find_default_technique():
 
 
 def list_options(technique):
-    """scons options that disable all but the engine and one technique."""
+    """Return (enabled modules, scons options that disable all but the engine and one technique)."""
     enabled = ENGINE + (technique,)
     names = [module.name for module in modules_builders.find_modules(os.path.join(ROOT, "modules"))]
     return enabled, ["module_%s_enabled=no" % name for name in names if name not in enabled]
@@ -86,7 +86,7 @@ class Results:
 
 
 def check_plan(results):
-    """Which modules' files the program's dependency tree holds, headers included."""
+    """Check that the program's dependency tree has only files of the enabled modules, headers included."""
     module, _ = find_default_technique()
     enabled, options = list_options(module)
     command = ["scons", "-n", "-Q", "compiledb=no", "tests=no", "--tree=all,prune", PROGRAM]
@@ -98,13 +98,13 @@ def check_plan(results):
 
     used = find_modules(planned.stdout)
     results.check(used == set(enabled), "it is made of %s; of them not requested: %s" % (sorted(used), sorted(used - set(enabled))))
-    # Canary: the whole program is made of more, and the same question sees it.
+    # Canary: the full program has more modules, and the same query finds them.
     whole = find_modules(run(command, ROOT).stdout)
     results.check(whole > set(enabled) and "editor" in whole, "the whole program has more modules, found %s" % sorted(whole))
 
 
 def check_partial_plans(results):
-    """Nothing of a module that is disabled is compiled."""
+    """Check that scons plans no file of a disabled module."""
     for modules in sorted({modules for modules, *_ in PARTIAL_BUILDS}):
         command = ["scons", "-n", "-Q", "compiledb=no", "tests=no", "--tree=all,prune", PROGRAM]
         planned = run(command + ["module_%s_enabled=no" % module for module in modules], ROOT)
@@ -150,8 +150,8 @@ def get_stripped_size(program, folder):
 
 def check_program(target, technique, results):
     image = os.path.join(target, "image.png")
-    words = ["run", SCENE, "--headless", "--size", "64x64", "--capture", image, "--plan"]
-    drawn = run([PROGRAM] + words, target)
+    arguments = ["run", SCENE, "--headless", "--size", "64x64", "--capture", image, "--plan"]
+    drawn = run([PROGRAM] + arguments, target)
     results.check(drawn.returncode == 0 and os.path.getsize(image) > 500, "it draws a scene", drawn.stdout + drawn.stderr)
     results.check("resolve: runs" in drawn.stdout, "its technique runs", drawn.stdout)
     listed = run([PROGRAM, "techniques"], target).stdout
@@ -194,10 +194,10 @@ def check_build(results, jobs, writes_sizes):
     with tempfile.TemporaryDirectory() as target:
         test_removal.copy_tree(target)
         if not writes_sizes:
-            # First, since they are linked of objects that are there.
+            # First, because these programs reuse objects that are built already.
             check_partial_programs(target, jobs, results)
         print("minimal: build", flush=True)
-        # Objects that others made stay: the program is linked of what it needs alone.
+        # Objects of other builds stay in the folder. The program is linked only from those that it needs.
         built = build(target, jobs, options)
         if not results.check(built.returncode == 0, "it builds", built.stdout + built.stderr):
             return

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Deletes a technique's module, shaders and goldens in a copy of the tree: builds and tests stay green.
+"""Deletes a technique's module, shaders and golden images in a copy of the tree, which must still build and pass its tests.
 
     test_removal.py [--all] [--module NAME] [--jobs N]
 
-Without options the technique with the least source goes; --all removes every module that registers a technique, in turn.
-The copy takes the build folder along, so that only the link is new.
+Without --all and --module the technique with the fewest bytes of C++ source files is removed. --all removes every module that
+registers a technique, in turn.
+The copy includes the build folder, so that mainly the link has to be repeated.
 """
 
 import argparse
@@ -24,7 +25,7 @@ import test_layers  # noqa: E402
 
 
 def find_smallest(techniques):
-    """The module with the fewest bytes of source."""
+    """Return the module with the fewest bytes of .cpp files."""
 
     def measure(module):
         folder = os.path.join(ROOT, "modules", module)
@@ -34,7 +35,7 @@ def find_smallest(techniques):
 
 
 def copy_tree(target):
-    """The tracked files as they are now, and the build folder with its times."""
+    """Copy the tracked files in their current state, and the build folder with its modification times."""
     names = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, check=True).stdout.decode()
     for name in names.split("\0"):
         source = os.path.join(ROOT, name)
@@ -67,7 +68,7 @@ def remove_technique(target, module, ids):
 
 
 def run(target, what, command):
-    """True when the command ends with 0; its output's end is shown otherwise."""
+    """Run a command. Return whether it ends with 0, and print the end of its output otherwise."""
     result = subprocess.run(
         command, cwd=target, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=TIMEOUT_S
     )
@@ -79,13 +80,13 @@ def run(target, what, command):
     return result.returncode == 0
 
 
-def find_blind_tests(tree):
-    """doctest's option that skips tests that no other technique can fail: those of techniques, and of modules below
-    the registry.
+def build_exclude_option(tree):
+    """Return doctest's option that skips tests which the removal of a technique cannot affect: those of techniques, and of
+    modules below the technique registry.
     """
-    blind = set(tree.find_techniques())
-    blind |= {name for name, config in tree.configs.items() if config["layer"] < tree.configs["shadows"]["layer"]}
-    return "--source-file-exclude=" + ",".join("*modules/%s/tests/*" % name for name in sorted(blind))
+    unaffected = set(tree.find_techniques())
+    unaffected |= {name for name, config in tree.configs.items() if config["layer"] < tree.configs["shadows"]["layer"]}
+    return "--source-file-exclude=" + ",".join("*modules/%s/tests/*" % name for name in sorted(unaffected))
 
 
 def test_module(tree, module, ids, jobs):
@@ -99,7 +100,7 @@ def test_module(tree, module, ids, jobs):
             return 0, 1
         results = [
             run(target, what, [sys.executable, "tests/layers/test_layers.py"]),
-            run(target, what, [sys.executable, "tests/run_engine.py", "bin/gnomon_tests", "--", find_blind_tests(tree)]),
+            run(target, what, [sys.executable, "tests/run_engine.py", "bin/gnomon_tests", "--", build_exclude_option(tree)]),
         ]
         listed = subprocess.run(["bin/gnomon", "techniques"], cwd=target, capture_output=True, text=True, check=False)
         still_there = [name for name in ids if re.search(r"(?m)^\W*%s\b" % name, listed.stdout)]

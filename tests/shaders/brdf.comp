@@ -2,10 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "renderer/brdf_inc.glsl"
 
-// What a surface with its normal along z reflects from one direction into another.
+// Computes what a surface with its normal along +z reflects from one direction into another.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
-	vec4 cases[]; // three per item: material; base colour; to the light's and the viewer's angle, turn
+	vec4 cases[]; // three per item: material; base colour; angles (rad) of light and viewer, viewer's azimuth
 };
 layout(set = 0, binding = 1) writeonly buffer Output {
 	vec4 results[];

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/depth_inc.glsl"
 
-// xy: pixel, z: stored depth. Gives the position.
+// Input: xy pixel, z stored depth. Output: xyz camera-relative position in metres.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 pixels[];

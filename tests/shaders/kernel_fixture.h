@@ -9,8 +9,9 @@
 
 namespace gnomon {
 
-/// Runs a kernel of this folder: binding 0 is its input and 1 its output, both arrays of vec4; 2 is
-/// a block of constants, where the kernel has one. One invocation makes one item.
+/// Runs a compute kernel of tests/shaders. Binding 0 is its input and 1 its output, both arrays of
+/// vec4. Binding 2 is a block of constants, if the kernel has one. Each invocation computes one
+/// item, which may have several vec4 of input and p_output_per_item of output.
 struct KernelFixture : DeviceFixture {
 	static constexpr uint32_t BINDING_INPUT = 0;
 	static constexpr uint32_t BINDING_OUTPUT = 1;
@@ -53,7 +54,7 @@ struct KernelFixture : DeviceFixture {
 	}
 };
 
-/// Numbers in 0..1 that are the same on every machine.
+/// Generates random numbers in 0..1 that are the same on every machine.
 class TestRandom {
 public:
 	double next() {

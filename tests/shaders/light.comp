@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/light_inc.glsl"
 
-// A position and a normal: is it a receiver, and how much light arrives?
+// Input: position and normal. Output: xyz illuminance per colour channel, w 1 if the point is a receiver, else 0.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 points[]; // two per item

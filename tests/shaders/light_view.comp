@@ -2,7 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/light_view_inc.glsl"
 
-// Two points of one plane and its normal: the view that holds the first, and both in its map.
+// Input: two points of a plane and its normal. Output: both points (map xy, w) in the map of the
+// view that contains the first one, the index of that view, the slope of w, and the first point in
+// texels.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 points[]; // three per item

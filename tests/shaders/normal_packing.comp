@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/normal_inc.glsl"
 
-// A unit vector, packed and unpacked again. Also the packed halves as numbers.
+// Packs and unpacks a unit vector. Output: the unpacked vector, and the two packed 16-bit halves as numbers.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 normals[];
 };
 layout(set = 0, binding = 1) writeonly buffer Output {
-	vec4 results[];
+	vec4 results[]; // two per item
 };
 
 void main() {

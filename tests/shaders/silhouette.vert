@@ -1,5 +1,5 @@
 #version 460
-// Hands a welded vertex to silhouette.geom as it is.
+// Passes a welded vertex and its index to silhouette.geom unchanged.
 layout(location = 0) in vec4 in_position_node;
 layout(location = 0) out vec3 out_position_node;
 layout(location = 1) flat out uint out_vertex;

@@ -10,14 +10,14 @@ namespace {
 
 constexpr double PI = 3.14159265358979;
 
-/// Radians from the normal, and the viewer's turn about it away from the light's side.
+/// Angles in radians: light and viewer from the normal, and viewer about it from the light's side.
 struct Directions {
 	double light = 0;
 	double viewer = 0;
-	double turn = 0;
+	double azimuth = 0;
 };
 
-/// s, roughness (-1 - roughness: Phong's model), metallic.
+/// A material. A roughness of -1 - r selects Phong's model with roughness r.
 struct Case {
 	float scatter = 0;
 	float roughness = 0.5f;
@@ -31,7 +31,7 @@ std::vector<double> reflect(
 	for (const Directions &directions : p_directions) {
 		input.push_back(glm::vec4(p_case.scatter, 0.0f, p_case.roughness, p_case.metallic));
 		input.push_back(glm::vec4(p_case.base_color, 1.0f));
-		input.push_back(glm::vec4(directions.light, directions.viewer, directions.turn, 0.0));
+		input.push_back(glm::vec4(directions.light, directions.viewer, directions.azimuth, 0.0));
 	}
 	std::vector<double> values;
 	for (const glm::vec4 &result : r_fixture.run("brdf.comp", input, p_directions.size(), 1)) {
@@ -40,17 +40,18 @@ std::vector<double> reflect(
 	return values;
 }
 
-/// The share of the light from one direction that leaves in any.
-double compute_reflected_share(KernelFixture &r_fixture, const Case &p_case, double p_light) {
-	const int STEPS = 96;
+/// The fraction of the light from one direction that is reflected in all directions (directional
+/// albedo). p_light: angle in radians from the normal.
+double compute_directional_albedo(KernelFixture &r_fixture, const Case &p_case, double p_light) {
+	const int STEP_COUNT = 96;
 	std::vector<Directions> directions;
 	std::vector<double> weights;
-	for (int i = 0; i < STEPS; ++i) {
-		for (int k = 0; k < STEPS; ++k) {
-			const double viewer = (i + 0.5) * 0.5 * PI / STEPS;
-			directions.push_back({ p_light, viewer, (k + 0.5) * PI / STEPS });
-			weights.push_back(
-					std::sin(viewer) * std::cos(viewer) * (0.5 * PI / STEPS) * (2 * PI / STEPS));
+	for (int i = 0; i < STEP_COUNT; ++i) {
+		for (int k = 0; k < STEP_COUNT; ++k) {
+			const double viewer = (i + 0.5) * 0.5 * PI / STEP_COUNT;
+			directions.push_back({ p_light, viewer, (k + 0.5) * PI / STEP_COUNT });
+			weights.push_back(std::sin(viewer) * std::cos(viewer) * (0.5 * PI / STEP_COUNT) *
+					(2 * PI / STEP_COUNT));
 		}
 	}
 	const std::vector<double> values = reflect(r_fixture, p_case, directions);
@@ -71,11 +72,11 @@ TEST_CASE("[GPU][Brdf] a white surface reflects about as much light as it gets")
 				CAPTURE(roughness);
 				CAPTURE(scatter);
 				CAPTURE(light);
-				const double share = compute_reflected_share(
+				const double albedo = compute_directional_albedo(
 						fixture, { scatter, roughness, 0.0f, glm::vec3(1.0f) }, light);
-				CHECK(share > 0.5);
+				CHECK(albedo > 0.5);
 				// Neither glTF's sum of lobes nor Burley's lobe is normalised at grazing light.
-				CHECK(share < (light > 1 ? 1.4 : 1.1));
+				CHECK(albedo < (light > 1 ? 1.4 : 1.1));
 			}
 		}
 	}
@@ -99,7 +100,7 @@ TEST_CASE("[GPU][Brdf] Phong's highlight is where a mirror would send the light"
 	CHECK(values[0] > values[1]);
 	CHECK(values[1] == doctest::Approx(values[2]).epsilon(1e-3));
 	CHECK(values[3] < 0.5 * values[0]);
-	// Away from it a rough Phong surface is Lambert's.
+	// Away from the highlight a rough Phong surface is Lambertian.
 	CHECK(values[3] == doctest::Approx(0.96 * 0.8 / PI * std::cos(0.5)).epsilon(0.05));
 }
 
@@ -111,6 +112,6 @@ TEST_CASE("[GPU][Brdf] a translucent surface shines more evenly than an opaque o
 	const std::vector<double> wax = reflect(fixture, { 1.0f, 1.0f }, directions);
 	CHECK(wax[1] / wax[0] > 1.1 * opaque[1] / opaque[0]);
 	CHECK(half[0] == doctest::Approx(0.5 * (opaque[0] + wax[0])).epsilon(1e-3));
-	// No light reaches what faces away from it.
+	// A surface that faces away from the light reflects nothing.
 	CHECK(reflect(fixture, { 1.0f, 1.0f }, { { 1.6, 0.4, 1.0 } })[0] == 0);
 }

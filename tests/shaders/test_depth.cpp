@@ -45,7 +45,7 @@ TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn"
 		const glm::dvec3 found(results[index]);
 		largest_error = std::max(largest_error,
 				glm::distance(found, positions[index]) / glm::length(positions[index]));
-		// And the rasteriser's matrix brings it back to where it came from.
+		// The rasteriser's matrix must project it back to the same pixel and depth.
 		const glm::dvec4 clip =
 				glm::dmat4(frame.clip_from_camera_relative) * glm::dvec4(found, 1.0);
 		const glm::dvec2 pixel =

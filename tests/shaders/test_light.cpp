@@ -16,7 +16,8 @@ struct Surface {
 	glm::vec3 normal;
 };
 
-/// At (1, 5, 2), shining down, 10 cd or lx; the cone's half angles are 0.5 and 0.6 rad.
+/// A light at (1, 5, 2) m that shines down, with 10, 5 and 2.5 cd in red, green and blue
+/// (directional: lx). The cone's half angles are 0.5 and 0.6 rad. p_range_m: 0 for no limit.
 shader::LightConstants make_light(uint32_t p_type, float p_range_m = 0.0f) {
 	shader::LightConstants light = {};
 	light.position_radius = glm::vec4(1, 5, 2, 0.3f);
@@ -44,7 +45,7 @@ bool receives(KernelFixture &r_fixture, const shader::LightConstants &p_light,
 	return run(r_fixture, p_light, { { p_position, p_normal } })[0].w != 0.0f;
 }
 
-/// KHR_lights_punctual in double; the light's axis is -y.
+/// The illuminance after KHR_lights_punctual, in double precision. The light's axis is -y.
 double compute_illuminance(
 		const shader::LightConstants &p_light, const glm::dvec3 &p_position, double p_intensity) {
 	if (p_light.type == LIGHT_TYPE_DIRECTIONAL) {
@@ -80,12 +81,12 @@ TEST_CASE("[GPU][Shaders] a receiver faces the light and is in its cone and rang
 		CHECK_FALSE(receives(fixture, light, below, -up));		   // faces away
 		CHECK_FALSE(receives(fixture, light, below, { 1, 0, 0 })); // edge on
 		CHECK(receives(fixture, light, below, { 1, 1e-3f, 0 }));   // just not edge on
-		// Nearer to edge on rounding would decide, pixel by pixel.
-		CHECK(receives(fixture, light, below, { 1, 2.0f * LIGHT_LEAST_COSINE, 0 }));
-		CHECK_FALSE(receives(fixture, light, below, { 1, 0.5f * LIGHT_LEAST_COSINE, 0 }));
+		// Closer to edge on, rounding would decide pixel by pixel.
+		CHECK(receives(fixture, light, below, { 1, 2.0f * LIGHT_MIN_COSINE, 0 }));
+		CHECK_FALSE(receives(fixture, light, below, { 1, 0.5f * LIGHT_MIN_COSINE, 0 }));
 		CHECK_FALSE(receives(fixture, light, below, glm::vec3(0.0f)));
 		CHECK_FALSE(receives(fixture, light, below, glm::vec3(NOT_A_NUMBER)));
-		// On the light there is no direction; a directional light is nowhere.
+		// At the light's position there is no direction to it. A directional light has no position.
 		CHECK(receives(fixture, light, glm::vec3(light.position_radius), up) == is_directional);
 		CHECK(receives(fixture, light, glm::vec3(NOT_A_NUMBER), up) == is_directional);
 		// Above the light and facing it.

@@ -30,7 +30,8 @@ struct LightCase {
 		constants = compute_light_views_constants(light, scene.camera, views);
 	}
 
-	/// A world position inside the light's field, 0.5 to 4 m away.
+	/// A world position that the light reaches: 0.5 to 4 m from it, or for a directional light at
+	/// most 3 m from the middle of the instance.
 	glm::dvec3 make_position(TestRandom &r_random) const {
 		if (light.type == LightType::DIRECTIONAL) {
 			return glm::dvec3(20, -3, 8) + 3.0 * r_random.next() * r_random.next_unit();
@@ -45,7 +46,7 @@ struct LightCase {
 	}
 };
 
-/// Largest component of r, signed, in the order +x -x +y -y +z -z.
+/// The cube face that a direction hits, in the order +x -x +y -y +z -z: its largest component.
 uint32_t find_face(const glm::dvec3 &p_r) {
 	const glm::dvec3 size = glm::abs(p_r);
 	const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -67,7 +68,7 @@ void check_case(KernelFixture &r_fixture, const LightCase &p_case) {
 				? -p_case.light.get_direction_world()
 				: glm::normalize(p_case.light.position_world - position);
 		if (glm::dot(normal, to_light) < 0.1) {
-			continue; // grazing planes change beyond float within one step
+			continue; // on grazing planes w changes too steeply for float
 		}
 		const glm::dvec3 tangent = glm::normalize(glm::cross(normal, random.next_unit()));
 		positions.push_back(position);
@@ -129,7 +130,7 @@ TEST_CASE("[GPU][Shaders] w is linear on a plane, and a receiver finds the view 
 	}
 }
 
-TEST_CASE("[GPU][Shaders] a point behind the view has w = 0, a plane through the light no slope") {
+TEST_CASE("[GPU][Shaders] a point behind the view has w = 0, a point without a normal no slope") {
 	KernelFixture fixture;
 	const LightCase light_case(LightType::SPOT);
 	const glm::dmat3 &axes = light_case.light.world_from_light;
@@ -145,7 +146,7 @@ TEST_CASE("[GPU][Shaders] a point behind the view has w = 0, a plane through the
 							relative(before), relative(before), glm::vec4(0.0f) },
 					2, 3);
 	CHECK(results[0].z == 0.0f);
-	CHECK(std::isfinite(results[1].z)); // on the light: what rounding makes of it, never NaN
+	CHECK(std::isfinite(results[1].z)); // at the light: any finite value, but never NaN
 	CHECK(results[3].z == doctest::Approx(1.0).epsilon(1e-5));
 	CHECK(glm::vec2(results[5]) == glm::vec2(0.0f)); // no normal: no slope
 }

@@ -8,7 +8,7 @@ using namespace gnomon;
 
 namespace {
 
-// What 16 bits a side give with plain rounding; 6.37e-5 was measured.
+// The error of 16 bits per coordinate with rounding to nearest. 6.37e-5 was measured.
 constexpr double MAX_ERROR_RAD = 6.5e-5;
 
 std::vector<glm::vec4> make_directions() {

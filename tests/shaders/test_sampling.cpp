@@ -4,7 +4,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[GPU][Sampling] the points of a disc are in it, evenly, and turn with the angle") {
+TEST_CASE("[GPU][Sampling] the points of a disc are in it, evenly, and rotate with the angle") {
 	KernelFixture fixture;
 	for (uint32_t count : { 4u, 16u, 64u, 256u }) {
 		CAPTURE(count);
@@ -22,10 +22,10 @@ TEST_CASE("[GPU][Sampling] the points of a disc are in it, evenly, and turn with
 			CHECK(glm::length(point) < 1.0);
 			mean += point / double(count);
 			mean_square += glm::dot(point, point) / count;
-			const glm::dvec2 turned(points[count + index]);
+			const glm::dvec2 rotated(points[count + index]);
 			const glm::dvec2 expected = { std::cos(1.0) * point.x - std::sin(1.0) * point.y,
 				std::sin(1.0) * point.x + std::cos(1.0) * point.y };
-			CHECK(glm::length(turned - expected) < 2e-4);
+			CHECK(glm::length(rotated - expected) < 2e-4);
 		}
 		CHECK(glm::length(mean) < 1.0 / std::sqrt(double(count)));
 		CHECK(mean_square == doctest::Approx(0.5)); // of the uniform disc
@@ -40,16 +40,17 @@ TEST_CASE("[GPU][Sampling] the noise of pixels fills 0 to 1 and differs between 
 	}
 	const auto values = fixture.run("sampling.comp", input, input.size(), 1);
 	std::vector<int> counts(8, 0);
-	double step = 0;
+	double mean_step = 0;
 	for (size_t pixel = 0; pixel < values.size(); ++pixel) {
 		const float value = values[pixel].z;
 		REQUIRE(value >= 0.0f);
 		REQUIRE(value < 1.0f);
 		++counts[size_t(value * 8)];
-		step += pixel > 0 ? std::abs(value - values[pixel - 1].z) / double(values.size()) : 0.0;
+		mean_step +=
+				pixel > 0 ? std::abs(value - values[pixel - 1].z) / double(values.size()) : 0.0;
 	}
 	for (int count : counts) {
 		CHECK(count > 400); // of 512 on average
 	}
-	CHECK(step > 0.2);
+	CHECK(mean_step > 0.2);
 }

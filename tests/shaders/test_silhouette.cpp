@@ -1,4 +1,4 @@
-// The silhouette edges that a geometry shader finds are those of the CPU, bit for bit.
+// Checks that the silhouette edges that a geometry shader finds are exactly those of the CPU.
 
 #include "modules/mesh_tools/silhouette.h"
 #include "modules/mesh_tools/tests/silhouette_edges.h"
@@ -15,13 +15,13 @@ using namespace gnomon;
 namespace {
 
 struct SilhouettePush {
-	glm::vec4 light_node;
+	glm::vec4 light_position_node;
 	glm::vec4 size_px;
 };
 
 struct GeometryShaderFixture : DeviceFixture {
-	/// Per face, bit i: its edge i is its own and a silhouette.
-	std::vector<uint32_t> run(const GpuTopology &p_gpu, const glm::vec4 &p_light_node) {
+	/// Returns a mask per face: bit i is set if the face owns its edge i and this is a silhouette.
+	std::vector<uint32_t> run(const GpuTopology &p_gpu, const glm::vec4 &p_light_position_node) {
 		const uint32_t face_count = p_gpu.topology->get_face_count();
 		const glm::uvec2 size_px(64, (face_count + 63) / 64);
 		const OwnedTexture target(*device,
@@ -49,7 +49,7 @@ struct GeometryShaderFixture : DeviceFixture {
 		commands.bind_pipeline(pipeline);
 		commands.bind_resources({ { 0, p_gpu.face_flags.get() } });
 		commands.push_constants(
-				SilhouettePush{ p_light_node, glm::vec4(glm::vec2(size_px), 0.0f, 0.0f) });
+				SilhouettePush{ p_light_position_node, glm::vec4(glm::vec2(size_px), 0.0f, 0.0f) });
 		const BufferRID positions = p_gpu.positions.get();
 		commands.bind_vertex_buffers({ &positions, 1 });
 		commands.bind_index_buffer(p_gpu.adjacency_indices.get());
@@ -62,7 +62,7 @@ struct GeometryShaderFixture : DeviceFixture {
 	}
 };
 
-/// The same from the CPU's list of edges.
+/// Builds the same masks from the CPU's list of edges.
 std::vector<uint32_t> build_expected(
 		const MeshTopology &p_topology, const std::vector<uint32_t> &p_edges) {
 	std::vector<uint32_t> found(p_topology.get_face_count(), 0);
@@ -97,9 +97,9 @@ TEST_CASE("[GPU][Silhouette] a geometry shader finds the CPU's edges on meshes o
 		const auto shared = make_mesh(name, mesh.positions_node, {}, mesh.indices);
 		GpuTopology gpu(shared);
 		gpu.upload(*fixture.device,
-				TopologyPart::POSITIONS | TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY);
+				TopologyBuffer::POSITIONS | TopologyBuffer::FACE_FLAGS | TopologyBuffer::ADJACENCY);
 		for (int repeat = 0; repeat < 12; ++repeat) {
-			// Points near and far, directions, and points in the planes of faces.
+			// Near and far point lights, directional lights, and lights in the planes of faces.
 			glm::vec4 light(glm::vec3(random.next_unit() * random.next(0.2, 20.0)), 1.0f);
 			light = repeat == 9	   ? glm::vec4(1, 1, 1, 0)
 					: repeat == 10 ? glm::vec4(0, 1, 0, 0)
@@ -117,7 +117,7 @@ TEST_CASE("[Silhouette] in general position float32 finds the edges that double 
 		CAPTURE(name);
 		const MeshTopology topology = build_topology(mesh);
 		if (topology.counts.zero_area_triangle_count > 0) {
-			continue; // a face on a line has no side; only closedness is promised there
+			continue; // degenerate faces have no facing: only a closed silhouette is guaranteed
 		}
 		for (int repeat = 0; repeat < 20; ++repeat) {
 			const glm::vec4 light(glm::vec3(random.next_unit() * random.next(4.0, 20.0)),

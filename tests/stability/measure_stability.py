@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Sweeps every technique into stiff and extreme cases and writes doc/stability.md's tables and curves.
+"""Sweeps every technique through extreme parameter values, and writes the tables and curves of doc/stability.md.
 
     measure_stability.py [--out DIR] [--resume] [--no-run] [--write]
 
---no-run takes the report that is in DIR. Without --write the tables are printed only. About 12 minutes on two cores;
-errors do not depend on what else the machine does. The curves are taken from the page by headless chromium.
+--resume continues a run that was stopped, --no-run uses the existing report in DIR. Without --write the tables are only
+printed. Takes about 12 minutes on two cores; errors do not depend on the machine's load. Headless chromium takes screenshots of the page's curves.
 """
 
 import argparse
@@ -24,6 +24,7 @@ from untuned_project import make_untuned_project  # noqa: E402
 
 PAGE = os.path.join(ROOT, "doc", "stability.md")
 TYPES = ("spot", "omni", "directional")
+# Marks of a point in tables, by its state (StabilityState).
 MARKS = {"ok": "", "doubled": " ×2", "nonsense": " !", "refused": " refused", "failed": " FAILED", "missing": "?"}
 
 
@@ -38,10 +39,12 @@ def run_report(options):
 
 
 def get_plots(report, light_type):
+    """Return the sweeps of a quantity, which have curves."""
     return [item for item in report["stability"] if item["light_type"] == light_type and not item["has_cases"]]
 
 
-def show_break(series):
+def describe_break(series):
+    """Describe the values beyond which a technique no longer holds its error limit in a sweep."""
     ends = [series[name] for name in ("break_before", "break_after") if name in series]
     if len(ends) == 2 and ends[0] == ends[1]:
         return "not at its centre"
@@ -63,7 +66,7 @@ def name_sweep(plot):
 
 
 def build_sweeps(report):
-    """Build the table of what is swept, from where to where."""
+    """Build the table of sweeps: quantity, values, centre and types of light."""
     rows = []
     for plot in get_plots(report, "spot"):
         labels = [point["label"] for point in plot["series"][0]["points"]]
@@ -77,12 +80,12 @@ def build_breaks(report, light_type):
     rows = []
     for technique in get_techniques(report):
         found = [find_series(plot, technique) for plot in plots]
-        rows.append(("`%s`" % technique, *(show_break(series) if series else "" for series in found)))
+        rows.append(("`%s`" % technique, *(describe_break(series) if series else "" for series in found)))
     return format_table(("technique", *(name_sweep(plot) for plot in plots)), rows)
 
 
 def build_errors(report):
-    """Error at the centre of each sweep, and the largest, spot light."""
+    """Build the table of the error at the centre of each sweep, and of the largest error, for spot lights."""
     rows = []
     for technique in get_techniques(report):
         row = ["`%s`" % technique]
@@ -96,7 +99,7 @@ def build_errors(report):
 
 
 def build_cases(report, sweep):
-    """MAE in the scenes of that sweep, which are no curve."""
+    """Build the tables of the MAE, one per light type, for a sweep over named cases (guards or scenes)."""
     lines = []
     for kind in TYPES:
         for plot in (item for item in report["stability"] if (item["sweep"], item["light_type"]) == (sweep, kind)):
@@ -112,7 +115,7 @@ def build_cases(report, sweep):
 
 
 def build_causes(report):
-    """Build the table of how often each technique breaks, and what the path in double gives as causes."""
+    """Build the table of how often each technique breaks, and of the causes found by the double-precision path."""
     rows = []
     points = [
         (series["technique"], point, report["cells"][point["cell"]].get("stability", {}))
@@ -156,14 +159,14 @@ def save_curves(report, folder):
 def main():
     parser = argparse.ArgumentParser(description="Measures the stability sweeps for doc/stability.md.")
     parser.add_argument("--out", default=os.path.join(ROOT, "demo_project", "out", "stability"), help="the report's folder")
-    parser.add_argument("--resume", action="store_true", help="goes on with a run that was stopped")
-    parser.add_argument("--no-run", action="store_true", help="takes the report that is there")
-    parser.add_argument("--write", action="store_true", help="writes doc/stability.md and its images")
+    parser.add_argument("--resume", action="store_true", help="continue a run that was stopped")
+    parser.add_argument("--no-run", action="store_true", help="use the existing report")
+    parser.add_argument("--write", action="store_true", help="write doc/stability.md and its images")
     options = parser.parse_args()
     path = os.path.join(options.out, "report.json")
     if not options.no_run:
         if os.path.exists(path):
-            os.remove(path)  # a run that ends without one must not leave the one before
+            os.remove(path)  # so that a failed run does not leave the old report
         run_report(options)
     with open(path, encoding="utf-8") as file:
         report = json.load(file)

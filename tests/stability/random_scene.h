@@ -10,40 +10,46 @@
 #include <string>
 #include <vector>
 
-// Scenes that change at random, for the soak test.
+// Scenes that change randomly, for the soak test.
 
 namespace gnomon {
 
+/// A seeded generator, so that a failed soak test can be repeated.
 struct Random {
 	std::mt19937 engine;
 	explicit Random(uint32_t p_seed) : engine(p_seed) {}
-	/// 0 to p_count - 1.
+	/// A random index from 0 to p_count - 1.
 	size_t choose(size_t p_count) {
 		return std::uniform_int_distribution<size_t>(0, p_count - 1)(engine);
 	}
-	double draw(double p_least, double p_greatest) {
-		return std::uniform_real_distribution<double>(p_least, p_greatest)(engine);
+	/// A random number in p_min..p_max.
+	double uniform(double p_min, double p_max) {
+		return std::uniform_real_distribution<double>(p_min, p_max)(engine);
 	}
-	bool chance(double p_share) { return draw(0, 1) < p_share; }
-	glm::dvec3 draw_position(double p_reach_m, double p_lowest_m, double p_highest_m) {
-		const double x = draw(-p_reach_m, p_reach_m);
-		const double y = draw(p_lowest_m, p_highest_m);
-		return { x, y, draw(-p_reach_m, p_reach_m) };
+	/// True with the given probability.
+	bool chance(double p_probability) { return uniform(0, 1) < p_probability; }
+	/// A random point in a box whose base is centred on the Y axis.
+	glm::dvec3 make_position(double p_half_width_m, double p_min_height_m, double p_max_height_m) {
+		const double x = uniform(-p_half_width_m, p_half_width_m);
+		const double y = uniform(p_min_height_m, p_max_height_m);
+		return { x, y, uniform(-p_half_width_m, p_half_width_m) };
 	}
 };
 
-/// A camera and nothing to see.
+/// A scene with a camera and nothing else.
 struct EmptyScene {
 	Scene scene;
 	Camera3D camera;
 	std::shared_ptr<const SceneSnapshot> snap() const { return build_snapshot(scene, camera); }
 };
 
-/// Starts as a box above the ground. Each change adds, moves, alters or removes something.
+/// Starts as a box above the ground. Each call of change() makes one to three changes, which add,
+/// move, alter or remove something.
 class RandomScene {
 public:
-	explicit RandomScene(Random &r_random) : random(r_random), scene(draw_type(), draw_scale()) {
-		make_cheap(*scene.light);
+	explicit RandomScene(Random &r_random) :
+			random(r_random), scene(random_type(), random_scale()) {
+		use_cheap_settings(*scene.light);
 	}
 
 	void change() {
@@ -94,13 +100,13 @@ private:
 	std::vector<MeshInstance3D *> casters() const {
 		return scene.scene.find_nodes<MeshInstance3D>();
 	}
-	LightType draw_type() { return static_cast<LightType>(random.choose(3)); }
-	double draw_scale() {
+	LightType random_type() { return static_cast<LightType>(random.choose(3)); }
+	double random_scale() {
 		scale = random.chance(0.7) ? 1.0 : random.chance(0.5) ? 1e-2 : 1e3;
 		return scale;
 	}
 
-	/// In the same order, however their modules were switched.
+	/// Sorted, so that the order does not depend on when modules were disabled and enabled.
 	static std::vector<std::string> list_techniques() {
 		std::set<std::string> ids;
 		for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
@@ -109,8 +115,9 @@ private:
 		return { ids.begin(), ids.end() };
 	}
 
-	/// Few rays, taps and texels: the test checks rules, not precision.
-	void make_cheap(Light3D &r_light) {
+	/// Sets a random technique with few rays, taps and texels: the test checks invariants, not
+	/// precision.
+	void use_cheap_settings(Light3D &r_light) {
 		for (const std::string &id : list_techniques()) {
 			for (const PropertyInfo &property :
 					ShadowRegistry::get_light_properties(id).get_properties()) {
@@ -124,11 +131,11 @@ private:
 				}
 			}
 		}
-		r_light.properties["shadow_technique"] = draw_technique();
+		r_light.properties["shadow_technique"] = random_technique();
 	}
 
-	/// Also none, and one that this build lacks.
-	std::string draw_technique() {
+	/// The id of a random technique, an empty id, or an id that this build lacks.
+	std::string random_technique() {
 		const std::vector<std::string> all = list_techniques();
 		const size_t index = random.choose(all.size() + 2);
 		return index < all.size() ? all[index] : index == all.size() ? "" : "of_another_build";
@@ -136,19 +143,19 @@ private:
 
 	void add_light() {
 		if (lights().size() < 4) {
-			Light3D &light = scene.add_light(text("Light ", ++made_count), draw_type(),
-					scale * random.draw_position(2, 1, 5), scale * random.draw_position(1, 0, 0.5),
+			Light3D &light = scene.add_light(text("Light ", ++made_count), random_type(),
+					scale * random.make_position(2, 1, 5), scale * random.make_position(1, 0, 0.5),
 					scale);
-			make_cheap(light);
+			use_cheap_settings(light);
 		}
 	}
 
 	void add_caster() {
 		if (casters().size() < 8) {
 			const glm::vec3 half_m(static_cast<float>(scale) *
-					glm::vec3(0.05 + random.draw(0, 0.4), 0.05 + random.draw(0, 0.4), 0.3f));
+					glm::vec3(0.05 + random.uniform(0, 0.4), 0.05 + random.uniform(0, 0.4), 0.3f));
 			add_mesh(scene.scene, text("Box ", ++made_count), make_box_mesh("box", half_m),
-					scale * random.draw_position(1.5, 0, 2));
+					scale * random.make_position(1.5, 0, 2));
 		}
 	}
 
@@ -169,7 +176,7 @@ private:
 		}
 		nodes.push_back(scene.camera);
 		Node3D &node = *nodes[random.choose(nodes.size())];
-		node.parent_from_node[3] += glm::dvec4(scale * random.draw_position(0.3, -0.2, 0.2), 0.0);
+		node.parent_from_node[3] += glm::dvec4(scale * random.make_position(0.3, -0.2, 0.2), 0.0);
 	}
 
 	void change_caster() {
@@ -179,11 +186,12 @@ private:
 		}
 		MeshInstance3D &caster = *all[random.choose(all.size())];
 		Material material;
-		material.scatter = random.chance(0.3) ? static_cast<float>(random.draw(0, 1)) : 0.0f;
-		material.scatter_distance_m = static_cast<float>(scale * random.draw(0, 0.3));
-		material.transmission = random.chance(0.2) ? static_cast<float>(random.draw(0, 1)) : 0.0f;
+		material.scatter = random.chance(0.3) ? static_cast<float>(random.uniform(0, 1)) : 0.0f;
+		material.scatter_distance_m = static_cast<float>(scale * random.uniform(0, 0.3));
+		material.transmission =
+				random.chance(0.2) ? static_cast<float>(random.uniform(0, 1)) : 0.0f;
 		material.is_double_sided = random.chance(0.3);
-		material.roughness = static_cast<float>(random.draw(0, 1));
+		material.roughness = static_cast<float>(random.uniform(0, 1));
 		caster.surfaces[0].material = std::make_shared<const Material>(material);
 		caster.casts_shadow = random.chance(0.9);
 		caster.is_planar_receiver = &caster == scene.ground && random.chance(0.7);
@@ -197,23 +205,23 @@ private:
 		Light3D &light = *all[random.choose(all.size())];
 		switch (random.choose(5)) {
 			case 0:
-				light.type = draw_type();
+				light.type = random_type();
 				break;
 			case 1:
 				light.properties["light_size"] =
-						random.chance(0.2) ? 0.0 : scale * random.draw(0, 1);
-				light.properties["light_angular_distance"] = random.draw(0, 30);
+						random.chance(0.2) ? 0.0 : scale * random.uniform(0, 1);
+				light.properties["light_angular_distance"] = random.uniform(0, 30);
 				break;
 			case 2:
 				light.properties["shadow_enabled"] = random.chance(0.8);
 				break;
 			case 3:
-				light.outer_cone_rad = static_cast<float>(random.draw(0.1, 1.5));
+				light.outer_cone_rad = static_cast<float>(random.uniform(0.1, 1.5));
 				light.range_m = random.chance(0.3) ? static_cast<float>(scale * 3) : 0.0f;
 				light.intensity = random.chance(0.1) ? 0.0f : 100.0f;
 				break;
 			default:
-				light.properties["shadow_technique"] = draw_technique();
+				light.properties["shadow_technique"] = random_technique();
 		}
 	}
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The soak test at length: thousands of frames of scenes that change at random.
+"""Runs the soak test (test_soak.cpp) over thousands of frames of randomly changing scenes.
 
     run_soak.py PROGRAM [--frames N] [--seed N]
 
@@ -17,7 +17,7 @@ import time
 
 FRAME_LIMIT_S = 60
 TEST = "*[Soak]*"
-MOST_BLOCKS = 10  # each may have a frame less, three times
+MAX_MISSING_TRIPLES = 10  # the test draws every frame three times, so it rounds the number of frames down to a multiple of three
 
 
 def follow(stream, lines):
@@ -53,14 +53,14 @@ def run(program, frame_count, seed):
                 print(line, flush=True)
     code = process.wait()
     print("%d frames of seed %d in %.0f s" % (drawn_count, seed, time.monotonic() - begin))
-    if code != 0 or not has_run or drawn_count < frame_count - 3 * MOST_BLOCKS:
+    if code != 0 or not has_run or drawn_count < frame_count - 3 * MAX_MISSING_TRIPLES:
         print("FAILED: the test ended with %d after %d of %d frames of seed %d" % (code, drawn_count, frame_count, seed))
         return False
     return True
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Runs the soak test at length.")
+    parser = argparse.ArgumentParser(description="Runs the soak test over many frames.")
     parser.add_argument("program")
     parser.add_argument("--frames", type=int, default=10000)
     parser.add_argument("--seed", type=int, default=20100901)

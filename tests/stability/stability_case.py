@@ -1,4 +1,4 @@
-"""What the tests of stability share: one report, and its points."""
+"""Base class of the stability tests: runs one report and lists its points."""
 
 import json
 import os
@@ -17,7 +17,7 @@ def run_program(*arguments):
 
 
 def find_techniques(quick):
-    """Ids to be swept: all but the reference and, unless IS_FULL, only those that are named."""
+    """Return the ids to sweep. IS_FULL: all but the reference and the template. Otherwise those of `quick` that this build has."""
     listed = json.loads(run_program("techniques", "--json").stdout)
     ids = [item["id"] for item in listed if not item["is_reference"] and item["id"] != "template"]
     return ids if IS_FULL else [name for name in quick if name in ids]
@@ -36,6 +36,7 @@ class StabilityCase(unittest.TestCase):
 
     @classmethod
     def measure(cls, project, samples, *arguments):
+        """Run a report. Set cls.status to its exit code, cls.errors to its stderr, and cls.report and cls.points."""
         out = os.path.join(cls.holder.name, "report")
         result = run_program(
             "report", project, "--sizes", "0.2", "--size", "32x32", "--samples", str(samples), "--scaling", "none",

@@ -1,4 +1,4 @@
-"""Shadow volumes of meshes as users bring them: the mask against exact rays, R = 0."""
+"""Shadow volumes of meshes as users bring them: masks for R = 0 are compared with exact rays."""
 
 import json
 import os
@@ -11,8 +11,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from make_large_meshes import MESHES, ROOT, fetch_packages, make_scene  # noqa: E402
 
 GNOMON = os.path.abspath(os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon")))
-MOST_WRONG = 0.0005  # of the receivers
-WAYS = {
+MAX_WRONG_FRACTION = 0.0005  # of the receivers
+METHODS = {
     "compute": ("shadow_volume", "technique.shadow_volume.extrusion=compute"),
     "geometry shader": ("shadow_volume", "technique.shadow_volume.extrusion=geometry_shader"),
     "z-fail": ("shadow_volume", "technique.shadow_volume.method=z_fail"),
@@ -28,8 +28,8 @@ def run(*arguments):
 
 
 def render(scene, out, technique, *settings):
-    words = [word for setting in ("light_size=0", *settings) for word in ("--set", setting)]
-    return run("visibility", scene, "--technique", technique, "--size", "400x400", "--plan", "--out", out, *words)
+    arguments = [word for setting in ("light_size=0", *settings) for word in ("--set", setting)]
+    return run("visibility", scene, "--technique", technique, "--size", "400x400", "--plan", "--out", out, *arguments)
 
 
 class LargeMeshes(unittest.TestCase):
@@ -47,15 +47,15 @@ class LargeMeshes(unittest.TestCase):
         scene = make_scene(name, self.folder)
         reference, mask = os.path.join(self.folder, "reference.exr"), os.path.join(self.folder, "mask.exr")
         render(scene, reference, "reference", "reference_samples=1")
-        for way, (technique, *settings) in WAYS.items():
-            with self.subTest(mesh=name, way=way):
+        for method_name, (technique, *settings) in METHODS.items():
+            with self.subTest(mesh=name, method_name=method_name):
                 plan = render(scene, mask, technique, *settings)
                 self.assertIn("robust volumes, casters: 1: runs", plan)
                 found = json.loads(run("compare", reference, mask))
                 wrong = round(found["receiver"]["mae"] * found["pixels"])
-                print("%s, %s: %d of %d receivers differ from rays" % (name, way, wrong, found["pixels"]))
+                print("%s, %s: %d of %d receivers differ from rays" % (name, method_name, wrong, found["pixels"]))
                 self.assertGreater(found["pixels"], 50000)
-                self.assertLessEqual(wrong, MOST_WRONG * found["pixels"])
+                self.assertLessEqual(wrong, MAX_WRONG_FRACTION * found["pixels"])
 
 
 def add_test(name):

@@ -1,8 +1,9 @@
-// Frames of scenes that change at random, again and again: nothing grows, nothing breaks. 150
-// frames unless GNOMON_SOAK_FRAMES is set; GNOMON_SOAK_SEED sets the seed. See run_soak.py.
+// Soak test: draws frames of randomly changing scenes and checks that masks are valid and nothing
+// leaks. Draws 150 frames unless GNOMON_SOAK_FRAMES is set. GNOMON_SOAK_SEED sets the seed. See
+// run_soak.py.
 //
-// Each block of frames is drawn three times. Only what the process grows by the third time is a
-// leak of ours: Mesa's software driver compiles shaders for each new use of them and keeps them.
+// Each block of frames is drawn three times. Only growth of the process in the third run counts as
+// a leak of Gnomon, because Mesa's software driver compiles and keeps shaders for each new use.
 
 #include "modules/core/error.h"
 #include "modules/core/module_registry.h"
@@ -24,8 +25,8 @@ using namespace gnomon;
 namespace {
 
 const uint32_t FRAMES_PER_SCENE = 25;
-const uint32_t MOST_BLOCK_FRAMES = 500; // before they are repeated
-const uint32_t CLOSING_FRAME_COUNT = 4; // the pool of transients knows the last three
+const uint32_t MAX_BLOCK_FRAMES = 500;	// different frames of a block, which is then repeated
+const uint32_t CLOSING_FRAME_COUNT = 4; // the transient pool caches three frame layouts
 const double FRAME_LIMIT_S = 60;
 const uint64_t MIB = 1 << 20;
 const uint32_t REPEAT_COUNT = 3;
@@ -34,7 +35,7 @@ const bool IS_SANITIZED = true;
 #else
 const bool IS_SANITIZED = false;
 #endif
-const uint64_t MOST_GROWTH_BYTES = 12 * MIB; // of the process, the third time
+const uint64_t MAX_GROWTH_BYTES = 12 * MIB; // of the process in the third run
 
 uint32_t get_number(const char *p_variable, uint32_t p_default) {
 	const char *value = std::getenv(p_variable);
@@ -61,16 +62,17 @@ uint64_t read_resident_bytes() {
 	return resident * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// What is left behind a scene that was closed.
-struct Rest {
+/// The resources that are alive after a scene has ended.
+struct LiveResources {
 	uint64_t used_bytes = 0;
 	std::vector<std::string> resources; // sorted
 };
 
-/// What there is more and less of than before; empty: all is as it was.
-std::string describe_difference(const Rest &p_before, const Rest &p_now) {
+/// Describes which resources were added and removed. Empty if nothing changed.
+std::string describe_difference(const LiveResources &p_before, const LiveResources &p_now) {
 	std::string difference;
-	const auto add = [&](const char *p_what, const Rest &p_first, const Rest &p_second) {
+	const auto add = [&](const char *p_what, const LiveResources &p_first,
+							 const LiveResources &p_second) {
 		std::vector<std::string> names;
 		std::set_difference(p_first.resources.begin(), p_first.resources.end(),
 				p_second.resources.begin(), p_second.resources.end(), std::back_inserter(names));
@@ -93,9 +95,9 @@ public:
 		options.validation = true;
 		options.wait_limit_s = FRAME_LIMIT_S;
 		device = create_rendering_device(options);
-		bare = measure();
+		device_resources = measure();
 		renderer = std::make_unique<Renderer>(*device);
-		closed = close();
+		closed_resources = close();
 	}
 	~Soak() {
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
@@ -107,7 +109,7 @@ public:
 
 	void run(uint32_t p_frame_count) {
 		const uint32_t different_count = std::max(p_frame_count / REPEAT_COUNT, 1u);
-		const uint32_t block_count = (different_count + MOST_BLOCK_FRAMES - 1) / MOST_BLOCK_FRAMES;
+		const uint32_t block_count = (different_count + MAX_BLOCK_FRAMES - 1) / MAX_BLOCK_FRAMES;
 		for (uint32_t block = 0; block < block_count; ++block) {
 			CAPTURE(block);
 			const uint32_t begin = different_count * block / block_count;
@@ -117,8 +119,8 @@ public:
 			const uint64_t before = read_resident_bytes();
 			run_block(seed + block, end - begin);
 			const uint64_t after = read_resident_bytes();
-			// Sanitizers keep what is freed.
-			CHECK((after <= before + MOST_GROWTH_BYTES || IS_SANITIZED));
+			// Sanitizers keep freed memory.
+			CHECK((after <= before + MAX_GROWTH_BYTES || IS_SANITIZED));
 			if (prints_progress) {
 				std::printf("block %u: %llu MiB resident, then %llu; %u pipelines\n", block,
 						static_cast<unsigned long long>(before / MIB),
@@ -126,7 +128,7 @@ public:
 			}
 		}
 		renderer.reset();
-		CHECK(describe_difference(bare, measure()) == "");
+		CHECK(describe_difference(device_resources, measure()) == "");
 	}
 
 private:
@@ -146,7 +148,7 @@ private:
 			draw();
 			CHECK(get_validation_message_count() == message_count);
 			if (prints_progress) {
-				std::printf("frame %u\n", frame); // the runner waits for it
+				std::printf("frame %u\n", frame); // run_soak.py waits for this line
 				std::fflush(stdout);
 			}
 		}
@@ -155,16 +157,16 @@ private:
 
 	void close_scene() {
 		scene.reset();
-		CHECK(describe_difference(closed, close()) == "");
+		CHECK(describe_difference(closed_resources, close()) == "");
 	}
 
-	Rest measure() {
+	LiveResources measure() {
 		device->wait_idle();
 		return { device->get_memory_use().used_bytes, list_live_resources(*device) };
 	}
 
-	/// Draws nothing until nothing is left of the scene before, all modules being on.
-	Rest close() {
+	/// Enables all modules, then draws empty frames until the previous scene's resources are freed.
+	LiveResources close() {
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 			if (!module.is_enabled) {
 				ModuleRegistry::set_enabled(module.name, true);
@@ -173,7 +175,7 @@ private:
 		for (uint32_t index = 0; index < CLOSING_FRAME_COUNT; ++index) {
 			RenderRequest request;
 			request.scene = empty.snap();
-			request.size_px = glm::uvec2(16 + index); // another shape each time
+			request.size_px = glm::uvec2(16 + index); // another layout each time
 			renderer->render(request);
 		}
 		return measure();
@@ -216,7 +218,7 @@ private:
 			}
 		}
 		if (request.wants_image) {
-			// What was no number is black in it, behind a lit sky as well.
+			// NaN values are written as black, so only the size is checked.
 			CHECK(result.image.size() == size_t(4) * request.size_px.x * request.size_px.y);
 		}
 	}
@@ -224,14 +226,14 @@ private:
 	const bool prints_progress = std::getenv("GNOMON_SOAK_FRAMES") != nullptr;
 	const uint32_t seed;
 	Random random;
-	CaughtLog log; // fallbacks and the reference report what they do
+	CaughtLog log; // catches the messages of fallbacks and of the reference
 	TemporaryCache cache;
 	EmptyScene empty;
 	std::unique_ptr<RenderingDevice> device;
 	std::unique_ptr<Renderer> renderer;
 	std::unique_ptr<RandomScene> scene;
-	Rest bare; // of the device alone
-	Rest closed;
+	LiveResources device_resources; // of the device alone
+	LiveResources closed_resources;
 	const unsigned message_count = get_validation_message_count();
 };
 

@@ -1,6 +1,6 @@
-"""Stiff and extreme cases: no technique fails, nonsense is warned of, and edge_count holds its error.
+"""Extreme parameter values: no technique fails, nonsense results come with a warning, and edge_count keeps its error limits.
 
-STABILITY_EXTENT=full sweeps all techniques over all values; else some of them over the ends and centres.
+STABILITY_EXTENT=full sweeps all techniques over all values. Otherwise some techniques are swept over ends and centres.
 """
 
 import os
@@ -12,14 +12,14 @@ from stability_case import IS_FULL, ROOT, StabilityCase, find_techniques  # noqa
 
 SCENE = os.path.join(ROOT, "demo_project", "scenes", "sphere.gltf")
 QUICK_TECHNIQUES = ("shadow_map", "pcss", "outer_fins", "edge_count")
-# Nonsense by what the technique is, not by a light beyond its limits.
+# Techniques whose result is nonsense by design in these sweeps (None: all), although the light is within their limits.
 BY_DESIGN = {
-    "planar": None,  # shadows on declared receivers alone, of what is in front of their plane
+    "planar": None,  # it shadows only declared receivers, and only from casters in front of their plane
     "edge_count": ("fin_width",),  # r and t are the size of its light: it draws the light that they imply
 }
-HELD_SWEEPS = {"light_size": 0.75, "scale": 1e3, "offset": 1e6}  # up to which values edge_count must hold
-LEAST_MAE = 1.0 / 256  # smaller ones no image shows
-MOST_CHANGE = 0.003  # error of edge_count's change from frame to frame, while the light moves by 0.001 R
+SWEEP_LIMITS = {"light_size": 0.75, "scale": 1e3, "offset": 1e6}  # sweep -> value up to which edge_count must keep its error limit
+MIN_MAE = 1.0 / 256  # smaller errors are invisible in an 8-bit image
+MAX_CHANGE = 0.003  # error of edge_count's change from frame to frame, while the light moves by 0.001 R
 # The light's centre is exactly a vertex of a caster: see "Known failures" of edge_count.
 VERTEX_LIGHTS = ("light at a caster's corner",)
 
@@ -59,13 +59,13 @@ class Stability(StabilityCase):
                 cell = self.report["cells"][point["cell"]]
                 moved = cell["stability"].get("temporal_rmse")
                 with self.subTest(sweep=plot["sweep"], light=plot["light_type"], value=point["label"]):
-                    if plot["sweep"] in HELD_SWEEPS and point["value"] <= HELD_SWEEPS[plot["sweep"]]:
+                    if plot["sweep"] in SWEEP_LIMITS and point["value"] <= SWEEP_LIMITS[plot["sweep"]]:
                         center = next(item for item in series["points"] if item["label"] == plot["center"])
                         reference = self.report["configurations"][cell["configuration"]]["reference_mask"]
-                        allowed = max(2 * center["mae"], LEAST_MAE) + 2 * reference["standard_error"]
+                        allowed = max(2 * center["mae"], MIN_MAE) + 2 * reference["standard_error"]
                         self.assertLessEqual(point["mae"], allowed)
                     if moved is not None and point["label"] not in VERTEX_LIGHTS:
-                        self.assertLessEqual(moved, MOST_CHANGE)
+                        self.assertLessEqual(moved, MAX_CHANGE)
 
     def test_a_caster_in_the_light_does_not_double_the_error_of_edge_count(self):
         states = [

@@ -1,6 +1,6 @@
-"""Merged, open, doubled and foreign meshes: every technique draws them with each type of light, and none fails.
+"""Merged, open, doubled and third-party meshes: every technique draws them with each type of light, and none fails.
 
-STABILITY_EXTENT=full takes all scenes, those of a second seed, and all techniques; else some of them.
+STABILITY_EXTENT=full takes all scenes, those of a second seed, and all techniques. Otherwise some of them are taken.
 """
 
 import json
@@ -19,10 +19,11 @@ QUICK_TECHNIQUES = ("shadow_map", "pcss", "shadow_volume", "edge_count")
 # Techniques for area lights have a penumbra MAE of 0.03 to 0.13 on these scenes; a hard shadow has 0.18 to 0.3, and so
 # have masks that lack parts of the mesh.
 SOFT_TECHNIQUES = ("pcss", "views")
-MOST_SOFT_MAE = 0.16
-# Share of the receivers that are fully lit or dark in the reference and wrong by more than a half; shadow volumes are exact there.
+MAX_SOFT_MAE = 0.16
+# Receivers that are fully lit or hidden in the reference and wrong by more than 0.5, as a fraction of all receivers. Shadow
+# volumes are exact there.
 EXACT_TECHNIQUES = ("shadow_volume", "shadow_volume_cpu")
-MOST_WRONG_SHARE = 0.001
+MAX_WRONG_FRACTION = 0.001
 
 
 class UntunedMeshes(StabilityCase):
@@ -37,7 +38,7 @@ class UntunedMeshes(StabilityCase):
         cls.ids = find_techniques(QUICK_TECHNIQUES)
         cls.measure(project, 256, "--sweeps", "scenes", "--techniques", ",".join(cls.ids))
 
-    def test_every_mesh_is_there(self):
+    def test_every_package_mesh_is_converted(self):
         self.assertEqual(self.failed, [])
 
     def test_every_technique_draws_every_scene_with_every_light(self):
@@ -55,16 +56,16 @@ class UntunedMeshes(StabilityCase):
         for _, light, technique, point, _ in self.points:
             if technique in SOFT_TECHNIQUES:
                 with self.subTest(technique=technique, scene=point["label"], light=light):
-                    self.assertLess(point["mae"], MOST_SOFT_MAE)
+                    self.assertLess(point["mae"], MAX_SOFT_MAE)
 
     def test_shadow_volumes_are_exact_outside_penumbrae(self):
         for _, light, technique, point, cell in self.points:
             if technique in EXACT_TECHNIQUES:
                 with self.subTest(technique=technique, scene=point["label"], light=light):
-                    self.assertLess(cell["stability"]["wrong_share"], MOST_WRONG_SHARE)
+                    self.assertLess(cell["stability"]["wrong_share"], MAX_WRONG_FRACTION)
 
-    def test_edge_count_is_exact_among_a_thousand_ropes(self):
-        # So many edges over a tile of pixels that its lists would exceed the iterations of llvmpipe's loops.
+    def test_edge_count_has_no_wrong_receivers_among_a_thousand_ropes(self):
+        # A tile of pixels has so many edges that its lists would exceed llvmpipe's limit of loop iterations.
         folder = os.path.join(self.holder.name, "ropes")
         os.mkdir(folder)
         scene = save_artist_scene("rigging", DEFAULT_SEED, ROPE_COUNT, "rigging", folder)

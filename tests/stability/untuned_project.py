@@ -1,4 +1,6 @@
-"""A project whose report draws merged, open, doubled and foreign meshes in its stability sweep "scenes"."""
+"""A project whose report draws merged, open, doubled and third-party meshes in its stability sweep "scenes".
+
+Untuned meshes are held-out test scenes: no technique was tuned with them."""
 
 import contextlib
 import io
@@ -20,13 +22,13 @@ PACKAGE_MESHES = tuple(make_package_meshes.MESHES)
 
 
 def save_artist_scene(name, seed, count, stem, folder):
-    """The path. count: of parts; None: the scene's own."""
+    """Write a generated scene and return its path. count: number of parts, or None for the scene's default."""
     gltf_writer.save_files(make_artist_scenes.build_scene(name, seed, count).build_files(stem), folder)
     return os.path.join(folder, stem + ".gltf")
 
 
 def make_untuned_project(folder, seeds=(DEFAULT_SEED,), package_meshes=PACKAGE_MESHES):
-    """Names of the scenes that are written, and of the package meshes that could not be; those are named on stderr."""
+    """Write the project. Return (names of its scenes, package meshes that could not be converted, which stderr names too)."""
     for kind in (".gltf", ".bin"):
         shutil.copy(os.path.join(SCENES, "sphere" + kind), folder)  # a report times at least one scene
     names = []

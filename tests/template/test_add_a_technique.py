@@ -21,12 +21,12 @@ import test_removal  # noqa: E402
 
 
 def find_commands(text):
-    """The page's ```sh blocks, in order, as one script."""
+    """Return the page's ```sh blocks, in order, as one script."""
     return "\n".join(re.findall(r"(?ms)^```sh\n(.*?)^```$", text))
 
 
 def find_copy(commands):
-    """Return (module that the page copies, module that it makes, id of that)."""
+    """Return (module that the page copies, module that it makes, id of the new technique)."""
     old_module, new_module, new_id = re.search(r"cp -r modules/(\w+) modules/(shadow_(\w+))", commands).groups()
     return old_module, new_module, new_id
 
@@ -67,7 +67,7 @@ class AddATechniqueTest(unittest.TestCase):
         return next(item for item in listed if item["id"] == technique_id)
 
     def save_mask(self, technique_id, name, *settings):
-        """Path of the mask and the finished process."""
+        """Compute a mask. Return (its path, finished process)."""
         file_name = os.path.join("build", name)
         options = [word for setting in settings for word in ("--set", setting)]
         command = ("bin/gnomon", "visibility", SCENE, "--technique", technique_id, "--out", file_name)

@@ -2,7 +2,7 @@ class_name Room
 extends Node3D
 ## A room with eight lights, each with a GnomonShadow3D. Four lights and five things move.
 
-## Off: it stays at the time last shown.
+## False: the room stays at the time that was shown last.
 @export var is_moving := true
 
 var _time_s := 0.0
@@ -25,7 +25,7 @@ func _process(delta: float) -> void:
 		show_time(_time_s + delta)
 
 
-## Puts everything where it is at that time, in seconds.
+## Moves everything to where it is at a time in seconds.
 func show_time(time_s: float) -> void:
 	_time_s = time_s
 	_pendant.rotation.z = 0.22 * sin(1.9 * time_s)
@@ -39,14 +39,14 @@ func show_time(time_s: float) -> void:
 	_track_light.rotation.y = 0.25 * sin(0.7 * time_s) - 0.45
 
 
-## All lights, in the order of the scene.
+## Returns all lights, in the order of the scene.
 func get_lights() -> Array[Light3D]:
 	var lights: Array[Light3D] = []
 	lights.assign(find_children("*", "Light3D"))
 	return lights
 
 
-## Whether the noise of its textures is there, which other threads make.
+## Whether the noise textures, which Godot generates on other threads, are complete.
 func has_textures() -> bool:
 	for node: MeshInstance3D in find_children("*", "MeshInstance3D"):
 		var material := node.material_override as BaseMaterial3D

@@ -4,7 +4,8 @@ extends RefCounted
 const WARM_UP_FRAMES := 10
 
 
-## The median of `count` frames' milliseconds, after a warm-up; `move` is called with each frame's number before it is drawn.
+## Returns the median time of `count` frames in milliseconds, after WARM_UP_FRAMES. `move` is called with the frame's number
+## before each frame.
 static func measure(count: int, move: Callable) -> float:
 	var samples: Array[float] = []
 	var before := 0

@@ -1,8 +1,8 @@
 @tool
 class_name GltfExport
 extends RefCounted
-## Writes a scene as glTF that `gnomon` reads: Godot's own export, and in extras what glTF has no word for: lights' sizes, and
-## who casts no shadow.
+## Writes a scene as glTF that `gnomon` reads: Godot's own export, with extras for what glTF lacks: the sizes of lights, and
+## whether a mesh casts shadows.
 
 
 static func save(root: Node, path: String) -> Error:
@@ -21,13 +21,14 @@ static func save(root: Node, path: String) -> Error:
 	return OK
 
 
-## Its transform is what Godot itself draws with: Godot's export rounds a basis to a quaternion, and an angle is no projection.
+## Writes the transform, and for cameras the field of view, with which Godot itself draws. Godot's export rounds a basis to a
+## quaternion, and its field of view does not give exactly the same projection.
 static func _describe_node(gltf: Dictionary, described: Dictionary, node: Node3D) -> void:
 	if node == null:
 		return
 	for part: String in ["translation", "rotation", "scale"]:
 		described.erase(part)
-	var basis := node.basis.orthonormalized() if node is Light3D else node.basis  # as Godot places lights
+	var basis := node.basis.orthonormalized() if node is Light3D else node.basis  # Godot ignores the scale of lights
 	var columns: Array[Vector3] = [basis.x, basis.y, basis.z, node.position]
 	var matrix: Array[float] = []
 	for index in 4:

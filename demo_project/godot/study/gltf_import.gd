@@ -1,7 +1,7 @@
 class_name GltfImport
 extends RefCounted
-## Loads glTF files of `gnomon` while the project runs: their lights get the sizes that their extras define, and a
-## GnomonShadow3D each.
+## Loads glTF files of `gnomon` while the project runs. Their lights get the size that their extras define, and a
+## GnomonShadow3D.
 
 
 static func load_scene(path: String) -> Node3D:
@@ -19,7 +19,7 @@ static func load_scene(path: String) -> Node3D:
 	return root
 
 
-## Poses the scene, in the tree, as its one animation has it at that time, and holds it there.
+## Poses the scene, which must be in the tree, with its only animation at a time in seconds, and pauses it there.
 static func show_time(root: Node3D, seconds: float) -> void:
 	var player: AnimationPlayer = root.find_children("*", "AnimationPlayer", true, false)[0]
 	player.play(player.get_animation_list()[0])
@@ -27,8 +27,8 @@ static func show_time(root: Node3D, seconds: float) -> void:
 	player.pause()
 
 
-## Mip levels, which GLTFDocument does not make: without them Godot draws other pixels of leaves than `gnomon`.
-## And names of the file's own: GLTFDocument numbers textures, and an export to the same folder overwrites those of its name.
+## Adds mip levels to textures, which GLTFDocument does not do. Without them Godot cuts out other pixels of leaves than `gnomon`.
+## Also makes the names of textures unique. GLTFDocument numbers them, so exports to one folder would overwrite each other's.
 static func _finish_textures(root: Node3D, stem: String) -> void:
 	var finished: Array[ImageTexture] = []
 	for node: MeshInstance3D in root.find_children("*", "MeshInstance3D", true, false):

@@ -1,6 +1,6 @@
 class_name MaskReader
 extends RefCounted
-## Waits for the mask of a GnomonShadow3D that one view shows.
+## Reads the mask of a GnomonShadow3D that is visible in exactly one view.
 
 var camera: Transform3D
 var _shadow: Node3D
@@ -11,15 +11,15 @@ func _init(shadow: Node3D) -> void:
 	_shadow = shadow
 
 
-## Of a frame that is drawn from now on.
+## Returns the mask of a frame that is drawn after the call, and sets `camera` to that frame's camera.
 func read() -> Image:
 	_mask = null
-	_shadow.read_masks(_keep)
+	_shadow.read_masks(_on_mask_read)
 	while _mask == null:
 		await RenderingServer.frame_post_draw
 	return _mask
 
 
-func _keep(mask: Image, from: Transform3D) -> void:
+func _on_mask_read(mask: Image, from: Transform3D) -> void:
 	_mask = mask
 	camera = from

@@ -1,9 +1,10 @@
 extends Node
 ## Measures images with Gnomon's shadows and with Godot's own in the study scenes, and in glTF files that `gnomon` reads:
 ##   godot --path demo_project/godot res://study/measure.tscn -- out=DIR size=800 frames=20 cases=omni_box scenes=A.gltf,B.gltf
-## Of each light and caster, or file and light, CASE_MODE.f32, the share of the light that the shadow leaves (image with shadow /
-## image without; -1 where the light does not shine), with mode gnomon, and low and ultra for Godot's own; CASE.gltf, and in
-## cases.json the light's name and the milliseconds of a frame in which it moves (medians), by mode.
+## A case is a light and a caster, or a file and one of its lights. Modes are gnomon, and low and ultra for Godot's own shadows.
+##   CASE_MODE.f32  image with shadow / image without, float32, rows from the top; -1 where the light does not shine
+##   CASE.gltf      the scene
+##   cases.json     of each case the light's name, and for each mode the median frame time in ms while the light moves
 
 var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20", "cases": "", "scenes": "", "technique": "edge_count"})
 var _cases := {}
@@ -32,7 +33,7 @@ func _measure_study(case: String, scene: StudyScene) -> void:
 	await _remove(scene)
 
 
-## Each light of a file, alone.
+## Measures each light of a file alone.
 func _measure_file(path: String) -> void:
 	var scene := GltfImport.load_scene(path)
 	scene.add_child(StudyScene.make_darkness())
@@ -44,7 +45,7 @@ func _measure_file(path: String) -> void:
 		var case := "%s_%s" % [path.get_file().get_basename(), shown.name]
 		await _measure(case, shown)
 		for light: Light3D in lights:
-			light.visible = true  # `gnomon` reads no files with hidden nodes
+			light.visible = true  # `gnomon` does not read files with hidden nodes
 		GltfExport.save(scene, _options.path(case + ".gltf"))
 	await _remove(scene)
 
@@ -72,7 +73,7 @@ func _measure(case: String, light: Light3D) -> void:
 	_cases[case] = {"light": light.name, "times": times}
 
 
-## The median of a frame's milliseconds.
+## Returns the median time in milliseconds of a frame in which the light moves.
 func _time_moving(light: Light3D) -> float:
 	var original := light.transform
 	var time := await FrameTimes.measure(int(_options.text("frames")), func(frame: int) -> void:

@@ -2,13 +2,13 @@ extends Node
 ## Measures room/room.tscn with Gnomon's shadows and with Godot's own:
 ##   godot --path demo_project/godot res://study/measure_room.tscn -- out=DIR size=800 frames=20
 ## Images at one time, float32 RGB, linear, rows from the top: room_MODE.f32 with all lights (off: without shadows),
-## room_dark.f32 without lights, room_only_LIGHT.f32 with one light and no shadow. room.gltf is the scene at that time, and
-## room.json has the lights' names and the milliseconds of a frame in which everything moves (medians), by number of lights
-## and mode.
+## room_dark.f32 without lights, room_only_LIGHT.f32 with one light and no shadow. room.gltf is the scene at that time.
+## room.json has the lights' names, and by number of lights and mode the median time in milliseconds of a frame in which
+## everything moves.
 
 const TIME_S := 2.0
 const STEP_S := 1.0 / 30.0
-const MOST_FRAMES_OF_TEXTURES := 600
+const MAX_TEXTURE_FRAMES := 600
 
 var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20"})
 var _room: Room
@@ -36,13 +36,13 @@ func _ready() -> void:
 		await _store("only_" + light.name)
 		names.append(light.name)
 	_show(lights, lights)
-	ShadowModes.apply(lights, "gnomon")  # all nodes are visible
+	ShadowModes.apply(lights, "gnomon")  # makes all nodes visible, as the export needs
 	GltfExport.save(_room, _options.path("room.gltf"))
 	_options.store_text("room.json", JSON.stringify({"lights": names, "times": times}, "\t"))
 	get_tree().quit()
 
 
-## Times of each mode with the first lights of the room; with all of them, also images.
+## Measures the frame times of each mode with the first `count` lights. With all lights it also stores images.
 func _measure(lights: Array[Light3D], count: int) -> Dictionary:
 	_show(lights, lights.slice(0, count))
 	var times := {}
@@ -60,13 +60,13 @@ func _show(lights: Array[Light3D], shown: Array[Light3D]) -> void:
 		light.visible = light in shown
 
 
-## Textures of noise are made on other threads.
+## Waits for the noise textures, which Godot generates on other threads.
 func _wait_for_textures() -> void:
-	for frame in MOST_FRAMES_OF_TEXTURES:
+	for frame in MAX_TEXTURE_FRAMES:
 		await RenderingServer.frame_post_draw
 		if _room.has_textures():
 			return
-	printerr("ERROR: the room's textures were not made in %d frames." % MOST_FRAMES_OF_TEXTURES)
+	printerr("ERROR: the room's textures were not made in %d frames." % MAX_TEXTURE_FRAMES)
 
 
 func _store(what: String) -> void:

@@ -1,11 +1,14 @@
 extends Node
-## Renders study cases and stores what came out, for measurements outside:
+## Renders cases and stores their masks and scenes, which tests compare with those of `gnomon`:
 ##   godot --path demo_project/godot res://study/runner.tscn -- out=DIR size=800 cases=omni/box/edge_count,...
-## Of each case: LIGHT_CASTER_TECHNIQUE.f32, the mask (float32, rows from the top, -1: no receiver), and once for each
-## light and caster the scene as LIGHT_CASTER.gltf. imported/Spot/TECHNIQUE is a light of three_lights.tscn, and
-## PATH.gltf/LIGHT/TECHNIQUE a light of a glTF file, whose results are named after the file; LIGHT@SECONDS is one at that time
-## of the file's animation. Without cases: all, with file_lights=PATH.gltf/LIGHT,... those lights of glTF files, and
-## cut_out_lights, alike, with a technique that draws maps too.
+## A case is one of these:
+##   LIGHT/CASTER/TECHNIQUE     a light and a caster of StudyScene
+##   imported/LIGHT/TECHNIQUE   a light of three_lights.tscn
+##   PATH.gltf/LIGHT/TECHNIQUE  a light of a glTF file; LIGHT@SECONDS poses the file's animation at that time
+## It stores the mask LIGHT_CASTER_TECHNIQUE.f32 (float32, rows from the top, -1: no receiver) and the scene LIGHT_CASTER.gltf.
+## Instead of LIGHT_CASTER, names begin with imported_LIGHT or FILE_LIGHT. Posed scenes are not stored.
+## Without cases= it renders all cases of StudyScene and three_lights.tscn, the lights file_lights=PATH.gltf/LIGHT,... with
+## edge_count, and the lights cut_out_lights=PATH.gltf/LIGHT,... with each of CUT_OUT_TECHNIQUES.
 
 const IMPORTED := "imported"
 const IMPORTED_LIGHTS: Array[String] = ["Spot", "Omni", "Sun"]
@@ -68,14 +71,14 @@ func _run_case(case: String) -> void:
 	var reader := MaskReader.new(shadow)
 	_options.store_values("%s_%s.f32" % [stem, parts[2]], (await reader.read()).get_data())
 	for other: Node3D in shadows:
-		other.visible = true  # `gnomon` reads no files with hidden nodes
-	if not is_posed:  # who poses it reads the file itself
+		other.visible = true  # `gnomon` does not read files with hidden nodes
+	if not is_posed:  # a posed scene is compared with its own file
 		GltfExport.save(scene, _options.path(stem + ".gltf"))
 	scene.queue_free()
 	await get_tree().process_frame
 
 
-## Meshes of many triangles cast some frames after they appear.
+## Waits until all meshes cast shadows. Large ones do so some frames after they appear.
 func _wait_for_casters(shadow: Node3D) -> void:
 	await RenderingServer.frame_post_draw
 	while shadow.count_pending_casters() > 0:

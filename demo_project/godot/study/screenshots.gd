@@ -1,5 +1,5 @@
 extends Node
-## Stores what the window shows of three_lights.tscn: its image, and each light's mask.
+## Stores screenshots of three_lights.tscn: the image, and each light's mask.
 ##   godot --path demo_project/godot res://study/screenshots.tscn -- out=DIR size=512
 
 var _options := StudyOptions.new({"out": "res://out", "size": "512"})

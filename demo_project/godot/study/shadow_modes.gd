@@ -2,12 +2,12 @@ class_name ShadowModes
 extends RefCounted
 ## The shadows that measurements compare: none ("off"), Godot's own of two qualities, and Gnomon's.
 
-## RenderingServer.SHADOW_QUALITY_*; the size of the light counts from SOFT_LOW on.
+## RenderingServer.SHADOW_QUALITY_*; Godot uses the size of a light from SOFT_LOW on.
 const QUALITIES := {"low": RenderingServer.SHADOW_QUALITY_SOFT_LOW, "ultra": RenderingServer.SHADOW_QUALITY_SOFT_ULTRA}
 const ALL: Array[String] = ["off", "low", "ultra", "gnomon"]
 
 
-## Of lights that each have a GnomonShadow3D.
+## Sets the mode of lights that each have a GnomonShadow3D.
 static func apply(lights: Array[Light3D], mode: String) -> void:
 	for light in lights:
 		find_shadow(light).visible = mode == "gnomon"

@@ -1,6 +1,6 @@
 class_name StudyOptions
 extends RefCounted
-## What follows -- on Godot's command line, as NAME=VALUE, and where results go: the folder that `out` names.
+## The options NAME=VALUE after -- on Godot's command line. Files are stored in the folder that the option `out` names.
 
 var _values: Dictionary
 
@@ -9,7 +9,8 @@ func _init(defaults: Dictionary) -> void:
 	_values = defaults
 
 
-## False, with a message, when something else was given.
+## Reads the command line, makes the output folder and sets the window's size. Returns false, with a message, after a wrong
+## argument.
 func read() -> bool:
 	for argument in OS.get_cmdline_user_args():
 		var parts := argument.split("=", true, 1)

@@ -66,7 +66,7 @@ static func _make_caster_transform(kind: String) -> Transform3D:
 	return Transform3D(Basis(), Vector3(0, 1, 0))
 
 
-## Black background, no ambient light, linear values: what is seen is the lights'.
+## Returns a black background without ambient light or tone mapping, so that all light in the image comes from the lights.
 static func make_darkness() -> WorldEnvironment:
 	var environment := Environment.new()
 	environment.background_mode = Environment.BG_COLOR
@@ -78,7 +78,7 @@ static func make_darkness() -> WorldEnvironment:
 	return node
 
 
-## A caster or receiver more.
+## Adds a mesh that casts and receives shadows.
 func add_mesh(node_name: String, mesh: Mesh, mesh_transform: Transform3D) -> MeshInstance3D:
 	var node := MeshInstance3D.new()
 	node.name = node_name
@@ -88,7 +88,7 @@ func add_mesh(node_name: String, mesh: Mesh, mesh_transform: Transform3D) -> Mes
 	return node
 
 
-## A light with its shadow: the one that `light` and `shadow` are from now on.
+## Adds a light with a GnomonShadow3D, and sets `light` and `shadow` to them.
 func add_light(kind: String) -> void:
 	match kind:
 		"omni":

@@ -30,7 +30,7 @@ std::vector<ReportScene> make_animated_scenes() {
 }
 
 ReportPlan make_plan(ReportExtent p_extent, const std::vector<ReportScene> &p_scenes,
-		const std::vector<TechniqueSource> &p_techniques) {
+		const std::vector<MeasurableTechnique> &p_techniques) {
 	ReportOptions options;
 	options.scaling = ReportExtent::NONE;
 	options.stability = ReportExtent::NONE;
@@ -68,21 +68,21 @@ TEST_CASE("[AnimationPart] each light of an animated scene is measured at times 
 		CHECK(configuration.value > 0);
 		CHECK(configuration.value < 2);
 		CHECK(records.insert(configuration.record).second);
-		const MaskQuestion question = plan.questions[index]({});
-		REQUIRE(question.next_scene);
+		const MaskTask task = plan.tasks[index]({});
+		REQUIRE(task.next_scene);
 		const auto get_x = [](const SceneSnapshot &p_scene) {
 			return p_scene.instances[0].world_from_node[3].x;
 		};
-		CHECK(get_x(*question.scene) == doctest::Approx(configuration.value / 2));
-		CHECK(get_x(*question.next_scene) == doctest::Approx(configuration.value / 2 + 1.0 / 60));
+		CHECK(get_x(*task.scene) == doctest::Approx(configuration.value / 2));
+		CHECK(get_x(*task.next_scene) == doctest::Approx(configuration.value / 2 + 1.0 / 60));
 	}
 	// Measuring leaves the scene at rest.
 	CHECK_FALSE(scenes[0].scene->find_nodes<MeshInstance3D>().front()->posed_parent_from_node);
 }
 
-TEST_CASE("[AnimationPart] cells have the error and the error of change, curves one point a time") {
+TEST_CASE("[AnimationPart] cells have an error and a temporal error, and series a point per time") {
 	const TemporaryFolder folder;
-	ScriptedMasks masks;
+	ScriptedMaskSource masks;
 	const ReportPlan plan =
 			make_plan(ReportExtent::QUICK, make_animated_scenes(), make_scripted_techniques());
 	RecordStore store(folder.path);

@@ -12,13 +12,14 @@
 #include <filesystem>
 #include <thread>
 
-// Processes that are killed while they save, for the tests of everything that writes files.
+// Helpers for tests that kill a process while it saves files.
 
 namespace gnomon {
 
-const size_t MOST_SAVE_STEPS = 200; // a test that never ends is no test
+const size_t MAX_SAVE_STEP_COUNT = 200; // limit, so that a test with a bug ends
 
-/// Runs the work in a child process, after p_prepare.
+/// Runs p_prepare and then p_work in a child process. Returns its process id. The child exits with
+/// 0, or with 3 after an exception.
 template <typename Prepare, typename Work>
 pid_t start_process(const Prepare &p_prepare, const Work &p_work) {
 	const pid_t child = ::fork();
@@ -35,7 +36,7 @@ pid_t start_process(const Prepare &p_prepare, const Work &p_work) {
 	return child;
 }
 
-/// Returns true if the process was killed, false if it had exited normally before.
+/// Waits until the process has ended. Returns true if it was killed, false if it exited normally.
 inline bool wait_for_kill(pid_t p_child) {
 	int status = 0;
 	REQUIRE(::waitpid(p_child, &status, 0) == p_child);
@@ -46,11 +47,12 @@ inline bool wait_for_kill(pid_t p_child) {
 	return false;
 }
 
-/// Kills the work after its first step of saving, then after its second, and so on until it ends by
-/// itself. p_check is called after each. Returns how often it was killed.
+/// Runs p_work in a child process that is killed after its first save step (see
+/// set_save_step_hook), then in another that is killed after its second, and so on until p_work
+/// ends by itself. Calls p_check after each run. Returns the number of killed processes.
 template <typename Work, typename Check>
 size_t kill_at_each_save_step(const Work &p_work, const Check &p_check) {
-	for (size_t step_count = 1; step_count <= MOST_SAVE_STEPS; ++step_count) {
+	for (size_t step_count = 1; step_count <= MAX_SAVE_STEP_COUNT; ++step_count) {
 		CAPTURE(step_count);
 		const auto prepare = [step_count] {
 			set_save_step_hook([left_count = step_count]() mutable {
@@ -65,11 +67,11 @@ size_t kill_at_each_save_step(const Work &p_work, const Check &p_check) {
 			return step_count - 1;
 		}
 	}
-	FAIL("the work has more than ", MOST_SAVE_STEPS, " steps");
+	FAIL("the work has more than ", MAX_SAVE_STEP_COUNT, " steps");
 	return 0;
 }
 
-/// Kills the work, which never ends by itself, after that time.
+/// Runs p_work, which must never end by itself, in a child process and kills it after p_time.
 template <typename Work> void kill_after(std::chrono::microseconds p_time, const Work &p_work) {
 	const pid_t child = start_process([] {}, p_work);
 	std::this_thread::sleep_for(p_time);
@@ -77,7 +79,8 @@ template <typename Work> void kill_after(std::chrono::microseconds p_time, const
 	CHECK(wait_for_kill(child));
 }
 
-/// Returns how often tests kill at random times: GNOMON_KILL_COUNT, else p_default.
+/// Returns how many processes a test kills at random times: the environment variable
+/// GNOMON_KILL_COUNT, but at least 1; if it is not set, p_default.
 inline int get_kill_count(int p_default) {
 	const char *value = std::getenv("GNOMON_KILL_COUNT");
 	return value != nullptr ? std::max(std::atoi(value), 1) : p_default;

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// A folder that is removed at the end of the test.
+/// A new folder, removed by the destructor.
 struct TemporaryFolder {
 	std::filesystem::path path;
 	TemporaryFolder() {
@@ -20,33 +20,35 @@ struct TemporaryFolder {
 	TemporaryFolder &operator=(const TemporaryFolder &) = delete;
 };
 
-/// An empty folder in an environment variable, so that no test depends on what another one left.
-/// Afterwards the variable has its previous value, so that a folder that the test script has chosen
-/// is used again, and never the user's own.
+/// Sets an environment variable to a new folder, so that no test depends on files of another test.
+/// The destructor restores the variable's previous value, so that later tests use the folder that
+/// the test script chose and never the user's own.
 struct TemporaryUserFolder : TemporaryFolder {
 	explicit TemporaryUserFolder(const char *p_variable) : variable(p_variable) {
 		if (const char *value = std::getenv(variable)) {
-			before = value;
+			previous_value = value;
 		}
 		::setenv(variable, path.c_str(), 1);
 	}
 	~TemporaryUserFolder() {
-		if (before.empty()) {
+		if (previous_value.empty()) {
 			::unsetenv(variable);
 		} else {
-			::setenv(variable, before.c_str(), 1);
+			::setenv(variable, previous_value.c_str(), 1);
 		}
 	}
 
 private:
 	const char *variable;
-	std::string before;
+	std::string previous_value;
 };
 
+/// Replaces the folder of get_cache_folder.
 struct TemporaryCache : TemporaryUserFolder {
 	TemporaryCache() : TemporaryUserFolder("GNOMON_CACHE_DIR") {}
 };
 
+/// Replaces the folder of get_config_folder.
 struct TemporaryConfig : TemporaryUserFolder {
 	TemporaryConfig() : TemporaryUserFolder("GNOMON_CONFIG_DIR") {}
 };

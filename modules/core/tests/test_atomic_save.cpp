@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const size_t LARGE_BYTES = (5u << 20) / 2; // written in three parts
+const size_t LARGE_BYTES = (5u << 20) / 2; // 2.5 MiB, written in three chunks
 
 std::string make_content(char p_letter, size_t p_bytes = LARGE_BYTES) {
 	return std::string(p_bytes, p_letter);
@@ -24,7 +24,7 @@ std::string make_content(char p_letter, size_t p_bytes = LARGE_BYTES) {
 
 } // namespace
 
-TEST_CASE("[AtomicSave] killed at any step, the old file or the new one is there whole") {
+TEST_CASE("[AtomicSave] a save killed at any step leaves the complete old or complete new file") {
 	const TemporaryFolder folder;
 	const fs::path file = folder.path / "scene.gltf";
 	const std::string before = make_content('a');
@@ -41,11 +41,11 @@ TEST_CASE("[AtomicSave] killed at any step, the old file or the new one is there
 				CHECK(count_unfinished_files(folder.path) == 0);
 				save_file_atomically(file, before);
 			});
-	CHECK(kill_count == 8); // made, five parts, synced, renamed
-	CHECK(new_count == 2);	// killed after the last step, and not at all
+	CHECK(kill_count == 8); // created, five chunks, synced, renamed
+	CHECK(new_count == 2);	// the run killed after the rename, and the one that was not killed
 }
 
-TEST_CASE("[AtomicSave] what killed processes left is removed by the next one that saves there") {
+TEST_CASE("[AtomicSave] a process that saves into a folder removes files that killed ones left") {
 	const TemporaryFolder folder;
 	const fs::path file = folder.path / "a";
 	const auto save = [&] { save_file_atomically(file, "text"); };
@@ -60,7 +60,7 @@ TEST_CASE("[AtomicSave] what killed processes left is removed by the next one th
 	CHECK(load_text_file(file) == "text");
 }
 
-TEST_CASE("[AtomicSave] a file that a living process writes, and those of others, stay") {
+TEST_CASE("[AtomicSave] the clean-up spares files of running processes and unrelated files") {
 	const TemporaryFolder folder;
 	const std::string ending(UNFINISHED_FILE_ENDING);
 	const fs::path left_over = folder.path / (".a.abcdef" + ending);
@@ -78,15 +78,16 @@ TEST_CASE("[AtomicSave] a file that a living process writes, and those of others
 	::close(file);
 	remove_left_over_files(folder.path);
 	CHECK_FALSE(fs::exists(written));
-	remove_left_over_files(folder.path / "missing"); // nothing to do is no failure
+	remove_left_over_files(folder.path / "missing"); // a missing folder is not an error
 }
 
-TEST_CASE("[AtomicSave] a process that is killed at a random time while it saves loses nothing") {
+TEST_CASE("[AtomicSave] a save killed at a random time leaves the complete old or new file") {
 	const TemporaryFolder folder;
 	const fs::path file = folder.path / "a";
 	const std::string first = make_content('a');
 	const std::string second = make_content('b', 3 * LARGE_BYTES);
-	std::ofstream(file) << first; // each process shall be the first of its kind that saves here
+	// Not save_file_atomically: then the child processes would not clean up the folder.
+	std::ofstream(file) << first;
 	std::mt19937 random(20100901);
 	std::uniform_int_distribution<int> choose_us(0, 30000);
 	const int kill_count = get_kill_count(10);
@@ -99,16 +100,16 @@ TEST_CASE("[AtomicSave] a process that is killed at a random time while it saves
 		});
 		const std::string found = load_text_file(file);
 		CHECK((found == first || found == second));
-		CHECK(count_unfinished_files(folder.path) <= 1); // each has removed that of the one before
+		CHECK(count_unfinished_files(folder.path) <= 1); // that of the previous process is removed
 	}
 }
 
-TEST_CASE("[AtomicSave] killed while it writes a cache entry, the next start has it whole or not") {
+TEST_CASE("[AtomicSave] a cache entry whose write was killed is either complete or unchanged") {
 	const TemporaryCache cache;
 	const std::vector<uint8_t> before(3000, 1);
 	const std::vector<uint8_t> after(LARGE_BYTES, 2);
 	const LogSink sink = set_log_sink([](LogLevel, const std::string &p_line) { FAIL(p_line); });
-	SUBCASE("there was none") {
+	SUBCASE("without an earlier entry") {
 		const size_t kill_count = kill_at_each_save_step([&] { save_cache_entry("entry", after); },
 				[&] {
 					const std::vector<uint8_t> found = load_cache_entry("entry");
@@ -117,7 +118,7 @@ TEST_CASE("[AtomicSave] killed while it writes a cache entry, the next start has
 				});
 		CHECK(kill_count == 6);
 	}
-	SUBCASE("there was another") {
+	SUBCASE("with an earlier entry") {
 		save_cache_entry("entry", before);
 		kill_at_each_save_step([&] { save_cache_entry("entry", after); },
 				[&] {
@@ -128,7 +129,7 @@ TEST_CASE("[AtomicSave] killed while it writes a cache entry, the next start has
 	set_log_sink(sink);
 }
 
-TEST_CASE("[AtomicSave] a name of 255 bytes can be saved, one of 256 is refused") {
+TEST_CASE("[AtomicSave] a file name of 255 bytes can be saved, one of 256 bytes is an error") {
 	const TemporaryFolder folder;
 	save_file_atomically(folder.path / std::string(255, 'n'), "x");
 	CHECK(load_text_file(folder.path / std::string(255, 'n')) == "x");

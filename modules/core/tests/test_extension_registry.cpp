@@ -16,7 +16,7 @@ class FruitRegistry : public ExtensionRegistry<Fruit> {};
 
 } // namespace
 
-TEST_CASE("[ExtensionRegistry] what is added is found by its id until it is removed") {
+TEST_CASE("[ExtensionRegistry] an added entry is found by its id until it is removed") {
 	FruitRegistry::add({ "fig", 1000 });
 	FruitRegistry::add({ "date", 1 });
 	REQUIRE(FruitRegistry::get_all().size() == 2);
@@ -24,7 +24,7 @@ TEST_CASE("[ExtensionRegistry] what is added is found by its id until it is remo
 	REQUIRE(FruitRegistry::find("date") != nullptr);
 	CHECK(FruitRegistry::find("date")->seed_count == 1);
 	FruitRegistry::remove("fig");
-	FruitRegistry::remove("plum"); // was never there
+	FruitRegistry::remove("plum"); // an unknown id is ignored
 	CHECK(FruitRegistry::find("fig") == nullptr);
 	FruitRegistry::remove("date");
 	CHECK(FruitRegistry::get_all().empty());

@@ -11,7 +11,7 @@
 using namespace gnomon;
 namespace fs = std::filesystem;
 
-TEST_CASE("[Files] an atomic save replaces the file whole and leaves nothing next to it") {
+TEST_CASE("[Files] an atomic save replaces the whole file and leaves no other file next to it") {
 	const TemporaryCache folder;
 	save_file_atomically(folder.path / "a.txt", "first");
 	save_file_atomically(folder.path / "a.txt", "second");
@@ -19,7 +19,7 @@ TEST_CASE("[Files] an atomic save replaces the file whole and leaves nothing nex
 	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
-TEST_CASE("[Files] an unwritable location is an error that names it, and no file appears") {
+TEST_CASE("[Files] saving to an unwritable location is an error and creates no file") {
 	CHECK_THROWS_AS(save_file_atomically("/nonexistent_gnomon/a.txt", "x"), Error);
 	const TemporaryCache folder;
 	fs::create_directory(folder.path / "taken");
@@ -27,7 +27,7 @@ TEST_CASE("[Files] an unwritable location is an error that names it, and no file
 	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
-TEST_CASE("[Files] missing files, folders and files over the limit are refused") {
+TEST_CASE("[Files] loading a missing file, a folder or a file over the limit is an error") {
 	const TemporaryCache folder;
 	CHECK_THROWS_AS(load_file(folder.path / "missing"), Error);
 	CHECK_THROWS_AS(load_file(folder.path), Error);
@@ -35,7 +35,7 @@ TEST_CASE("[Files] missing files, folders and files over the limit are refused")
 	CHECK_THROWS_AS(load_file(folder.path / "a.txt", 3), Error);
 }
 
-TEST_CASE("[Files] a path that leaves the folder is not inside it") {
+TEST_CASE("[Files] a path that leaves the folder through .. is not inside it") {
 	CHECK(is_inside_folder("/tmp/project/scenes/a.bin", "/tmp/project"));
 	CHECK(is_inside_folder("/tmp/project/scenes/../a.bin", "/tmp/project"));
 	CHECK_FALSE(is_inside_folder("/tmp/project/../a.bin", "/tmp/project"));
@@ -43,7 +43,7 @@ TEST_CASE("[Files] a path that leaves the folder is not inside it") {
 	CHECK_FALSE(is_inside_folder("/etc/passwd", "/tmp/project"));
 }
 
-TEST_CASE("[Files] a damaged cache entry is noticed and removed") {
+TEST_CASE("[Files] a damaged cache entry is detected and removed") {
 	const TemporaryCache folder;
 	const std::vector<uint8_t> bytes = { 1, 2, 3, 4, 5 };
 	save_cache_entry("entry", bytes);
@@ -65,7 +65,7 @@ TEST_CASE("[Files] a damaged cache entry is noticed and removed") {
 	set_log_sink(before);
 }
 
-TEST_CASE("[Files] a cache entry is read as it was built, and not when a byte is another") {
+TEST_CASE("[Files] a cache entry is parsed, but rejected if a byte differs or is missing") {
 	const std::vector<uint8_t> bytes = { 1, 2, 3, 250 };
 	std::vector<uint8_t> entry = build_cache_entry(bytes);
 	const auto payload = parse_cache_entry(entry);

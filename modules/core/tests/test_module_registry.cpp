@@ -19,7 +19,7 @@ TEST_CASE("[ModuleRegistry] dependencies come before the modules that need them"
 	}
 }
 
-TEST_CASE("[ModuleRegistry] unknown modules and those the engine needs are refused by name") {
+TEST_CASE("[ModuleRegistry] disabling an unknown module or one the engine needs is an error") {
 	CHECK_THROWS_AS(ModuleRegistry::set_enabled("no_such_module", false), Error);
 	CHECK_THROWS_AS(ModuleRegistry::set_enabled("core", false), Error);
 	CHECK(ModuleRegistry::is_enabled("core"));

@@ -16,7 +16,7 @@ PropertyInfo make_width() {
 
 } // namespace
 
-TEST_CASE("[Property] a value inside the range is allowed, outside it is refused with the range") {
+TEST_CASE("[Property] a value in the range is allowed; the refusal of another names the range") {
 	const PropertyInfo width = make_width();
 	CHECK(check_property(width, 0.0).empty());
 	CHECK(check_property(width, int64_t(3)).empty());
@@ -34,7 +34,7 @@ TEST_CASE("[Property] NaN, infinity and other types are refused") {
 	CHECK_FALSE(check_property(width, std::string("wide")).empty());
 }
 
-TEST_CASE("[Property] text is parsed by type and an error names object, value and range") {
+TEST_CASE("[Property] text is parsed by type, and an error names object, value and range") {
 	const PropertyInfo width = make_width();
 	CHECK(std::get<double>(parse_property(width, "0.25", "Light \"Lamp\"")) == 0.25);
 	const PropertyInfo filter = { "filter", PropertyType::ENUM, std::string("hard"), "hard,2x2,3x3",
@@ -47,14 +47,14 @@ TEST_CASE("[Property] text is parsed by type and an error names object, value an
 	CHECK_THROWS_AS(parse_property(width, "nan", "x"), Error);
 }
 
-TEST_CASE("[Property] an INT takes a FLOAT without fraction, and no other") {
+TEST_CASE("[Property] an INT accepts a FLOAT without fraction, and no other FLOAT") {
 	const PropertyInfo count = { "layers", PropertyType::INT, 3, "1,3,1", "Layers." };
 	CHECK(std::get<int64_t>(convert_property(count, 2.0)) == 2);
 	CHECK_FALSE(check_property(count, 2.5).empty());
 	CHECK_FALSE(check_property(count, 4.0).empty());
 }
 
-TEST_CASE("[Property] what was not set has its default") {
+TEST_CASE("[Property] a property that was not set has its default") {
 	PropertyList list;
 	list.add(make_width());
 	list.add({ "layers", PropertyType::INT, 3, "1,3,1", "Layers." });
@@ -64,7 +64,7 @@ TEST_CASE("[Property] what was not set has its default") {
 	CHECK(std::get<int64_t>(get_property(list, values, "layers")) == 1);
 }
 
-TEST_CASE("[Property] a vector is three numbers of the range; a colour too") {
+TEST_CASE("[Property] a vector is three numbers that are all in the range") {
 	const PropertyInfo info = { "position", PropertyType::VECTOR3, glm::dvec3(0.0), "-2,2,0.5",
 		"Where it is.", "m" };
 	CHECK(check_property(info, glm::dvec3(1, -2, 2)).empty());
@@ -82,7 +82,7 @@ TEST_CASE("[Property] a vector is three numbers of the range; a colour too") {
 	CHECK(get_range(info).minimum == -2);
 }
 
-TEST_CASE("[Property] a property that is declared again stays at its position") {
+TEST_CASE("[Property] replacing a declaration keeps its position in the list") {
 	PropertyList list;
 	list.add({ "first", PropertyType::STRING, "", "", "One of several." });
 	list.add({ "second", PropertyType::BOOL, true, "", "Another one." });

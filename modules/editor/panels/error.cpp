@@ -19,7 +19,7 @@ void draw_row(const char *p_name, const ErrorMetrics &p_metrics) {
 		ImGui::Text("%.4f", value);
 	}
 	ImGui::TableNextColumn();
-	ImGui::Text("%.1f %%", 100.0 * p_metrics.wrong.value_or(0.0)); // set by every measurement
+	ImGui::Text("%.1f %%", 100.0 * p_metrics.wrong.value_or(0.0)); // the ErrorMeter always sets it
 }
 
 void draw_metrics(const MaskMetrics &p_metrics) {
@@ -37,13 +37,13 @@ void draw_metrics(const MaskMetrics &p_metrics) {
 			double(p_metrics.penumbra.pixel_count), 100.0 * p_metrics.umbra_over);
 }
 
-/// Draws the precision of the reference so far, and the controls of its tracing.
+/// Draws the controls of the reference's tracing, and how precise the reference is so far.
 void draw_reference(EditorContext &r_context) {
 	ErrorState &state = r_context.error;
 	if (ImGui::Button(state.is_stopped ? "Start" : "Stop")) {
 		state.is_stopped = !state.is_stopped;
 	}
-	r_context.note_item("button reference");
+	r_context.record_item_rect("button reference");
 	if (ImGui::IsItemHovered()) {
 		ImGui::SetTooltip("The reference is traced in the background while this tab or the view "
 						  "\"error\" is open");
@@ -60,7 +60,7 @@ void draw_reference(EditorContext &r_context) {
 	}
 	ImGui::SameLine();
 	if (state.is_tracing) {
-		const std::string label = std::to_string(state.round_sample_count) + " rays a pixel";
+		const std::string label = std::to_string(state.round_sample_count) + " rays per pixel";
 		ImGui::ProgressBar(state.progress, ImVec2(-1.0f, 0.0f), label.c_str());
 	} else if (r_context.document.get_timeline().is_playing()) {
 		ImGui::TextDisabled("measured when paused");
@@ -70,7 +70,7 @@ void draw_reference(EditorContext &r_context) {
 		ImGui::TextDisabled("%.1f s", state.round.seconds);
 	}
 	if (state.reference) {
-		ImGui::Text("Reference: %u rays a pixel, standard error", state.round.sample_count);
+		ImGui::Text("Reference: %u rays per pixel, standard error", state.round.sample_count);
 		ImGui::SameLine();
 		if (state.round.standard_error < 0.0f) {
 			ImGui::TextUnformatted("unknown");
@@ -97,10 +97,11 @@ void draw_image(EditorContext &r_context, const char *p_name, void *p_image, ImV
 		ImGui::Dummy(p_size);
 	}
 	ImGui::EndGroup();
-	r_context.note_item(std::string("image ") + p_name);
+	r_context.record_item_rect(std::string("image ") + p_name);
 }
 
-/// A click shows it in the viewport, another click the lit image again.
+/// Draws the image of a debug view. A click shows that view in the viewport; another click switches
+/// back to the lit image.
 void draw_view(EditorContext &r_context, const char *p_view, void *p_image, ImVec2 p_size) {
 	draw_image(r_context, p_view, p_image, p_size);
 	if (ImGui::IsItemClicked()) {
@@ -110,7 +111,7 @@ void draw_view(EditorContext &r_context, const char *p_view, void *p_image, ImVe
 	}
 }
 
-/// Mask, reference and their difference side by side, as large as fits.
+/// Draws mask, reference and their difference side by side, as large as possible.
 void draw_images(EditorContext &r_context) {
 	const ErrorState &state = r_context.error;
 	const ImVec2 space = ImGui::GetContentRegionAvail();

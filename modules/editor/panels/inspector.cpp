@@ -13,7 +13,7 @@ namespace gnomon {
 
 namespace {
 
-/// The widget of one property of the selected node; changes the value that it is given.
+/// The widget of one property. The user edits r_value with it.
 class PropertyEditor {
 public:
 	PropertyEditor(EditorContext &r_context, const PropertyInfo &p_info, PropertyValue &r_value) :
@@ -51,7 +51,7 @@ private:
 					value = choices[index];
 					is_changed = true;
 				}
-				context.note_item("choice " + choices[index]);
+				context.record_item_rect("choice " + choices[index]);
 				if (ImGui::IsItemHovered() && index < info.choice_tooltips.size()) {
 					ImGui::SetTooltip("%s", info.choice_tooltips[index].c_str());
 				}
@@ -63,28 +63,30 @@ private:
 
 	bool draw_whole_number() {
 		const PropertyRange range = get_range(info);
-		const int64_t least = static_cast<int64_t>(std::max(range.minimum, -1e15));
-		const int64_t greatest = static_cast<int64_t>(std::min(range.maximum, 1e15));
+		// The limits of a property without a range, 1e30, do not fit an int64_t.
+		const int64_t min_value = static_cast<int64_t>(std::max(range.minimum, -1e15));
+		const int64_t max_value = static_cast<int64_t>(std::min(range.maximum, 1e15));
 		return ImGui::DragScalar("##value", ImGuiDataType_S64, &std::get<int64_t>(value),
-				std::max(float(range.step), 0.2f), &least, &greatest, nullptr,
+				std::max(float(range.step), 0.2f), &min_value, &max_value, nullptr,
 				ImGuiSliderFlags_AlwaysClamp);
 	}
 
-	/// Dragged below the range, a value becomes the special one, such as -1 for "derived".
+	/// A value that is dragged below the range becomes the special value, such as -1 for "derived".
+	/// Dragged up from there, it becomes the minimum of the range.
 	bool draw_number() {
 		const PropertyRange range = get_range(info);
 		double &number = std::get<double>(value);
-		double least = range.minimum;
+		double min_value = range.minimum;
 		double special = 0;
 		const bool has_special = !info.special.empty();
 		if (has_special) {
 			std::from_chars(
 					info.special.data(), info.special.data() + info.special.size(), special);
-			least = std::min(least, special);
+			min_value = std::min(min_value, special);
 		}
 		const bool is_special = has_special && number == special;
 		const bool is_changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number,
-				float(range.step), &least, &range.maximum,
+				float(range.step), &min_value, &range.maximum,
 				is_special ? (info.special + " (derived)").c_str() : "%.4g",
 				ImGuiSliderFlags_AlwaysClamp);
 		if (is_changed && has_special && number < range.minimum) {
@@ -95,8 +97,8 @@ private:
 
 	bool draw_vector() {
 		const PropertyRange range = get_range(info);
-		// While it is dragged it goes on from what was shown: a node may give the same turn back in
-		// other angles.
+		// A drag continues from the values that were shown, not from those that the node returns,
+		// because a node may return other angles for the same rotation.
 		static std::string dragged_name;
 		static glm::dvec3 dragged;
 		glm::dvec3 &vector = std::get<glm::dvec3>(value);
@@ -147,8 +149,8 @@ void draw_label(const PropertyInfo &p_info) {
 	}
 }
 
-/// The edit that the widgets of one frame request. It is applied after all are drawn, because a
-/// change may declare other properties.
+/// The edit that a widget requests in this frame. It is applied after all widgets are drawn,
+/// because it may change which properties the node has.
 struct PropertyEdit {
 	bool is_requested = false;
 	std::string name;
@@ -177,7 +179,7 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	ImGui::TableNextColumn();
 	PropertyValue value = get_node_property(p_node, p_info.name);
 	const bool is_changed = PropertyEditor(r_context, p_info, value).draw();
-	r_context.note_item("property " + p_info.name);
+	r_context.record_item_rect("property " + p_info.name);
 	if (is_changed) {
 		r_edit = { true, p_info.name, value, ImGui::IsItemActive() };
 	}
@@ -197,8 +199,8 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	ImGui::PopID();
 }
 
-/// Notes that an animation poses the node, so that the viewport shows values other than those
-/// below.
+/// Draws a notice if an animation poses the node: then the viewport shows other values than the
+/// inspector.
 void draw_pose(EditorContext &r_context, const Node3D &p_node) {
 	const Animation *animation = r_context.document.get_timeline().get_animation();
 	const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node);
@@ -207,11 +209,11 @@ void draw_pose(EditorContext &r_context, const Node3D &p_node) {
 		return;
 	}
 	ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.25f, 1.0f), "Posed by %s", animation->name.c_str());
-	r_context.note_item("posed");
+	r_context.record_item_rect("posed");
 	if (ImGui::IsItemHovered()) {
-		ImGui::SetTooltip("The viewport shows the node where the animation has it.\n"
+		ImGui::SetTooltip("The viewport shows the node as the animation poses it.\n"
 						  "Below is the node's own transform, which is edited and saved;\n"
-						  "what the animation replaces of it shows at rest.");
+						  "the parts that the animation replaces are visible at rest.");
 	}
 }
 
@@ -263,7 +265,7 @@ void draw_inspector(EditorContext &r_context) {
 	if (ImGui::InputTextWithHint("##filter", "Search properties", filter, sizeof(filter))) {
 		r_context.inspector_filter = filter;
 	}
-	r_context.note_item("search properties");
+	r_context.record_item_rect("search properties");
 	const std::vector<PropertyInfo> properties = list_node_properties(*node).get_properties();
 	std::vector<std::string> groups;
 	for (const PropertyInfo &info : properties) {

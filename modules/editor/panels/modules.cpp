@@ -12,18 +12,18 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 	ImGui::TableNextColumn();
 	bool is_enabled = p_module.is_enabled;
 	const bool is_changed = ImGui::Checkbox(("##" + p_module.name).c_str(), &is_enabled);
-	r_context.note_item("module " + p_module.name);
+	r_context.record_item_rect("module " + p_module.name);
 	if (is_changed) {
-		const std::string name = p_module.name; // the list may change
+		const std::string name = p_module.name; // a copy: switching may change the list
 		r_context.attempt([&] {
 			r_context.document.set_module_enabled(name, is_enabled);
 			r_context.set_status((is_enabled ? "Enabled " : "Disabled ") + name);
 		});
 	}
-	for (const std::string *words :
+	for (const std::string *cell_text :
 			{ &p_module.name, &p_module.description, &p_module.source, &p_module.version }) {
 		ImGui::TableNextColumn();
-		ImGui::TextWrapped("%s", words->c_str());
+		ImGui::TextWrapped("%s", cell_text->c_str());
 	}
 	ImGui::TableNextColumn();
 	if (!p_module.doc.empty()) {
@@ -35,7 +35,7 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 		}
 		if (ImGui::IsItemClicked()) {
 			r_context.requested_page = p_module.doc;
-			r_context.command = EditorCommand::READ_PAGE;
+			r_context.command = EditorCommand::OPEN_PAGE;
 		}
 	}
 }
@@ -50,7 +50,7 @@ void draw_table(EditorContext &r_context) {
 		ImGui::TableSetupColumn(heading, ImGuiTableColumnFlags_WidthStretch, weight);
 	}
 	ImGui::TableHeadersRow();
-	// A copy: a checkbox changes the list.
+	// A copy, because a checkbox changes the list.
 	const std::vector<ModuleInfo> modules = ModuleRegistry::get_modules();
 	for (const ModuleInfo &module : modules) {
 		if (module.can_disable && !module.is_example) {

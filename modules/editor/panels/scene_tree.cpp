@@ -8,25 +8,25 @@ namespace gnomon {
 
 namespace {
 
-/// The node whose name is being typed, and what is typed.
+/// The node that is being renamed, and the text typed so far.
 struct Renaming {
 	Node3D *node = nullptr;
 	char text[256] = {};
-	bool is_fresh = false;
+	bool needs_focus = false; // the text field needs the keyboard focus
 
 	void begin(Node3D &r_node) {
 		node = &r_node;
 		std::strncpy(text, r_node.name.c_str(), sizeof(text) - 1);
-		is_fresh = true;
+		needs_focus = true;
 	}
 };
 
 Renaming renaming;
 
 void draw_name_field(EditorContext &r_context, Node3D &r_node) {
-	if (renaming.is_fresh) {
+	if (renaming.needs_focus) {
 		ImGui::SetKeyboardFocusHere();
-		renaming.is_fresh = false;
+		renaming.needs_focus = false;
 	}
 	const bool is_done = ImGui::InputText("##name", renaming.text, sizeof(renaming.text),
 			ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
@@ -55,7 +55,7 @@ void draw_node(EditorContext &r_context, Node3D &r_node) {
 		return;
 	}
 	const bool is_open = ImGui::TreeNodeEx("node", flags, "%s", name.c_str());
-	r_context.note_item("node " + name);
+	r_context.record_item_rect("node " + name);
 	if (ImGui::IsItemClicked()) {
 		r_context.document.select(is_root ? nullptr : &r_node);
 	}

@@ -11,34 +11,34 @@ namespace gnomon {
 
 namespace {
 
-const double GREATEST_SPEED = 10;
+const double MAX_SPEED = 10;
 
-/// Shows the tooltip above the widget drawn last, so that it does not cover the value; hidden while
-/// the widget is dragged.
+/// Shows a tooltip for the last drawn widget, above it so that it does not cover its value. Hidden
+/// while the widget is dragged.
 void show_tooltip(const std::string &p_text) {
 	if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive()) {
 		return;
 	}
-	const ImVec2 least = ImGui::GetItemRectMin();
-	const ImVec2 greatest = ImGui::GetItemRectMax();
-	const bool is_right = least.x + greatest.x > ImGui::GetIO().DisplaySize.x;
+	const ImVec2 minimum = ImGui::GetItemRectMin();
+	const ImVec2 maximum = ImGui::GetItemRectMax();
+	const bool is_right = minimum.x + maximum.x > ImGui::GetIO().DisplaySize.x;
 	ImGui::SetNextWindowPos(
-			ImVec2(is_right ? greatest.x : least.x, least.y - ImGui::GetStyle().ItemSpacing.y),
+			ImVec2(is_right ? maximum.x : minimum.x, minimum.y - ImGui::GetStyle().ItemSpacing.y),
 			ImGuiCond_Always, ImVec2(is_right ? 1.0f : 0.0f, 1.0f));
 	ImGui::SetTooltip("%s", p_text.c_str());
 }
 
-/// Draws a triangle, or two bars while the animation plays.
+/// Draws a button with a triangle, or with two bars while the animation plays.
 void draw_play_button(EditorContext &r_context) {
 	const Timeline &timeline = r_context.document.get_timeline();
 	const float side = ImGui::GetFrameHeight();
 	if (ImGui::Button("##play", ImVec2(1.5f * side, side))) {
 		r_context.command = EditorCommand::PLAY_ANIMATION;
 	}
-	r_context.note_item("timeline play");
-	const ImVec2 least = ImGui::GetItemRectMin();
-	const ImVec2 greatest = ImGui::GetItemRectMax();
-	const ImVec2 center(0.5f * (least.x + greatest.x), 0.5f * (least.y + greatest.y));
+	r_context.record_item_rect("timeline play");
+	const ImVec2 minimum = ImGui::GetItemRectMin();
+	const ImVec2 maximum = ImGui::GetItemRectMax();
+	const ImVec2 center(0.5f * (minimum.x + maximum.x), 0.5f * (minimum.y + maximum.y));
 	const float half = 0.28f * side;
 	const ImU32 color = ImGui::GetColorU32(ImGuiCol_Text);
 	ImDrawList &list = *ImGui::GetWindowDrawList();
@@ -64,7 +64,7 @@ void draw_animations(EditorContext &r_context) {
 			timeline.choose(p_name);
 			r_context.viewport.needs_redraw = true;
 		}
-		r_context.note_item(text("choice ", p_label));
+		r_context.record_item_rect(text("choice ", p_label));
 	};
 	ImGui::SetNextItemWidth(9.0f * ImGui::GetFontSize());
 	if (ImGui::BeginCombo("##animation", shown ? shown->name.c_str() : "at rest")) {
@@ -76,8 +76,8 @@ void draw_animations(EditorContext &r_context) {
 		}
 		ImGui::EndCombo();
 	}
-	r_context.note_item("timeline animation");
-	show_tooltip("The animation that poses the scene; at rest: as the file has it. Never saved");
+	r_context.record_item_rect("timeline animation");
+	show_tooltip("The animation that poses the scene; at rest: the pose in the file. Not saved");
 }
 
 void draw_time(EditorContext &r_context, float p_width) {
@@ -100,7 +100,7 @@ void draw_time(EditorContext &r_context, float p_width) {
 		timeline.pause();
 	}
 	ImGui::EndDisabled();
-	r_context.note_item("timeline time");
+	r_context.record_item_rect("timeline time");
 	show_tooltip(shown ? "Time of the shown pose. Drag, or Ctrl and click to type it"
 					   : "Choose an animation, or play");
 }
@@ -108,21 +108,21 @@ void draw_time(EditorContext &r_context, float p_width) {
 void draw_speed(EditorContext &r_context) {
 	Timeline &timeline = r_context.document.get_timeline();
 	double speed = timeline.get_speed();
-	const double least = -GREATEST_SPEED;
+	const double minimum = -MAX_SPEED;
 	ImGui::SetNextItemWidth(4.0f * ImGui::GetFontSize());
-	if (ImGui::DragScalar("##speed", ImGuiDataType_Double, &speed, 0.01f, &least, &GREATEST_SPEED,
+	if (ImGui::DragScalar("##speed", ImGuiDataType_Double, &speed, 0.01f, &minimum, &MAX_SPEED,
 				"%.2f x", ImGuiSliderFlags_AlwaysClamp)) {
 		timeline.set_speed(speed);
 	}
-	r_context.note_item("timeline speed");
-	show_tooltip("Playback speed: 1 as it was made, below 0 backwards, -10..10");
+	r_context.record_item_rect("timeline speed");
+	show_tooltip("Playback speed: 1 as authored, below 0 backwards, -10..10");
 	ImGui::SameLine();
 	bool loops = timeline.loops();
 	if (ImGui::Checkbox("loop", &loops)) {
 		timeline.set_loops(loops);
 	}
-	r_context.note_item("timeline loop");
-	show_tooltip("Plays again from its begin; else pauses at its end");
+	r_context.record_item_rect("timeline loop");
+	show_tooltip("On: restarts at the end. Off: pauses there");
 }
 
 } // namespace

@@ -20,7 +20,7 @@ void draw_button(EditorContext &r_context, const char *p_label, EditorCommand p_
 		r_context.command = p_command;
 	}
 	ImGui::EndDisabled();
-	r_context.note_item(text("button ", p_label));
+	r_context.record_item_rect(text("button ", p_label));
 	if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
 		ImGui::SetTooltip("%s", p_tooltip.c_str());
 	}
@@ -41,12 +41,12 @@ void draw_scenes(EditorContext &r_context, const char *p_heading,
 		if (ImGui::Selectable(scene.string().c_str(), scene == r_context.document.get_path())) {
 			request_open(r_context, scene);
 		}
-		r_context.note_item("open " + scene.filename().string());
+		r_context.record_item_rect("open " + scene.filename().string());
 	}
 	ImGui::PopID();
 }
 
-/// A path to type, the project's scenes, and those that were open before.
+/// Draws the menu of scenes to open: a field for a path, the project's scenes and recent scenes.
 void draw_open_menu(EditorContext &r_context) {
 	if (!ImGui::BeginPopup("open")) {
 		return;
@@ -58,7 +58,7 @@ void draw_open_menu(EditorContext &r_context) {
 			path[0] != 0) {
 		request_open(r_context, path);
 	}
-	r_context.note_item("open path");
+	r_context.record_item_rect("open path");
 	draw_scenes(r_context, "In this project", r_context.document.get_project().scenes);
 	draw_scenes(r_context, "Recent", { r_context.recent.begin(), r_context.recent.end() });
 	ImGui::EndPopup();
@@ -71,7 +71,7 @@ void draw_toolbar(EditorContext &r_context) {
 	if (ImGui::Begin("Toolbar", nullptr,
 				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
 		draw_button(r_context, "Open", EditorCommand::SHOW_OPEN_MENU,
-				"Ctrl+O: another scene or project");
+				"Ctrl+O: open another scene or project");
 		if (std::exchange(r_context.shows_open_menu, false)) {
 			ImGui::OpenPopup("open");
 		}
@@ -86,7 +86,7 @@ void draw_toolbar(EditorContext &r_context) {
 						(history.can_redo() ? history.get_redo_name() : "nothing to redo"),
 				history.can_redo());
 		draw_button(r_context, "Frame", EditorCommand::FRAME,
-				"F: show all of the selected node, or of the scene");
+				"F: move the camera to show the selected node, or the scene");
 		draw_button(
 				r_context, "Play", EditorCommand::PLAY, "F5: save, and run the game on this scene");
 		ImGui::AlignTextToFramePadding();

@@ -10,24 +10,26 @@ namespace gnomon {
 
 namespace {
 
-const double TURN_RAD_PER_PX = 0.006;
-const double ZOOM_PER_STEP = 0.87;
-const double FLIGHT_DISTANCES_PER_SECOND = 0.8;
+const double ROTATION_RAD_PER_PX = 0.006;
+const double ZOOM_PER_STEP = 0.87; // factor of the distance to the pivot, per wheel step
+const double FLIGHT_DISTANCES_PER_SECOND = 0.8; // in distances to the pivot
 
+/// Moves the camera while W, A, S, D, Q or E is pressed; four times as fast with Shift.
 void fly(ViewportState &r_viewport) {
 	const ImGuiIO &io = ImGui::GetIO();
 	const auto is_down = [&](int p_letter) { return io.KeysDown[p_letter] ? 1.0 : 0.0; };
-	const glm::dvec3 way(
+	const glm::dvec3 direction(
 			is_down('D') - is_down('A'), is_down('E') - is_down('Q'), is_down('S') - is_down('W'));
-	if (way != glm::dvec3(0.0)) {
+	if (direction != glm::dvec3(0.0)) {
 		const double fast = io.KeyShift ? 4.0 : 1.0;
-		r_viewport.camera.move(way *
+		r_viewport.camera.move(direction *
 				(fast * FLIGHT_DISTANCES_PER_SECOND * r_viewport.camera.get_distance_m() *
 						double(io.DeltaTime)));
 	}
 }
 
-/// Middle button or Alt and left: orbit; with Shift: pan; wheel: nearer; right: look about and fly.
+/// Moves the camera. Middle button, or Alt and left button: orbit, or pan with Shift; wheel: zoom;
+/// right button: look around and fly.
 void move_camera(ViewportState &r_viewport, bool p_is_hovered) {
 	const ImGuiIO &io = ImGui::GetIO();
 	const uint64_t before = r_viewport.camera.get_revision();
@@ -38,12 +40,13 @@ void move_camera(ViewportState &r_viewport, bool p_is_hovered) {
 		if (io.KeyShift) {
 			r_viewport.camera.pan(drag / double(std::max(r_viewport.size_px.y, 1u)));
 		} else {
-			r_viewport.camera.orbit(-drag.x * TURN_RAD_PER_PX, -drag.y * TURN_RAD_PER_PX);
+			r_viewport.camera.orbit(-drag.x * ROTATION_RAD_PER_PX, -drag.y * ROTATION_RAD_PER_PX);
 		}
 	}
 	if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
 		if (drag != glm::dvec2(0.0)) {
-			r_viewport.camera.turn(-drag.x * TURN_RAD_PER_PX, -drag.y * TURN_RAD_PER_PX);
+			r_viewport.camera.rotate_in_place(
+					-drag.x * ROTATION_RAD_PER_PX, -drag.y * ROTATION_RAD_PER_PX);
 		}
 		fly(r_viewport);
 	}
@@ -65,7 +68,7 @@ void draw_choices(EditorContext &r_context) {
 			r_choice = p_choice;
 			viewport.needs_redraw = true;
 		}
-		r_context.note_item(std::string("choice ") + p_label);
+		r_context.record_item_rect(std::string("choice ") + p_label);
 	};
 	ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
 	const char *shown = viewport.debug_view.empty() ? "image" : viewport.debug_view.c_str();
@@ -82,7 +85,7 @@ void draw_choices(EditorContext &r_context) {
 		}
 		ImGui::EndCombo();
 	}
-	r_context.note_item("view");
+	r_context.record_item_rect("view");
 	ImGui::SameLine();
 	ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
 	const std::string against = "against " + viewport.compared_technique;
@@ -97,10 +100,10 @@ void draw_choices(EditorContext &r_context) {
 		}
 		ImGui::EndCombo();
 	}
-	r_context.note_item("against");
+	r_context.record_item_rect("against");
 	ImGui::SameLine();
 	viewport.is_guide_changed |= ImGui::Checkbox("penumbra", &viewport.shows_penumbra);
-	r_context.note_item("penumbra");
+	r_context.record_item_rect("penumbra");
 	if (ImGui::IsItemHovered()) {
 		ImGui::SetTooltip("Lines where the selected light's penumbra ends: orange outer (r), blue "
 						  "inner (t)");
@@ -113,25 +116,26 @@ void draw_choices(EditorContext &r_context) {
 }
 
 /// Draws the image, or two images with a line between them.
-void draw_images(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
+void draw_images(EditorContext &r_context, ImVec2 p_top_left, ImVec2 p_size) {
 	if (r_context.image == nullptr) {
 		return;
 	}
 	ImDrawList &list = *ImGui::GetWindowDrawList();
-	const ImVec2 greatest(p_least.x + p_size.x, p_least.y + p_size.y);
-	list.AddImage(r_context.image, p_least, greatest);
+	const ImVec2 bottom_right(p_top_left.x + p_size.x, p_top_left.y + p_size.y);
+	list.AddImage(r_context.image, p_top_left, bottom_right);
 	if (r_context.compared_image == nullptr) {
 		return;
 	}
-	const float share = r_context.viewport.compared_from;
-	const float x = p_least.x + share * p_size.x;
-	list.AddImage(r_context.compared_image, ImVec2(x, p_least.y), greatest, ImVec2(share, 0.0f),
-			ImVec2(1.0f, 1.0f));
-	list.AddLine(ImVec2(x, p_least.y), ImVec2(x, greatest.y), IM_COL32(255, 255, 255, 220), 2.0f);
+	const float fraction = r_context.viewport.divider_position;
+	const float x = p_top_left.x + fraction * p_size.x;
+	list.AddImage(r_context.compared_image, ImVec2(x, p_top_left.y), bottom_right,
+			ImVec2(fraction, 0.0f), ImVec2(1.0f, 1.0f));
+	list.AddLine(
+			ImVec2(x, p_top_left.y), ImVec2(x, bottom_right.y), IM_COL32(255, 255, 255, 220), 2.0f);
 }
 
-/// Shows what is wrong with a shader that was changed.
-void draw_shader_errors(const EditorContext &p_context, ImVec2 p_least, ImVec2 p_size) {
+/// Draws the errors of changed shaders over the image.
+void draw_shader_errors(const EditorContext &p_context, ImVec2 p_top_left, ImVec2 p_size) {
 	std::string lines;
 	for (const auto &[shader, failure] : p_context.shader_errors) {
 		lines += (lines.empty() ? "" : "\n") + failure;
@@ -143,38 +147,39 @@ void draw_shader_errors(const EditorContext &p_context, ImVec2 p_least, ImVec2 p
 	const float wrap = std::max(p_size.x - 4.0f * margin, 1.0f);
 	const ImVec2 size = ImGui::CalcTextSize(lines.c_str(), nullptr, false, wrap);
 	ImDrawList &list = *ImGui::GetWindowDrawList();
-	list.AddRectFilled(p_least, ImVec2(p_least.x + p_size.x, p_least.y + size.y + 2.0f * margin),
+	list.AddRectFilled(p_top_left,
+			ImVec2(p_top_left.x + p_size.x, p_top_left.y + size.y + 2.0f * margin),
 			IM_COL32(90, 10, 10, 220));
 	list.AddText(ImGui::GetFont(), ImGui::GetFontSize(),
-			ImVec2(p_least.x + margin, p_least.y + margin), IM_COL32_WHITE, lines.c_str(), nullptr,
-			wrap);
+			ImVec2(p_top_left.x + margin, p_top_left.y + margin), IM_COL32_WHITE, lines.c_str(),
+			nullptr, wrap);
 }
 
-/// The line can be dragged; it is drawn over the images' own button.
-void draw_line_handle(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
+/// Makes the dividing line draggable. Call it after the viewport's button, which it overlaps.
+void draw_line_handle(EditorContext &r_context, ImVec2 p_top_left, ImVec2 p_size) {
 	if (r_context.compared_image == nullptr) {
 		return;
 	}
 	const float half = 5.0f;
-	float &share = r_context.viewport.compared_from;
-	ImGui::SetCursorScreenPos(ImVec2(p_least.x + share * p_size.x - half, p_least.y));
+	float &fraction = r_context.viewport.divider_position;
+	ImGui::SetCursorScreenPos(ImVec2(p_top_left.x + fraction * p_size.x - half, p_top_left.y));
 	ImGui::InvisibleButton("line", ImVec2(2.0f * half, p_size.y));
 	ImGui::SetItemAllowOverlap();
-	r_context.note_item("line");
+	r_context.record_item_rect("line");
 	if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
 		ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 	}
 	if (ImGui::IsItemActive()) {
-		share = std::clamp((ImGui::GetIO().MousePos.x - p_least.x) / p_size.x, 0.0f, 1.0f);
+		fraction = std::clamp((ImGui::GetIO().MousePos.x - p_top_left.x) / p_size.x, 0.0f, 1.0f);
 	}
 }
 
-/// A click that is not a drag selects what is under the mouse.
+/// Requests to select the node under the mouse, after a click that is not a drag.
 void pick(EditorContext &r_context, const ViewportProjection &p_projection) {
-	const float FARTHEST_PX = 4.0f;
+	const float MAX_CLICK_MOVEMENT_PX = 4.0f; // of mouse movement; above, it is a drag
 	const ImGuiIO &io = ImGui::GetIO();
-	const bool is_click =
-			io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < FARTHEST_PX * FARTHEST_PX;
+	const bool is_click = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] <
+			MAX_CLICK_MOVEMENT_PX * MAX_CLICK_MOVEMENT_PX;
 	if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && is_click &&
 			!io.KeyAlt) {
 		r_context.viewport.pick =
@@ -188,7 +193,7 @@ void draw_viewport(EditorContext &r_context) {
 	if (ImGui::Begin("Viewport", nullptr,
 				PANEL_FLAGS | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
 		draw_choices(r_context);
-		const ImVec2 least = ImGui::GetCursorScreenPos();
+		const ImVec2 top_left = ImGui::GetCursorScreenPos();
 		ImVec2 size = ImGui::GetContentRegionAvail();
 		size = ImVec2(std::max(size.x, 16.0f), std::max(size.y, 16.0f));
 		const glm::uvec2 size_px(static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y));
@@ -196,21 +201,21 @@ void draw_viewport(EditorContext &r_context) {
 			r_context.viewport.size_px = size_px;
 			r_context.viewport.needs_redraw = true;
 		}
-		draw_images(r_context, least, size);
+		draw_images(r_context, top_left, size);
 		ImGui::InvisibleButton("viewport", size,
 				ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
 						ImGuiButtonFlags_MouseButtonRight);
 		ImGui::SetItemAllowOverlap();
-		r_context.note_item("viewport");
+		r_context.record_item_rect("viewport");
 		move_camera(r_context.viewport, ImGui::IsItemHovered());
-		const ViewportProjection projection(r_context.viewport.camera, least, size);
+		const ViewportProjection projection(r_context.viewport.camera, top_left, size);
 		pick(r_context, projection);
-		draw_line_handle(r_context, least, size);
-		ImGui::PushClipRect(least, ImVec2(least.x + size.x, least.y + size.y), true);
+		draw_line_handle(r_context, top_left, size);
+		ImGui::PushClipRect(top_left, ImVec2(top_left.x + size.x, top_left.y + size.y), true);
 		draw_penumbra_lines(r_context, projection);
 		draw_node_marks(r_context, projection);
 		draw_gizmos(r_context, projection);
-		draw_shader_errors(r_context, least, size);
+		draw_shader_errors(r_context, top_left, size);
 		ImGui::PopClipRect();
 	}
 	ImGui::End();

@@ -13,23 +13,25 @@ const ImU32 MARK_COLOR = IM_COL32(230, 230, 230, 200);
 const ImU32 OUTER_COLOR = IM_COL32(255, 150, 40, 230);
 const ImU32 INNER_COLOR = IM_COL32(70, 150, 255, 230);
 
-/// Returns the new radius of a circle whose handle is dragged: the mouse's movement in this frame
-/// counts along the line from the centre to the handle.
+/// Returns the new radius of a circle whose handle is dragged: only the component of the mouse's
+/// movement along the line from the centre to the handle counts.
 double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
 		const std::optional<ImVec2> &p_center, const ImVec2 &p_handle) {
 	const ImGuiIO &io = ImGui::GetIO();
 	const glm::dvec2 moved(io.MouseDelta.x, io.MouseDelta.y);
-	const double SHORTEST_PX = 4.0; // below, the line gives no direction: to the right is larger
-	const glm::dvec2 way = p_center ? glm::dvec2(p_handle.x - p_center->x, p_handle.y - p_center->y)
-									: glm::dvec2(0.0);
-	const double length_px = glm::length(way);
-	if (length_px < SHORTEST_PX) {
+	// For a shorter line, whose direction is inaccurate, moving right increases the radius.
+	const double MIN_LENGTH_PX = 4.0;
+	const glm::dvec2 direction = p_center
+			? glm::dvec2(p_handle.x - p_center->x, p_handle.y - p_center->y)
+			: glm::dvec2(0.0);
+	const double length_px = glm::length(direction);
+	if (length_px < MIN_LENGTH_PX) {
 		return p_radius_m + moved.x * p_metres_per_px;
 	}
-	return p_radius_m * (1.0 + glm::dot(moved, way) / (length_px * length_px));
+	return p_radius_m * (1.0 + glm::dot(moved, direction) / (length_px * length_px));
 }
 
-/// Draws a sun for a light, a frame for a camera.
+/// Draws a small sun for a light, a rectangle for a camera.
 void draw_mark(ImDrawList &r_list, const ImVec2 &p_position, bool p_is_light, ImU32 p_color) {
 	const float radius = 0.3f * ImGui::GetFontSize();
 	if (!p_is_light) {
@@ -41,10 +43,11 @@ void draw_mark(ImDrawList &r_list, const ImVec2 &p_position, bool p_is_light, Im
 	r_list.AddCircleFilled(p_position, radius, p_color);
 	for (int ray = 0; ray < 8; ++ray) {
 		const float angle = 0.785398f * float(ray);
-		const ImVec2 way(std::cos(angle), std::sin(angle));
-		r_list.AddLine(
-				ImVec2(p_position.x + 1.4f * radius * way.x, p_position.y + 1.4f * radius * way.y),
-				ImVec2(p_position.x + 2.0f * radius * way.x, p_position.y + 2.0f * radius * way.y),
+		const ImVec2 direction(std::cos(angle), std::sin(angle));
+		r_list.AddLine(ImVec2(p_position.x + 1.4f * radius * direction.x,
+							   p_position.y + 1.4f * radius * direction.y),
+				ImVec2(p_position.x + 2.0f * radius * direction.x,
+						p_position.y + 2.0f * radius * direction.y),
 				p_color, 1.5f);
 	}
 }
@@ -68,8 +71,8 @@ void draw_node_marks(EditorContext &r_context, const ViewportProjection &p_proje
 		if (ImGui::InvisibleButton("mark", ImVec2(2.0f * half, 2.0f * half))) {
 			clicked = &p_node;
 		}
-		ImGui::SetItemAllowOverlap(); // a handle may be on it
-		r_context.note_item("mark " + p_node.name);
+		ImGui::SetItemAllowOverlap(); // a handle may overlap it
+		r_context.record_item_rect("mark " + p_node.name);
 		if (ImGui::IsItemHovered()) {
 			ImGui::SetTooltip("%s", p_node.name.c_str());
 		}
@@ -107,7 +110,7 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 	const glm::dmat4 world_from_node = node->compute_world_from_node();
 	for (int axis = 0; axis < 3; ++axis) {
 		if (!(glm::length(glm::dvec3(world_from_node[axis])) > 0.0)) {
-			return; // flat: it has no direction
+			return; // scaled to zero: the axis has no direction
 		}
 	}
 	std::vector<NodeGizmo> gizmos;
@@ -148,7 +151,7 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 		ImGui::SetCursorScreenPos(ImVec2(handle->x - half, handle->y - half));
 		ImGui::PushID(gizmo.property.c_str());
 		ImGui::InvisibleButton("handle", ImVec2(2 * half, 2 * half));
-		r_context.note_item("handle " + gizmo.property);
+		r_context.record_item_rect("handle " + gizmo.property);
 		ImGui::SetItemAllowOverlap();
 		r_context.dragged_handle = ImGui::IsItemActive() ? id
 				: r_context.dragged_handle == id		 ? 0

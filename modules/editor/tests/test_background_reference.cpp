@@ -11,10 +11,10 @@ using namespace gnomon;
 
 namespace {
 
-/// What was requested of it; a round lasts until it is let go on or cancelled.
+/// Controls a ScriptedSource, and records how it was called.
 struct Script {
 	std::vector<uint32_t> sample_counts;
-	std::atomic<bool> blocks = false;
+	std::atomic<bool> blocks = false; // a round waits until this is false or it is cancelled
 	std::atomic<bool> was_cancelled = false;
 	bool fails = false;
 };
@@ -23,7 +23,7 @@ class ScriptedSource : public ReferenceSource {
 public:
 	explicit ScriptedSource(Script &r_script) : script(r_script) {}
 
-	ReferenceAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
+	ReferenceResult trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
 			const std::function<void(float)> &p_progress) override {
 		script.sample_counts.push_back(p_sample_count);
 		if (script.fails) {
@@ -34,10 +34,10 @@ public:
 			std::this_thread::sleep_for(std::chrono::milliseconds(1));
 		}
 		script.was_cancelled = p_is_cancelled.load();
-		ReferenceAnswer answer;
-		answer.visibility = { 1.0f / float(p_sample_count) };
-		answer.is_complete = !p_is_cancelled;
-		return answer;
+		ReferenceResult result;
+		result.visibility = { 1.0f / float(p_sample_count) };
+		result.is_complete = !p_is_cancelled;
+		return result;
 	}
 
 private:
@@ -56,7 +56,7 @@ void wait_for_end(const BackgroundReference &p_reference) {
 
 } // namespace
 
-TEST_CASE("Each round of a reference has four times the rays, the last as many as are needed") {
+TEST_CASE("Each round of a reference has four times the rays, up to the requested number") {
 	Script script;
 	BackgroundReference reference;
 	CHECK(!reference.take());
@@ -70,7 +70,7 @@ TEST_CASE("Each round of a reference has four times the rays, the last as many a
 	CHECK(!reference.take()); // only once
 }
 
-TEST_CASE("Fewer rays than the first round has are one round") {
+TEST_CASE("A reference of fewer rays than the first round has takes one round") {
 	Script script;
 	BackgroundReference reference;
 	start(reference, script, 4);
@@ -78,7 +78,7 @@ TEST_CASE("Fewer rays than the first round has are one round") {
 	CHECK(script.sample_counts == std::vector<uint32_t>{ 4 });
 }
 
-TEST_CASE("A stopped trace ends at once and returns nothing more; it can start again") {
+TEST_CASE("A stopped reference trace ends at once without a result, and can start again") {
 	Script script;
 	script.blocks = true;
 	BackgroundReference reference;
@@ -98,7 +98,7 @@ TEST_CASE("A stopped trace ends at once and returns nothing more; it can start a
 	CHECK(reference.take());
 }
 
-TEST_CASE("A failure in the background is reported once, to the first query") {
+TEST_CASE("A failure in the background trace is thrown once, by the next take()") {
 	Script script;
 	script.fails = true;
 	BackgroundReference reference;

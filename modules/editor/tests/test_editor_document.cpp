@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A project with one scene of the demo.
+/// A copy of one scene of the demo project, as a project of its own.
 struct EditedProject : TemporaryFolder {
 	fs::path scene = path / "contact_box.gltf";
 
@@ -38,7 +38,7 @@ double get_size(EditorDocument &r_document) {
 	return std::get<double>(get_node_property(find_light(r_document), "light_size"));
 }
 
-/// No file that is written meanwhile gets longer: a full disk, for the process.
+/// Simulates a full disk: while it exists, this process cannot write files longer than p_bytes.
 class FullDisk {
 public:
 	explicit FullDisk(rlim_t p_bytes) {
@@ -62,7 +62,7 @@ const auto LATER = START + 2 * EditorDocument::AUTOSAVE_INTERVAL;
 
 } // namespace
 
-TEST_CASE("[EditorDocument] a change is saved, and nothing else of the file changes") {
+TEST_CASE("[EditorDocument] saving a change leaves the rest of the file unchanged") {
 	const EditedProject project;
 	const std::string before = load_text_file(project.scene);
 	EditorDocument document(project.path);
@@ -79,14 +79,14 @@ TEST_CASE("[EditorDocument] a change is saved, and nothing else of the file chan
 	CHECK(load_text_file(project.scene) == before);
 }
 
-TEST_CASE("[EditorDocument] what was not saved is put aside and comes back") {
+TEST_CASE("[EditorDocument] unsaved changes are autosaved and can be recovered") {
 	const EditedProject project;
 	{
 		EditorDocument document(project.path);
 		CHECK(document.autosave(START));
 		CHECK_FALSE(document.has_recovery());
 		document.set_property(find_light(document), "light_size", 0.75);
-		CHECK(document.autosave(START)); // begins to wait
+		CHECK(document.autosave(START)); // the interval begins
 		CHECK_FALSE(document.has_recovery());
 		document.set_autosave_interval(4 * EditorDocument::AUTOSAVE_INTERVAL);
 		CHECK(document.autosave(LATER));
@@ -94,7 +94,7 @@ TEST_CASE("[EditorDocument] what was not saved is put aside and comes back") {
 		document.set_autosave_interval(EditorDocument::AUTOSAVE_INTERVAL);
 		CHECK(document.autosave(LATER));
 		CHECK(document.has_recovery());
-	} // as if the program had ended
+	} // as if the program had ended without saving
 	EditorDocument document(project.path);
 	REQUIRE(document.has_recovery());
 	CHECK(get_size(document) == 0.4);
@@ -106,15 +106,16 @@ TEST_CASE("[EditorDocument] what was not saved is put aside and comes back") {
 	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
 }
 
-TEST_CASE("[EditorDocument] killed at any step of saving, what was put aside or saved is there") {
+TEST_CASE("[EditorDocument] a kill at any step of saving loses no completed autosave or save") {
 	const EditedProject project;
 	const std::string before = load_text_file(project.scene);
-	const size_t ASIDE_STEP_COUNT = 4; // made, written, synced, renamed
+	// Steps 1 to 4 save the recovery file, 5 to 8 the scene. The ninth run is not killed.
+	const size_t RECOVERY_STEP_COUNT = 4; // created, written, synced, renamed
 	size_t step_count = 0;
 	const auto edit = [&] {
 		EditorDocument document(project.path);
 		document.set_property(find_light(document), "light_size", 0.75);
-		document.save_aside();
+		document.save_recovery();
 		document.save();
 	};
 	const size_t kill_count = kill_at_each_save_step(edit, [&] {
@@ -122,7 +123,7 @@ TEST_CASE("[EditorDocument] killed at any step of saving, what was put aside or 
 		EditorDocument document(project.path);
 		CHECK(document.get_failure().empty());
 		const bool is_saved = get_size(document) == 0.75;
-		CHECK(document.has_recovery() == (step_count >= ASIDE_STEP_COUNT && step_count <= 8));
+		CHECK(document.has_recovery() == (step_count >= RECOVERY_STEP_COUNT && step_count <= 8));
 		if (document.has_recovery()) {
 			document.recover();
 			CHECK(get_size(document) == 0.75);
@@ -133,18 +134,18 @@ TEST_CASE("[EditorDocument] killed at any step of saving, what was put aside or 
 		save_file_atomically(project.scene, before);
 		remove_left_over_files(project.path);
 	});
-	CHECK(kill_count == 2 * ASIDE_STEP_COUNT);
+	CHECK(kill_count == 2 * RECOVERY_STEP_COUNT);
 }
 
-TEST_CASE("[EditorDocument] what an earlier program put aside stays until it is answered for") {
+TEST_CASE("[EditorDocument] an earlier session's recovery file stays until it is discarded") {
 	const EditedProject project;
 	{
 		EditorDocument document(project.path);
 		document.set_property(find_light(document), "light_size", 0.75);
-		document.save_aside();
+		document.save_recovery();
 	}
 	{
-		EditorDocument document(project.path); // opened, and closed without an answer
+		EditorDocument document(project.path); // opened and closed without a decision
 		REQUIRE(document.has_recovery());
 	}
 	EditorDocument document(project.path);
@@ -152,14 +153,13 @@ TEST_CASE("[EditorDocument] what an earlier program put aside stays until it is 
 	document.discard_recovery();
 	document.set_property(find_light(document), "light_size", 0.5);
 	document.save();
-	document.undo(); // a change again, against what the file has
+	document.undo(); // which is a change of the saved state
 	document.autosave(START);
 	document.autosave(LATER);
 	CHECK(document.has_recovery());
 }
 
-TEST_CASE(
-		"[EditorDocument] the project's modules are switched as it states, and other names stay") {
+TEST_CASE("[EditorDocument] switching a module preserves the project's names of unknown modules") {
 	const EditedProject project;
 	save_file_atomically(project.path / "project.cfg",
 			std::string_view("[project]\nstart_scene=\"contact_box.gltf\"\n[modules]\n"
@@ -180,7 +180,7 @@ TEST_CASE(
 			std::vector<std::string>{ "of_another_build" });
 }
 
-TEST_CASE("[EditorDocument] a file that cannot be written or read loses nothing") {
+TEST_CASE("[EditorDocument] failing to write or read a file loses no changes") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	document.set_property(find_light(document), "light_size", 0.75);
@@ -192,11 +192,11 @@ TEST_CASE("[EditorDocument] a file that cannot be written or read loses nothing"
 	CHECK_THROWS_AS(document.reload(), Error);
 	CHECK(get_size(document) == 0.75);
 	CHECK(document.get_history().can_undo());
-	document.save(); // writes over what is broken
+	document.save(); // overwrites the broken file
 	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
 }
 
-TEST_CASE("[EditorDocument] names stay unique, and copies are saved with all below them") {
+TEST_CASE("[EditorDocument] names stay unique, and duplicates and removals can be undone") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	Light3D &light = find_light(document);
@@ -222,7 +222,7 @@ TEST_CASE("[EditorDocument] names stay unique, and copies are saved with all bel
 	CHECK_THROWS_AS(document.remove(*document.get_scene().root), Error);
 }
 
-TEST_CASE("[EditorDocument] another program's change to the file is noticed once") {
+TEST_CASE("[EditorDocument] another program's change to the file is detected once") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	CHECK_FALSE(document.is_file_newer());
@@ -238,7 +238,7 @@ TEST_CASE("[EditorDocument] another program's change to the file is noticed once
 	CHECK_FALSE(document.is_file_newer());
 }
 
-TEST_CASE("[EditorDocument] so is one to a file that the scene refers to") {
+TEST_CASE("[EditorDocument] a change to a file that the scene refers to is detected") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	const auto later = fs::file_time_type::clock::now() + std::chrono::hours(1);
@@ -246,12 +246,12 @@ TEST_CASE("[EditorDocument] so is one to a file that the scene refers to") {
 	CHECK(document.is_file_newer());
 	document.reload();
 	CHECK_FALSE(document.is_file_newer());
-	// While it is missing, another program is writing it.
+	// A missing scene file is still being written by another program.
 	fs::rename(project.scene, project.path / "away");
 	CHECK_FALSE(document.is_file_newer());
 }
 
-TEST_CASE("[EditorDocument] a full disk or a folder that is gone loses nothing") {
+TEST_CASE("[EditorDocument] a full disk or a missing folder loses no changes") {
 	const EditedProject project;
 	const std::string before = load_text_file(project.scene);
 	EditorDocument document(project.path);
@@ -260,7 +260,7 @@ TEST_CASE("[EditorDocument] a full disk or a folder that is gone loses nothing")
 		const FullDisk full(200);
 		CHECK_THROWS_AS(document.save(), Error);
 		document.autosave(START);
-		CHECK_FALSE(document.autosave(LATER)); // reported, and tried again later
+		CHECK_FALSE(document.autosave(LATER)); // logged, and retried later
 	}
 	const fs::path away = project.path.string() + "_away";
 	fs::rename(project.path, away);
@@ -269,15 +269,15 @@ TEST_CASE("[EditorDocument] a full disk or a folder that is gone loses nothing")
 	CHECK(document.is_changed());
 	CHECK(get_size(document) == 0.75);
 	CHECK(load_text_file(project.scene) == before);
-	// Nothing half written is left.
+	// No temporary file is left.
 	CHECK(std::distance(fs::directory_iterator(project.path), fs::directory_iterator()) == 3);
 	document.save();
 	CHECK_FALSE(document.is_changed());
 	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
 }
 
-TEST_CASE("[EditorDocument] a scene that cannot be read opens empty, is not lost, and is read once "
-		  "repaired") {
+TEST_CASE("[EditorDocument] an unreadable scene opens empty, is not overwritten, and reloads after "
+		  "repair") {
 	const EditedProject project;
 	const std::string whole = load_text_file(project.scene);
 	save_file_atomically(project.scene, std::string_view("{ \"asset\""));
@@ -297,26 +297,26 @@ TEST_CASE("[EditorDocument] a scene that cannot be read opens empty, is not lost
 	document.save();
 }
 
-TEST_CASE("[EditorDocument] a scene that is not there is an error") {
+TEST_CASE("[EditorDocument] opening a missing scene is an error") {
 	const EditedProject project;
 	CHECK_THROWS_AS(EditorDocument(project.path / "none.gltf"), Error);
 }
 
-TEST_CASE("[EditorDocument] what was put aside and cannot be read stays under another name") {
+TEST_CASE("[EditorDocument] a recovery file that cannot be read is renamed, not lost") {
 	const EditedProject project;
 	EditorDocument document(project.path);
-	const fs::path aside = document.get_recovery_path();
-	save_file_atomically(aside, std::string_view("{ broken"));
+	const fs::path recovery_path = document.get_recovery_path();
+	save_file_atomically(recovery_path, std::string_view("{ broken"));
 	CHECK(document.has_recovery());
 	CHECK_THROWS_AS(document.recover(), Error);
 	CHECK_FALSE(document.has_recovery());
 	CHECK(get_size(document) == 0.4);
 	document.set_property(find_light(document), "light_size", 0.5);
 	document.save();
-	CHECK(load_text_file(aside.string() + ".unread") == "{ broken");
+	CHECK(load_text_file(recovery_path.string() + ".unread") == "{ broken");
 }
 
-TEST_CASE("[EditorDocument] saving keeps what an earlier editor put aside, until that is decided") {
+TEST_CASE("[EditorDocument] saving preserves an earlier session's recovery file") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	fs::copy_file(project.scene, document.get_recovery_path());

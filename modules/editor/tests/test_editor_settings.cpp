@@ -14,7 +14,7 @@ void write(const TemporaryConfig &p_folder, std::string_view p_text) {
 
 } // namespace
 
-TEST_CASE("[EditorSettings] what was chosen is there the next time") {
+TEST_CASE("[EditorSettings] saved settings are loaded again") {
 	const TemporaryConfig folder;
 	EditorSettings settings = EditorSettings::load();
 	CHECK(settings.recent.empty());
@@ -37,19 +37,19 @@ TEST_CASE("[EditorSettings] what was chosen is there the next time") {
 	CHECK(again.recent == std::vector<std::string>{ "/a/b.gltf" });
 }
 
-TEST_CASE("[EditorSettings] the scene that was open last comes first, each once, ten at most") {
+TEST_CASE("[EditorSettings] recent scenes are listed newest first, each once, at most ten") {
 	EditorSettings settings;
 	for (int number = 0; number < 12; ++number) {
 		settings.add_recent("/scenes/" + std::to_string(number) + ".gltf");
 	}
 	settings.add_recent("/scenes/x/../8.gltf");
-	REQUIRE(settings.recent.size() == EditorSettings::MOST_RECENT);
+	REQUIRE(settings.recent.size() == EditorSettings::MAX_RECENT_COUNT);
 	CHECK(settings.recent[0] == "/scenes/8.gltf");
 	CHECK(settings.recent[1] == "/scenes/11.gltf");
 	CHECK(settings.recent[9] == "/scenes/2.gltf");
 }
 
-TEST_CASE("[EditorSettings] the newest scene that is still there is opened without a name") {
+TEST_CASE("[EditorSettings] find_recent returns the newest scene that still exists") {
 	const TemporaryFolder folder;
 	EditorSettings settings;
 	CHECK(settings.find_recent().empty());
@@ -59,7 +59,7 @@ TEST_CASE("[EditorSettings] the newest scene that is still there is opened witho
 	CHECK(settings.find_recent() == folder.path / "there.gltf");
 }
 
-TEST_CASE("[EditorSettings] a name that is no text is no reason to keep nothing") {
+TEST_CASE("[EditorSettings] a path that is not valid UTF-8 does not prevent saving") {
 	const TemporaryConfig folder;
 	EditorSettings settings;
 	settings.tab = "Error";
@@ -87,7 +87,7 @@ TEST_CASE("[EditorSettings] a damaged file or a value out of range gives the def
 	CHECK(settings.tab == "Error");
 }
 
-TEST_CASE("[EditorSettings] a folder that cannot be written to only warns") {
+TEST_CASE("[EditorSettings] a missing or unwritable folder causes no exception") {
 	const TemporaryConfig folder;
 	write(folder, "{}");
 	std::filesystem::remove_all(folder.path);

@@ -9,8 +9,8 @@
 
 using namespace gnomon;
 
-TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the shown time when it "
-		  "is paused") {
+TEST_CASE("[ErrorMeter] nothing is measured while an animation plays; when it is paused, the shown "
+		  "pose is measured") {
 	if (ShadowRegistry::find_reference() == nullptr) {
 		return;
 	}
@@ -49,7 +49,7 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the sh
 	CHECK(timeline.advance(0.5));
 	meter.update(context, ++image_count);
 	CHECK_FALSE(context.error.is_tracing);
-	CHECK(context.error.reference_hash == hash); // the last one stays
+	CHECK(context.error.reference_hash == hash); // the last result stays
 	timeline.pause();
 	meter.update(context, ++image_count);
 	CHECK(measure() != hash);

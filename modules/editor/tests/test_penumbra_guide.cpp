@@ -10,7 +10,7 @@ using namespace gnomon;
 
 namespace {
 
-/// A light straight above a box above the ground, seen from +X.
+/// A light vertically above a box that floats above the ground, seen from +X.
 struct GuidedScene : SmallScene {
 	SceneRays rays;
 
@@ -21,13 +21,13 @@ struct GuidedScene : SmallScene {
 		light->properties["penumbra_inner_width"] = 0.1;
 	}
 	std::vector<PenumbraLine> find_lines(size_t p_edge_count = 1000) {
-		rays.follow(scene);
+		rays.update_scene(scene);
 		const auto snapshot = snap();
 		return find_penumbra_lines(rays, *snapshot, snapshot->lights.front(), p_edge_count);
 	}
 };
 
-/// The X of the lines along Z on the ground at +X; -1: there are none.
+/// Returns the X coordinate of the lines along Z on the ground beyond the box's +X side; -1: none.
 double find_x(const std::vector<PenumbraLine> &p_lines, bool p_is_outer) {
 	double x = -1;
 	for (const PenumbraLine &line : p_lines) {
@@ -45,23 +45,26 @@ double find_x(const std::vector<PenumbraLine> &p_lines, bool p_is_outer) {
 
 TEST_CASE("The penumbra of a straight edge ends where the rays from the light's rim meet the "
 		  "ground") {
-	// In the plane across the edge (0.5, 1.3) the light at (0, 4) has its rim across the ray to it.
+	// In the XY plane: the edge is at (0.5, 1.3), the light at (0, 4). The points from which the
+	// rays start are beside the light, perpendicular to the ray from it to the edge.
 	for (LightType type : { LightType::SPOT, LightType::OMNI }) {
 		const std::vector<PenumbraLine> lines = GuidedScene(type).find_lines();
 		CHECK(find_x(lines, true) == doctest::Approx(0.84002).epsilon(1e-4));
 		CHECK(find_x(lines, false) == doctest::Approx(0.69210).epsilon(1e-4));
 	}
-	// A sun: tangents 0.2 / S and 0.1 / S, from 1.3 m above the ground; S is 4 m.
+	// A directional light: the tangents of the angles are 0.2 / S and 0.1 / S with S = 4 m, and the
+	// edge is 1.3 m above the ground.
 	const std::vector<PenumbraLine> lines = GuidedScene(LightType::DIRECTIONAL).find_lines();
 	CHECK(find_x(lines, true) == doctest::Approx(0.5 + 1.3 * 0.05).epsilon(1e-4));
-	CHECK(find_x(lines, false) == doctest::Approx(-1.0)); // under the box: not seen from above
+	CHECK(find_x(lines, false) == doctest::Approx(-1.0)); // under the box: hidden from the camera
 }
 
-TEST_CASE("A light without shadow or without width has no penumbra to show") {
+TEST_CASE("There are no penumbra lines without a shadow, a width or a caster, and few if the edge "
+		  "count is limited") {
 	GuidedScene scene(LightType::SPOT);
 	const size_t all_count = scene.find_lines().size();
 	CHECK(all_count > 2);
-	CHECK(scene.find_lines(1).size() <= 2); // of one edge
+	CHECK(scene.find_lines(1).size() <= 2); // outer and inner line of one edge
 	scene.light->properties["shadow_enabled"] = false;
 	CHECK(scene.find_lines().empty());
 	scene.light->properties["shadow_enabled"] = true;
@@ -70,10 +73,10 @@ TEST_CASE("A light without shadow or without width has no penumbra to show") {
 	CHECK(scene.find_lines().empty());
 	scene.light->properties["penumbra_outer_width"] = 0.2;
 	scene.box->casts_shadow = false;
-	CHECK(scene.find_lines().empty()); // the ground's own edges meet nothing
+	CHECK(scene.find_lines().empty()); // no receiver below the ground's edges
 }
 
-TEST_CASE("What a spot light's cone or range does not reach has no penumbra") {
+TEST_CASE("Penumbra lines outside a light's cone or range are omitted") {
 	GuidedScene scene(LightType::SPOT);
 	scene.light->outer_cone_rad = 0.1f;
 	CHECK(scene.find_lines().empty());
@@ -82,11 +85,11 @@ TEST_CASE("What a spot light's cone or range does not reach has no penumbra") {
 	CHECK(near.find_lines().empty());
 }
 
-TEST_CASE("A ray through the scene finds the node it meets first, whatever its scale") {
+TEST_CASE("A ray through the scene finds the nearest node, also a scaled one") {
 	GuidedScene scene(LightType::SPOT);
 	scene.box->parent_from_node =
 			glm::scale(scene.box->parent_from_node, glm::dvec3(0.5, 1.0, 2.0));
-	scene.rays.follow(scene.scene);
+	scene.rays.update_scene(scene.scene);
 	const auto first = scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -2.0, 0.0 });
 	REQUIRE(first);
 	CHECK(first->instance->node == scene.box);
@@ -96,16 +99,16 @@ TEST_CASE("A ray through the scene finds the node it meets first, whatever its s
 	REQUIRE(beyond);
 	CHECK(beyond->instance->node == scene.ground);
 	CHECK(!scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, 1.0, 0.0 }));
-	// A flat node is met by no ray, and breaks none.
+	// Rays ignore a node that is scaled to zero.
 	scene.box->parent_from_node[1] = glm::dvec4(0.0);
-	scene.rays.follow(scene.scene);
+	scene.rays.update_scene(scene.scene);
 	const auto past_flat = scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -1.0, 0.0 });
 	REQUIRE(past_flat);
 	CHECK(past_flat->instance->node == scene.ground);
 }
 
-TEST_CASE("The penumbra of a deformed mesh ends where its vertices are, not where they rest") {
-	// A morph target takes the box 1 m along X; at half of it the light's edges are 0.5 m on.
+TEST_CASE("The penumbra lines of a deformed mesh move with its vertices") {
+	// A morph target moves the box 1 m along X; at weight 0.5 the lines move by 0.5 m.
 	GuidedScene moved(LightType::DIRECTIONAL);
 	moved.box->parent_from_node[3].x += 0.5;
 	const double expected = find_x(moved.find_lines(), true);

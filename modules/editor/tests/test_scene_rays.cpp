@@ -10,7 +10,7 @@ using namespace gnomon;
 
 namespace {
 
-/// A card of two by two metres in the plane z = 0, whose left half is there.
+/// Makes a square of two by two metres in the plane z = 0, whose right half has alpha 0.
 std::unique_ptr<MeshInstance3D> make_half_card(AlphaMode p_mode) {
 	const std::vector<glm::vec3> positions = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 },
 		{ -1, 1, 0 } };
@@ -28,6 +28,7 @@ std::unique_ptr<MeshInstance3D> make_half_card(AlphaMode p_mode) {
 	return card;
 }
 
+/// Returns the name of the node that a ray along -Z at X hits first; empty: none.
 std::string pick(SceneRays &r_rays, double p_x) {
 	const auto hit = r_rays.find_nearest(glm::dvec3(p_x, 0.25, 5), glm::dvec3(0, 0, -1));
 	return hit ? hit->instance->node->name : "";
@@ -35,7 +36,7 @@ std::string pick(SceneRays &r_rays, double p_x) {
 
 } // namespace
 
-TEST_CASE("[SceneRays] a ray through a hole picks what is behind it") {
+TEST_CASE("[SceneRays] a ray through an alpha-tested hole hits the node behind it") {
 	for (const AlphaMode mode : { AlphaMode::MASK, AlphaMode::OPAQUE }) {
 		Scene scene;
 		scene.root->add_child(make_half_card(mode));
@@ -46,7 +47,7 @@ TEST_CASE("[SceneRays] a ray through a hole picks what is behind it") {
 		wall->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -2));
 		scene.root->add_child(std::move(wall));
 		SceneRays rays;
-		rays.follow(scene);
+		rays.update_scene(scene);
 		CHECK(pick(rays, -0.5) == "Card");
 		CHECK(pick(rays, 0.5) == (mode == AlphaMode::MASK ? "Wall" : "Card"));
 		CHECK(pick(rays, 2.0) == "Wall");
@@ -54,16 +55,17 @@ TEST_CASE("[SceneRays] a ray through a hole picks what is behind it") {
 	}
 }
 
-TEST_CASE("[SceneRays] a ray picks what is posed where it is at that time") {
+TEST_CASE("[SceneRays] a ray hits animated nodes at their current pose") {
 	const GltfTestFolder folder;
 	const auto scene = folder.load(make_animated(folder));
 	const auto animation = find_animation(*scene, "Move");
 	SceneRays rays;
-	// Skinned is before Flag, which morphs at x 0: at rest a quarter of the way up.
+	// Skinned is in front of Flag, which is at x = 0 and which its morph weight moves upwards; at
+	// rest the weight is 0.25.
 	for (const double time_s : { 0.0, 0.4, 1.0, 2.0 }) {
 		CAPTURE(time_s);
 		pose_scene(*scene, animation.get(), time_s);
-		rays.follow(*scene);
+		rays.update_scene(*scene);
 		CHECK(pick(rays, 5 * time_s) == "Skinned");
 		CHECK(pick(rays, 5 * time_s + 0.4) == "Skinned");
 		CHECK(pick(rays, 5 * time_s + 0.6) == "");
@@ -74,25 +76,25 @@ TEST_CASE("[SceneRays] a ray picks what is posed where it is at that time") {
 		CHECK_FALSE(
 				rays.find_nearest(glm::dvec3(0.2, 1.5 * time_s + 1.1, -4), glm::dvec3(0, 0, -1)));
 	}
-	CHECK(pick(rays, 0) == ""); // where it was
-	// The same pose is the same mesh, whose tree is reused; another pose is another one.
+	CHECK(pick(rays, 0) == ""); // it has moved away
+	// For the same pose, the mesh and its ray tree are reused; another pose gives another mesh.
 	const uint64_t id = rays.get_instances().front().mesh->id;
-	rays.follow(*scene);
+	rays.update_scene(*scene);
 	CHECK(rays.get_instances().front().mesh->id == id);
 	CHECK(rays.get_tree_count() == 2);
 	pose_scene(*scene, nullptr, 0);
-	rays.follow(*scene);
+	rays.update_scene(*scene);
 	CHECK(rays.get_instances().front().mesh->id != id);
 	CHECK(rays.get_tree_count() == 0);
 	CHECK(pick(rays, 0) == "Skinned");
 }
 
-TEST_CASE("[SceneRays] a pose that is refused hides its node, and nothing else") {
+TEST_CASE("[SceneRays] rays ignore a node with an invalid pose, but no other node") {
 	const GltfTestFolder folder;
 	const auto scene = folder.load(make_animated(folder));
 	scene->find_node<MeshInstance3D>("Flag", "mesh").morph_weights[0] = 1e30f;
 	SceneRays rays;
-	rays.follow(*scene);
+	rays.update_scene(*scene);
 	CHECK(rays.get_instances().size() == 1);
 	CHECK(pick(rays, 0) == "Skinned");
 }

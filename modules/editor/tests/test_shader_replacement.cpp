@@ -25,7 +25,7 @@ struct ReplacedShader : DeviceFixture {
 		save_file_atomically(folder.path / NAME, std::string_view(text));
 		return compile_shader(folder.path, NAME);
 	}
-	/// Of 5, with factor 3 and offset 1.
+	/// Returns the shader's result for source 5 and offset 1; the pipeline gives the factor.
 	uint32_t run(PipelineRID p_pipeline) {
 		const OwnedBuffer source_buffer = make_buffer("source", std::vector<uint32_t>{ 5 });
 		const OwnedBuffer target(*device,
@@ -51,7 +51,7 @@ struct ReplacedShader : DeviceFixture {
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] a replaced shader is used at once, by handles that are there") {
+TEST_CASE("[GPU][RenderingDevice] existing pipeline handles use a replaced shader at once") {
 	ReplacedShader fixture;
 	const ComputePipelineDesc desc = { "scale", NAME, { { 0, 1 }, { 1, 3 } } };
 	const PipelineRID pipeline = fixture.device->get_compute_pipeline(desc);
@@ -60,10 +60,10 @@ TEST_CASE("[GPU][RenderingDevice] a replaced shader is used at once, by handles 
 	CHECK(fixture.run(pipeline) == 115);
 	CHECK(fixture.device->get_compute_pipeline(desc).id == pipeline.id);
 	CHECK(get_pipeline_count(*fixture.device) == 1);
-	// A pipeline that is made later has it too.
+	// A pipeline that is created later uses it too.
 	CHECK(fixture.run(fixture.device->get_compute_pipeline(
 				  { "scale", NAME, { { 0, 1 }, { 1, 4 } } })) == 120);
-	// A binding that is used no more is only omitted, and may come back.
+	// A shader may stop using a binding and use it again later.
 	fixture.device->replace_shaders(
 			{ { NAME, fixture.compile("source[index] * FACTOR", "FACTOR") } });
 	CHECK(fixture.run(pipeline) == 4);
@@ -71,7 +71,7 @@ TEST_CASE("[GPU][RenderingDevice] a replaced shader is used at once, by handles 
 	CHECK(fixture.run(pipeline) == 16);
 }
 
-TEST_CASE("[GPU][RenderingDevice] a shader that wants what the program does not give is refused") {
+TEST_CASE("[GPU][RenderingDevice] a shader that needs other resources than the program has fails") {
 	struct Change {
 		std::string from;
 		std::string to;
@@ -85,14 +85,14 @@ TEST_CASE("[GPU][RenderingDevice] a shader that wants what the program does not 
 	const std::string image =
 			"layout(set = 0, binding = 7) uniform sampler2D unused; const uint unused_value = 0;";
 	const Change changes[] = {
-		{ "= source[index]", "= unused[0] + source[index]", true }, // a binding that was not used
+		{ "= source[index]", "= unused[0] + source[index]", true }, // uses an unused binding
 		{ "uint offset;", "uint offset; uint more[8];", true },
 		{ unused, "", true },
 		{ unused, image, true },
-		{ unused, more, true }, // two kinds of resource on one number
+		{ unused, more, true }, // two kinds of resource at one binding
 		{ unused, unused + " layout(set = 0, binding = 9) uniform More { uint more; };", false },
 	};
-	// Before there is a pipeline and afterwards.
+	// Without and with an existing pipeline.
 	for (const bool has_pipeline : { false, true }) {
 		ReplacedShader fixture;
 		const ComputePipelineDesc desc = { "scale", NAME, { { 0, 1 }, { 1, 3 } } };

@@ -23,27 +23,27 @@ struct AnimatedDocument : EditorDocument {
 	template <typename T = Node3D> T &find(const char *p_name) {
 		return get_scene().find_node<T>(p_name, "node");
 	}
-	/// Of the tip, which "Move" moves by 5 m a second; 0 at rest.
+	/// Returns the world X of the node Tip, which "Move" moves by 5 m/s; 0 at rest.
 	double get_tip_x() { return find("Tip").compute_world_from_node()[3].x; }
 };
 
 } // namespace
 
-TEST_CASE("[Timeline] a scene opens at rest, plays, pauses and goes on from any time") {
+TEST_CASE("[Timeline] a scene opens at rest, plays, pauses and seeks") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	Timeline &timeline = document.get_timeline();
 	CHECK(timeline.get_animation() == nullptr);
 	CHECK_FALSE(timeline.is_playing());
 	CHECK_FALSE(timeline.advance(1.0));
-	timeline.seek(1.0); // of nothing
+	timeline.seek(1.0); // without an animation
 	CHECK(timeline.get_time_s() == 0);
-	timeline.play(); // the first
+	timeline.play(); // the first animation
 	REQUIRE(timeline.get_animation() != nullptr);
 	CHECK(timeline.get_animation()->name == "Move");
 	CHECK(timeline.advance(0.5));
 	CHECK(document.get_tip_x() == doctest::Approx(2.5));
-	CHECK_FALSE(timeline.advance(0.0)); // nothing to draw
+	CHECK_FALSE(timeline.advance(0.0)); // no change of the pose
 	timeline.pause();
 	CHECK_FALSE(timeline.advance(0.5));
 	CHECK(document.get_tip_x() == doctest::Approx(2.5));
@@ -61,7 +61,7 @@ TEST_CASE("[Timeline] a scene opens at rest, plays, pauses and goes on from any 
 	CHECK_FALSE(document.is_changed());
 }
 
-TEST_CASE("[Timeline] it loops, or pauses at its end and plays from the other one") {
+TEST_CASE("[Timeline] it loops, or pauses at its end and then plays from the other end") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	Timeline &timeline = document.get_timeline();
@@ -77,7 +77,7 @@ TEST_CASE("[Timeline] it loops, or pauses at its end and plays from the other on
 	CHECK(timeline.get_time_s() == 0);
 	timeline.set_speed(-0.5);
 	CHECK(timeline.is_playing());
-	timeline.advance(1); // at its begin already
+	timeline.advance(1); // already at the start
 	CHECK(timeline.get_time_s() == 0);
 	CHECK_FALSE(timeline.is_playing());
 	timeline.play();
@@ -88,7 +88,7 @@ TEST_CASE("[Timeline] it loops, or pauses at its end and plays from the other on
 	CHECK(timeline.is_playing());
 }
 
-TEST_CASE("[Timeline] an animation of one key is a pose, which does not play") {
+TEST_CASE("[Timeline] an animation of one key is shown as a pose and does not play") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	Timeline &timeline = document.get_timeline();
@@ -98,7 +98,7 @@ TEST_CASE("[Timeline] an animation of one key is a pose, which does not play") {
 	CHECK(document.find("Base").compute_world_from_node()[0].x == doctest::Approx(-1));
 }
 
-TEST_CASE("[Timeline] at rest it plays what was shown last, else the project's animation") {
+TEST_CASE("[Timeline] at rest it plays the last shown animation, else the project's default") {
 	const AnimatedProject project;
 	project.write("project.cfg",
 			std::string("[project]\nstart_scene=\"scene.gltf\"\n[defaults]\nanimation=\"Turn\"\n"));
@@ -114,7 +114,7 @@ TEST_CASE("[Timeline] at rest it plays what was shown last, else the project's a
 	CHECK(timeline.get_animation() == nullptr);
 }
 
-TEST_CASE("[Timeline] no pose is saved, neither on demand nor aside") {
+TEST_CASE("[Timeline] a pose is saved neither in the scene file nor in the recovery file") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	Timeline &timeline = document.get_timeline();
@@ -128,34 +128,34 @@ TEST_CASE("[Timeline] no pose is saved, neither on demand nor aside") {
 	timeline.seek(1.3);
 	document.save();
 	CHECK(load_text_file(project.path / "scene.gltf") == at_rest);
-	// The same change, made at rest and posed.
+	// The same change gives the same file, made at rest or in a pose.
 	Node3D &tip = document.find("Tip");
 	timeline.choose("");
 	document.set_property(tip, "scale", glm::dvec3(1, 2, 1));
-	document.save_aside();
-	const std::string aside = load_text_file(document.get_recovery_path());
+	document.save_recovery();
+	const std::string recovery_text = load_text_file(document.get_recovery_path());
 	document.undo();
 	timeline.choose("Move");
 	timeline.seek(1.3);
 	document.set_property(tip, "scale", glm::dvec3(1, 2, 1));
-	document.save_aside();
-	CHECK(load_text_file(document.get_recovery_path()) == aside);
+	document.save_recovery();
+	CHECK(load_text_file(document.get_recovery_path()) == recovery_text);
 	document.undo();
 	document.save();
 	CHECK(load_text_file(project.path / "scene.gltf") == at_rest);
 }
 
-TEST_CASE("[Timeline] the transform of a posed node is its own, and the pose follows it") {
+TEST_CASE("[Timeline] editing a posed node changes its own transform and updates the pose") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	document.get_timeline().choose("Move");
 	document.get_timeline().seek(1);
 	Node3D &tip = document.find("Tip");
 	CHECK(std::get<glm::dvec3>(get_node_property(tip, "position")) == glm::dvec3(0));
-	document.set_property(tip, "position", glm::dvec3(0, 4, 0)); // which the animation replaces
+	document.set_property(tip, "position", glm::dvec3(0, 4, 0)); // the animation overrides it
 	CHECK(tip.parent_from_node[3] == glm::dvec4(0, 4, 0, 1));
 	CHECK(tip.compute_world_from_node()[3] == glm::dvec4(5, 0, 0, 1));
-	document.set_property(tip, "scale", glm::dvec3(2)); // which it does not
+	document.set_property(tip, "scale", glm::dvec3(2)); // the animation has no scale
 	CHECK(tip.compute_world_from_node()[0].x == doctest::Approx(2));
 	document.undo();
 	CHECK(tip.compute_world_from_node()[0].x == doctest::Approx(1));
@@ -167,7 +167,7 @@ TEST_CASE("[Timeline] the transform of a posed node is its own, and the pose fol
 	CHECK(tip.compute_world_from_node()[3] == glm::dvec4(0, 4, 0, 1));
 }
 
-TEST_CASE("[Timeline] animated nodes are deleted, brought back and copied while it plays") {
+TEST_CASE("[Timeline] animated nodes can be deleted, restored and duplicated while it plays") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	Timeline &timeline = document.get_timeline();
@@ -179,14 +179,14 @@ TEST_CASE("[Timeline] animated nodes are deleted, brought back and copied while 
 		document.undo();
 		CHECK(document.get_tip_x() == doctest::Approx(5 * timeline.get_time_s()));
 	}
-	// A copy of the mesh has the same joints; one of a joint has no channels.
+	// The copy of a skinned mesh uses the same joints; the copy of a joint is not animated.
 	document.duplicate(document.find("Skinned"));
 	CHECK(document.find("Skinned 2").compute_bounds().minimum.x ==
 			doctest::Approx(5 * timeline.get_time_s() - 0.5));
 	document.duplicate(document.find("Base"));
 	timeline.advance(0.1);
 	CHECK(document.find("Tip 2").compute_world_from_node()[3].x == 0);
-	// Removed for good, also from the file.
+	// Removes it from the file too.
 	document.remove(document.find("Base"));
 	document.save();
 	document.reload();
@@ -195,7 +195,7 @@ TEST_CASE("[Timeline] animated nodes are deleted, brought back and copied while 
 	CHECK_NOTHROW(document.compute_selected_bounds());
 }
 
-TEST_CASE("[Timeline] a file that is read again shows the same time, if it still can") {
+TEST_CASE("[Timeline] a reloaded file shows the same animation and time, if it still has it") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	Timeline &timeline = document.get_timeline();
@@ -221,7 +221,7 @@ TEST_CASE("[Timeline] a file that is read again shows the same time, if it still
 	CHECK_FALSE(timeline.advance(1));
 }
 
-TEST_CASE("[Timeline] a scene without animations, or that cannot be read, has nothing to play") {
+TEST_CASE("[Timeline] a scene that cannot be read has nothing to play") {
 	const AnimatedProject project;
 	project.write("scene.gltf", std::string("{ broken"));
 	AnimatedDocument document(project);
@@ -230,13 +230,13 @@ TEST_CASE("[Timeline] a scene without animations, or that cannot be read, has no
 	CHECK(document.get_timeline().get_animation() == nullptr);
 }
 
-TEST_CASE("[Timeline] all of a selected mesh is where its joints have it") {
+TEST_CASE("[Timeline] the bounds of a selected skinned mesh follow its joints") {
 	const AnimatedProject project;
 	AnimatedDocument document(project);
 	document.select(&document.find("Skinned"));
 	document.get_timeline().choose("Move");
 	document.get_timeline().seek(2);
 	const Bounds bounds = document.compute_selected_bounds();
-	CHECK(bounds.minimum.x > 8); // not about the node, which stays at 0
+	CHECK(bounds.minimum.x > 8); // not around the node, which stays at 0
 	CHECK(bounds.maximum.x >= doctest::Approx(10.5));
 }

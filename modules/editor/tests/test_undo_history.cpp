@@ -29,7 +29,7 @@ struct SmallTree {
 
 } // namespace
 
-TEST_CASE("[UndoHistory] changes are taken back and done again, one by one") {
+TEST_CASE("[UndoHistory] changes are undone and redone one by one") {
 	SmallTree tree;
 	tree.set(2);
 	tree.set(3);
@@ -44,7 +44,7 @@ TEST_CASE("[UndoHistory] changes are taken back and done again, one by one") {
 	CHECK(tree.light->intensity == 3);
 	CHECK_FALSE(tree.history.can_redo());
 	tree.history.undo();
-	tree.set(5); // what was taken back is gone
+	tree.set(5); // discards the undone step
 	CHECK_FALSE(tree.history.can_redo());
 	CHECK(tree.light->children.size() == 1); // a state is restored without its children
 }
@@ -63,7 +63,7 @@ TEST_CASE("[UndoHistory] a drag is one step until it ends") {
 	CHECK_FALSE(tree.history.can_undo());
 }
 
-TEST_CASE("[UndoHistory] what changes nothing or is refused leaves no step") {
+TEST_CASE("[UndoHistory] a change that has no effect or fails adds no step") {
 	SmallTree tree;
 	tree.set(1);
 	CHECK_FALSE(tree.history.can_undo());
@@ -77,8 +77,7 @@ TEST_CASE("[UndoHistory] what changes nothing or is refused leaves no step") {
 	CHECK_FALSE(tree.history.can_undo());
 }
 
-TEST_CASE(
-		"[UndoHistory] removed and added nodes come back at their position, with all below them") {
+TEST_CASE("[UndoHistory] undo and redo restore nodes at their position, with their descendants") {
 	SmallTree tree;
 	tree.history.remove(*tree.light, "Delete Lamp");
 	CHECK(tree.root.children.size() == 1);
@@ -86,9 +85,9 @@ TEST_CASE(
 	REQUIRE(tree.root.children.size() == 2);
 	CHECK(tree.root.children[0].get() == tree.light);
 	CHECK(tree.light->children.at(0).get() == tree.child);
-	auto made = std::make_unique<Light3D>();
-	made->name = "Other";
-	tree.history.add(tree.root, std::move(made), "Add Other");
+	auto added_node = std::make_unique<Light3D>();
+	added_node->name = "Other";
+	tree.history.add(tree.root, std::move(added_node), "Add Other");
 	CHECK(tree.root.children.size() == 3);
 	tree.history.undo();
 	CHECK(tree.root.children.size() == 2);
@@ -96,7 +95,7 @@ TEST_CASE(
 	CHECK(tree.root.children[2]->name == "Other");
 }
 
-TEST_CASE("[UndoHistory] it knows when the scene is as it was saved") {
+TEST_CASE("[UndoHistory] is_saved is true only in the state that was saved") {
 	SmallTree tree;
 	CHECK(tree.history.is_saved());
 	tree.set(2, "intensity");
@@ -114,8 +113,8 @@ TEST_CASE("[UndoHistory] it knows when the scene is as it was saved") {
 	CHECK(tree.history.is_saved());
 }
 
-TEST_CASE("[UndoHistory] a change of a second material is a step, though the first decides what is "
-		  "shown") {
+TEST_CASE("[UndoHistory] a change of the second material is a step, although properties show the "
+		  "first") {
 	auto grey = std::make_shared<Material>();
 	auto shiny = std::make_shared<Material>();
 	shiny->shading_model = ShadingModel::PHONG;
@@ -133,5 +132,5 @@ TEST_CASE("[UndoHistory] a change of a second material is a step, though the fir
 	history.redo();
 	history.change(node, "Again", "", [&] { set_node_property(node, "shading_model", plain); });
 	CHECK_FALSE(history.can_redo());
-	CHECK(history.get_undo_name() == "Set"); // the second changed nothing
+	CHECK(history.get_undo_name() == "Set"); // the second change had no effect
 }

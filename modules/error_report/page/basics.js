@@ -1,16 +1,17 @@
-/* What all parts of the page share: the data, names, numbers as text, and elements. The first file by name, so
-   that the others find GnomonReport, the only global. */
+/* Shared by all files of the page: loading the data, formatting numbers, and creating elements. The files are joined in
+   alphabetical order, so this one comes first and defines GnomonReport, the only global. */
 (function () {
 	"use strict";
 
 	const report = {};
 	window.GnomonReport = report;
 
-	// d3's filled symbols differ at 9 pixels; shape distinguishes techniques where colour cannot.
+	// Filled symbols of d3 that can be told apart at 9 pixels. Shapes distinguish techniques of similar colour.
 	const SYMBOLS = ["circle", "square", "triangle", "diamond", "star", "cross", "wye"];
 	const NO_VALUE = "–";
 
-	/* An element; null and undefined attributes and children are skipped. Strings become text, never markup. */
+	/* Creates an element. Attributes that start with "--" are style properties, those with "on" are event listeners. null and
+	   undefined attributes and children are skipped. Strings become text, never markup. */
 	report.make = function (tag, attributes, ...children) {
 		const element = document.createElement(tag);
 		for (const [name, value] of Object.entries(attributes || {})) {
@@ -28,11 +29,14 @@
 		return report.add(element, ...children);
 	};
 
+	/* Appends children, like make, and returns the element. */
 	report.add = function (element, ...children) {
 		element.append(...children.flat().filter((child) => child !== null && child !== undefined));
 		return element;
 	};
 
+	/* Parses the embedded report.json, adds indices and the cells of each configuration, and sets report.data,
+	   report.techniques (by id), report.baseline and report.matrix. */
 	report.load = function () {
 		const data = JSON.parse(document.getElementById("report-data").textContent);
 		if (data.format !== "gnomon_report" || data.version !== 2) {
@@ -44,9 +48,9 @@
 		data.images = data.images || {};
 		report.data = data;
 		report.techniques = new Map();
-		// Ids are short enough for a phone, and what the command line takes; the foot has the names.
+		// Techniques are labelled by id: it fits on a phone and is what the command line takes. The footer lists the names.
 		data.techniques.forEach((technique) => addTechnique(technique.id, technique.id, technique.color));
-		// A record of a technique that is no longer registered still has a colour.
+		// Techniques that only occur in cells, because they are no longer registered, get a default colour.
 		[...data.cells, ...data.ranking].forEach((item) => addTechnique(item.technique, item.technique, "#888888"));
 		data.configurations.forEach((configuration, index) => {
 			configuration.index = index;
@@ -68,19 +72,19 @@
 		}
 	}
 
-	/* Lighter on a dark page, see --tone. */
+	/* Returns a CSS colour that is lighter on a dark page, see --tone in report.css. */
 	function toTone(color) {
 		return `color-mix(in srgb, ${color} var(--tone), #fff)`;
 	}
 
 	report.isNumber = (value) => typeof value === "number" && Number.isFinite(value);
 
-	/* The two numbers of every plot; undefined where a cell failed, is missing or has no reference. */
+	/* The two values of a cell that plots show; undefined if the cell failed, is missing or has no reference. */
 	report.getMae = (cell) => cell.error?.all?.penumbra?.mae;
 	report.getCostMs = (cell) => cell.time?.cost_ms;
 	report.isDrawn = (cell) => report.isNumber(report.getMae(cell)) && report.getCostMs(cell) > 0;
 
-	/* The population of receivers that see the whole light; the same object as `all` where they are the same. */
+	/* The errors over receivers that see the whole light. `as` marks that they equal those over all receivers. */
 	report.getWholeLight = (cell) => (cell.error?.whole_light?.as ? cell.error.all : cell.error?.whole_light);
 
 	report.getTechnique = (id) => report.techniques.get(id) || { id, name: id, color: "#888888", index: -1, symbol: "circle" };
@@ -90,6 +94,7 @@
 		: `${report.showPlain(configuration.light_size_m)} m`;
 	report.getLightText = (configuration) => `${configuration.light}, ${report.getSizeText(configuration)}`;
 
+	/* Wraps a formatter: values that are not finite numbers become a dash. */
 	function show(format) {
 		return (value) => (report.isNumber(value) ? format(value) : NO_VALUE);
 	}
@@ -102,10 +107,10 @@
 	report.showCount = show((value) => value.toLocaleString("en"));
 	report.showMebibytes = show((value) => `${(value / 1048576).toFixed(1)} MiB`);
 	report.showPlain = show((value) => String(Number(value.toPrecision(4))));
-	/* For ticks of a logarithmic axis: no number longer than "0.0005" or "500k". */
+	/* Formats a tick of a logarithmic axis, at most as long as "0.0005" or "500k". */
 	report.showTick = (value) => (value >= 10000 ? d3.format("~s")(value) : String(Number(value.toPrecision(3))));
 
-	/* The colour and shape of a technique, as its dots have them. */
+	/* Creates the symbol of a technique, as in plots. */
 	report.makeSwatch = function (technique) {
 		const svg = d3.create("svg").attr("class", "swatch").attr("viewBox", "-8 -8 16 16").attr("aria-hidden", "true");
 		const symbol = d3[`symbol${technique.symbol[0].toUpperCase()}${technique.symbol.slice(1)}`];
@@ -123,7 +128,7 @@
 		return report.make("section", { id, "aria-label": title }, heading, ...children);
 	};
 
-	/* Two or more buttons of which one is pressed. */
+	/* Creates a group of buttons of which one is pressed. options: [value, text] of each. */
 	report.makeChoice = function (label, options, chosen, onChoose) {
 		const buttons = options.map(([value, text]) => report.make("button", {
 			type: "button", "aria-pressed": String(value === chosen), onclick: () => {
@@ -134,7 +139,8 @@
 		return report.make("div", { class: "choice", role: "group", "aria-label": label }, buttons);
 	};
 
-	/* Calls p_draw when the element comes near the view; at once for printing and tests, see report.js. */
+	/* Deferred drawing: drawWhenNear(element, draw) calls draw once when the element is near the viewport. drawAll() calls
+	   all pending functions at once, for printing and tests, see report.js. */
 	const waiting = new Map();
 	const observer = new IntersectionObserver((entries) => {
 		entries.filter((entry) => entry.isIntersecting).forEach((entry) => drawNow(entry.target));
@@ -152,6 +158,6 @@
 		observer.observe(element);
 	};
 
-	/* A promise that also waits for what is drawn asynchronously (images). */
+	/* Returns a promise that also waits for asynchronous drawing (images). */
 	report.drawAll = () => Promise.all([...waiting.keys()].map(drawNow));
 })();

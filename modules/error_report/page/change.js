@@ -1,4 +1,4 @@
-/* The section of the animation part: errors of change while each scene's animation plays. */
+/* The section "Animation": error, and error of change between two frames, at several times of each scene's animation. */
 (function () {
 	"use strict";
 
@@ -6,7 +6,8 @@
 	const make = report.make;
 	const PLOT_HEIGHT_PX = 300;
 
-	/* p_key: which number of a point. Times are side by side: x is 2 to the power of the index, on a logarithmic axis. */
+	/* key: the value of a point to plot, "temporal_rmse" or "mae". Times are evenly spaced: the plot's x axis is logarithmic, so
+	   x is 2 to the power of the index. */
 	function drawCurves(host, plot, key, y_label) {
 		const times = [...new Set(plot.series.flatMap((series) => series.points.map((point) => point.time_s)))].sort((a, b) => a - b);
 		const all = plot.series.flatMap((series) => series.points.map((point) => ({ ...point, technique: series.technique })));
@@ -26,7 +27,7 @@
 		return make("figure", {}, make("h3", {}, `${title}: ${plot.scene}, ${plot.light}`), host);
 	}
 
-	/* drawOnEverySize(host, draw): see report.js. */
+	/* plots: report.json's "animation". drawOnEverySize(host, draw): see report.js. */
 	report.makeChange = function (plots, drawOnEverySize) {
 		const section = report.makeSection("change", "Animation");
 		if (plots.length === 0) {

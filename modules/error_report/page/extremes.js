@@ -1,4 +1,4 @@
-/* The section of stiff and extreme cases: a curve for each sweep, where each technique breaks, hostile scenes. */
+/* The section "Stability": a plot for each sweep, tables of where each technique breaks, and tables of the hostile scenes. */
 (function () {
 	"use strict";
 
@@ -11,7 +11,8 @@
 	};
 	const getPoints = (plot) => plot.series.flatMap((series) => series.points.map((point) => ({ ...point, technique: series.technique })));
 	const getCell = (point) => report.data.cells[point.cell];
-	const showCase = (plot) => plot.quantity.replace(/,? ?S$/, (unit) => (unit ? ", of the scene's size S" : ""));
+	/* Returns the quantity of the sweep, with the unit S, if it ends with it, spelled out. */
+	const showQuantity = (plot) => plot.quantity.replace(/,? ?S$/, (unit) => (unit ? ", of the scene's size S" : ""));
 
 	function describe(point) {
 		const cell = getCell(point);
@@ -33,7 +34,7 @@
 		return [...lines, ...[stability.refusal, cell.message].filter((text) => text)];
 	}
 
-	/* Values are side by side, whatever is between them: x is 2 to the power of the index, on a logarithmic axis. */
+	/* Values are evenly spaced, whatever their distances: the plot's x axis is logarithmic, so x is 2 to the power of the index. */
 	function drawSweep(host, plot, onPick) {
 		const labels = [...new Set(plot.series.flatMap((series) => series.points.map((point) => point.label)))];
 		const drawn = getPoints(plot).filter((point) => report.isNumber(point.mae));
@@ -44,7 +45,7 @@
 		const floor = report.getErrorFloor(drawn.map((point) => point.mae));
 		const points = drawn.map((point) => ({ x: 2 ** labels.indexOf(point.label), y: Math.max(floor, point.mae),
 			technique: point.technique, is_hollow: point.state !== "ok", item: point }));
-		report.drawPlot(host, { points, x_label: showCase(plot), y_label: "MAE", height_px: PLOT_HEIGHT_PX, labels: null,
+		report.drawPlot(host, { points, x_label: showQuantity(plot), y_label: "MAE", height_px: PLOT_HEIGHT_PX, labels: null,
 			x_ticks: labels.map((label, index) => [2 ** index, label]), x_domain: [2 ** -0.4, 2 ** (labels.length - 0.6)],
 			y_domain: report.getDomain(points.map((point) => point.y)), describe: (point) => describe(point.item),
 			onPick: (item) => onPick(getCell(item)), name: `Error against ${plot.quantity}, ${plot.light_type}` });
@@ -59,7 +60,7 @@
 			draw();
 		}) : null;
 		const figure = make("figure", {}, make("h3", {}, plots[0].sweep.replaceAll("_", " ")),
-			make("p", { class: "soft" }, `${showCase(plots[0])}; centre ${plots[0].center}`), choice, host);
+			make("p", { class: "soft" }, `${showQuantity(plots[0])}; centre ${plots[0].center}`), choice, host);
 		drawOnEverySize(host, draw);
 		return figure;
 	}
@@ -75,17 +76,17 @@
 		return ends.map((label) => `from ${label}`).join(" and ") || (series.is_complete ? "holds" : "?");
 	}
 
-	/* One row a technique, one column a sweep: the first value beyond which it does not hold. Sorting is no use here. */
+	/* Creates a table with one row per technique and one column per sweep: the first value at which the technique fails. */
 	function makeBreaks(plots) {
 		const ids = [...new Set(plots.flatMap((plot) => plot.series.map((series) => series.technique)))];
 		const find = (plot, id) => plot.series.find((series) => series.technique === id);
 		const columns = [{ title: "technique", isText: true, value: (id) => id, show: (id) => report.makeName({ technique: id }) },
-			...plots.map((plot) => ({ title: plot.sweep.replaceAll("_", " "), help: showCase(plot), isText: true,
+			...plots.map((plot) => ({ title: plot.sweep.replaceAll("_", " "), help: showQuantity(plot), isText: true,
 				value: (id) => showBreaks(find(plot, id)), show: (id) => showBreaks(find(plot, id)) }))];
 		return report.makeTable(`Where each technique breaks, ${plots[0].light_type}`, columns, ids, -1);
 	}
 
-	/* One row a scene, one column a technique. */
+	/* Creates a table of separate scenes: one row per scene, one column per technique. */
 	function makeCases(plot) {
 		const labels = plot.series[0].points.map((point) => point.label);
 		const find = (label, id) => plot.series.find((series) => series.technique === id)?.points.find((point) => point.label === label);
@@ -98,7 +99,7 @@
 		return report.makeTable(`${title}, ${plot.light_type}: MAE`, columns, labels, -1);
 	}
 
-	/* drawOnEverySize(host, draw): see report.js. */
+	/* plots: report.json's "stability". drawOnEverySize(host, draw): see report.js. */
 	report.makeStability = function (plots, drawOnEverySize) {
 		const section = report.makeSection("stability", "Stability");
 		if (plots.length === 0) {

@@ -5,12 +5,12 @@
 
 	const report = window.GnomonReport;
 	const make = report.make;
-	// A wipe shows two images; going back and forth between a few cells shall not decode again.
+	// Enough that going back and forth between a few cells, with two images each, does not decode again.
 	const CACHED_IMAGE_COUNT = 16;
 	const SHOWN_PASS_COUNT = 6;
 	const images = new Map();
 
-	/* { width, height, data: RGBA bytes } of an embedded image, or null where there is none of that name. */
+	/* Returns a promise of { width, height, data: RGBA bytes } of an embedded image; null if no image has that name. */
 	function loadPixels(name) {
 		const url = report.data.images[name];
 		if (!url) {
@@ -35,6 +35,7 @@
 		return images.get(name);
 	}
 
+	/* Returns [r, g, b], 0 to 255, of a signed error, interpolated in the heat map's colours. */
 	function getHeatColor(error) {
 		const { range, colors } = report.data.heat_map;
 		const position = (Math.max(-1, Math.min(1, error / range)) + 1) / 2 * (colors.length - 1);
@@ -43,7 +44,7 @@
 		return colors[low].map((value, channel) => value + (colors[high][channel] - value) * (position - low));
 	}
 
-	/* p_get_color(index of the pixel's first byte) gives [r, g, b, a]. */
+	/* Fills a canvas. getColor(offset of the pixel's first byte) returns [r, g, b, a]. */
 	function paint(canvas, size, getColor) {
 		canvas.width = size.width;
 		canvas.height = size.height;
@@ -55,7 +56,8 @@
 		context.putImageData(image, 0, 0);
 	}
 
-	/* Passes that do the same for another view or layer differ in digits only; they are one. */
+	/* Merges passes whose names differ only in digits: the same work for several views or layers. Returns the most expensive
+	   passes, descending, and the sum of the others. */
 	function mergePasses(passes) {
 		const merged = new Map();
 		for (const pass of passes || []) {
@@ -68,7 +70,7 @@
 		}
 		const sorted = [...merged.values()].sort((a, b) => b.cost_ms - a.cost_ms);
 		const rest = sorted.slice(SHOWN_PASS_COUNT);
-		// A rest of one pass is no shorter than its name.
+		// A single remaining pass is listed by name, since "1 others" saves no space.
 		return rest.length < 2 ? sorted
 			: [...sorted.slice(0, SHOWN_PASS_COUNT), { name: `${rest.length} others`, cost_ms: d3.sum(rest, (pass) => pass.cost_ms) }];
 	}
@@ -119,7 +121,8 @@
 		return { select, element: make("label", { class: "field" }, make("span", {}, label), select) };
 	}
 
-	/* { element, select(cell), draw() }; p_on_select gets every cell that is chosen here or from outside. */
+	/* Creates a viewer: { element, select(cell) }. onSelect(cell) is called for each selected cell, whether selected in the
+	   viewer or by select. getLabel(configuration) is its name in the list. */
 	report.makeViewer = function (configurations, onSelect, getLabel = report.getLightText) {
 		const referenceCanvas = make("canvas", { "aria-hidden": "true" });
 		const resultCanvas = make("canvas", { class: "over", "aria-hidden": "true" });
@@ -135,7 +138,7 @@
 		const views = make("div", { class: "views" },
 			make("figure", {}, wipe, make("figcaption", {}, "Result and reference: drag to wipe. Hatched: no receiver.")),
 			make("figure", {}, make("div", { class: "heat" }, heatCanvas), report.makeHeatLegend(), probe), passes);
-		const chooseConfiguration = makeSelect("light and size", (index) => select(findAlike(configurations[index])));
+		const chooseConfiguration = makeSelect("light and size", (index) => select(findMatchingCell(configurations[index])));
 		const chooseCell = makeSelect("technique and setting", (index) => select(report.data.cells[index]));
 		configurations.forEach((configuration, index) => chooseConfiguration.select.append(
 			make("option", { value: index }, getLabel(configuration))));
@@ -144,8 +147,8 @@
 		let chosen = null;
 		let shown = null;
 
-		/* The cell of the same technique and setting in another configuration, else one that is there. */
-		function findAlike(configuration) {
+		/* Returns the cell of another configuration with the chosen technique and setting, else with the technique, else the first. */
+		function findMatchingCell(configuration) {
 			const cells = configuration.cells;
 			return cells.find((cell) => cell.technique === chosen?.technique && cell.setting === chosen.setting) ||
 				cells.find((cell) => cell.technique === chosen?.technique) || cells[0];
@@ -203,7 +206,7 @@
 			const toGrey = (pixels) => (offset) => [pixels.data[offset], pixels.data[offset], pixels.data[offset],
 				reference.data[offset + 3] > 0 ? 255 : 0];
 			const getError = (offset) => (result.data[offset] - reference.data[offset]) / 255;
-			// 511 differences at most: a table spares a mix of colours per pixel.
+			// There are only 511 possible differences, so their colours are computed once.
 			const table = d3.range(-255, 256).map((step) => [...getHeatColor(step / 255).map(Math.round), 255]);
 			const grey = report.data.heat_map.no_receiver;
 			paint(resultCanvas, reference, toGrey(result));
@@ -215,7 +218,7 @@
 			return undefined;
 		}
 
-		/* The values under the pointer, for those who want to know one pixel. */
+		/* Shows the values of the pixel under the pointer. */
 		function showProbe(event) {
 			if (!shown) {
 				return;

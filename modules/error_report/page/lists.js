@@ -1,4 +1,4 @@
-/* Tables that sort by a click on a heading, and the parts of the page that are lists of numbers. */
+/* Tables that are sorted by a click on a heading, and the sections that consist of tables: ranking, comparison, budget. */
 (function () {
 	"use strict";
 
@@ -6,9 +6,9 @@
 	const make = report.make;
 	const BUDGET_STEP_COUNT = 1000;
 
-	/* p_columns: { title, help, value(row) for sorting, show(row) text or element, isText, best: "least" | "nearest zero",
-	   hasBar }. The rows come sorted by the column p_sorted_index, rising. Rows for which p_is_partial(row) are pale and
-	   never the best: their means are over other images. */
+	/* Creates a table. columns: { title, help, value(row) for sorting, show(row): text or element, isText, best: "least" |
+	   "nearest zero" (highlights the best value), hasBar }. The rows must be sorted by the column sortedIndex, ascending; -1:
+	   not sorted. Rows with isPartial(row) are pale and never the best, since their means are over fewer configurations. */
 	report.makeTable = function (caption, columns, rows, sortedIndex, isPartial = () => false) {
 		const compared = rows.filter((row) => !isPartial(row));
 		const body = make("tbody");
@@ -32,7 +32,7 @@
 		return make("div", { class: "table", tabindex: "0", role: "region", "aria-label": caption }, table);
 	};
 
-	/* Values that are absent come last, whichever way the rest is sorted. */
+	/* Compares two values for sorting. Absent values come last in both directions. */
 	function compare(a, b, isRising) {
 		const isAbsent = (value) => value === undefined || value === null || Number.isNaN(value);
 		if (isAbsent(a) || isAbsent(b)) {
@@ -48,10 +48,10 @@
 			const measure = column.best === "nearest zero" ? Math.abs : (number) => number;
 			const isBest = column.best && isCompared && report.isNumber(value) &&
 				measure(value) === d3.min(compared, (other) => measure(column.value(other)));
-			const share = column.hasBar && report.isNumber(value) ? value / d3.max(rows, column.value) : 0;
+			const fraction = column.hasBar && report.isNumber(value) ? value / d3.max(rows, column.value) : 0;
 			return make("td", {
-				class: [column.isText ? "text" : "", isBest ? "best" : "", share > 0 ? "bar" : ""].join(" ").trim() || null,
-				"--share": share > 0 ? `${(100 * share).toFixed(1)}%` : null,
+				class: [column.isText ? "text" : "", isBest ? "best" : "", fraction > 0 ? "bar" : ""].join(" ").trim() || null,
+				"--fraction": fraction > 0 ? `${(100 * fraction).toFixed(1)}%` : null,
 			}, column.show(row));
 		}));
 	}
@@ -87,18 +87,18 @@
 			report.showRatio, { best: "least" }),
 	];
 
-	report.getMostConfigurations = (rows) => d3.max(rows, (row) => row.configuration_count) || 0;
+	report.getMaxConfigurationCount = (rows) => d3.max(rows, (row) => row.configuration_count) || 0;
 
 	report.makeRankingTable = function (caption, rows) {
-		const most = report.getMostConfigurations(rows);
-		const isPartial = (row) => row.configuration_count < most;
+		const maxCount = report.getMaxConfigurationCount(rows);
+		const isPartial = (row) => row.configuration_count < maxCount;
 		const count = { title: "measured in", help: "Number of configurations", value: (row) => row.configuration_count,
 			show: (row) => make("span", isPartial(row) ? { class: "mark", title: "Fewer configurations than other rows" } : {},
-				`${row.configuration_count} of ${most}`) };
+				`${row.configuration_count} of ${maxCount}`) };
 		return report.makeTable(caption, [...NAME_COLUMNS, ...NUMBER_COLUMNS, count], rows, NAME_COLUMNS.length, isPartial);
 	};
 
-	/* Changes since another report; null where there was none to compare with. */
+	/* Creates the table of changes since another report; null if there was no report to compare with. */
 	report.makeAgainst = function (against) {
 		if (!against?.rows) {
 			return null;
@@ -126,7 +126,7 @@
 		], rows, -1), counts);
 	};
 
-	/* For each configuration the best setting within a time that the reader chooses. */
+	/* Creates the section in which the reader chooses a time budget: the best setting within it for each configuration. */
 	report.makeBudget = function (data) {
 		const costs = report.matrix.flatMap((item) => item.cells.map(report.getCostMs)).filter((cost_ms) => cost_ms > 0);
 		const section = report.makeSection("budget", "Best within a time budget");
@@ -147,6 +147,7 @@
 		const columnCount = d3.max(lines.flatMap(([, lights]) => lights.map(([, items]) => items.length)));
 
 		function show(budget_ms, source) {
+			// The scale is logarithmic, so its argument must be above 0.
 			slider.value = source === slider ? slider.value : scale(Math.max(budget_ms, costs[0] / 1e6));
 			number.value = source === number ? number.value : budget_ms;
 			const choose = (item) => (item.pareto || []).map((index) => data.cells[index]).findLast((cell) => report.getCostMs(cell) <= budget_ms);
@@ -177,7 +178,8 @@
 			make("small", {}, `${report.showError(report.getMae(cell))} at ${report.showMs(report.getCostMs(cell))} ms`));
 	}
 
-	/* The warning of the header: counts, and the messages behind a click. */
+	/* Creates the warning in the header: counts of failed and missing cells, references and scene images, with the messages of
+	   failed cells and references when unfolded. */
 	report.makeWarning = function (data) {
 		const failed = data.failed_count || 0;
 		const missing = data.missing_count || 0;

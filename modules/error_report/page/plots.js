@@ -4,12 +4,12 @@
 
 	const report = window.GnomonReport;
 	const make = report.make;
-	// Below this an error is the noise of the reference and its 8-bit image; a logarithmic axis has no room for 0.
-	const LEAST_ERROR_FLOOR = 1e-4;
-	// A narrower axis would show a difference of a few percent as large.
-	const LEAST_SPAN = Math.log(3);
-	const PICK_DISTANCE_PX = 32;
-	const LABELLED_WIDTH_PX = 560;
+	// Lowest error shown: a logarithmic axis has no 0, and smaller errors are noise of the reference and its 8-bit image.
+	const MIN_ERROR_FLOOR = 1e-4;
+	// Minimum length of an axis, as ln(max / min): on a shorter one differences of a few percent would look large.
+	const MIN_LOG_SPAN = Math.log(3);
+	const PICK_DISTANCE_PX = 32; // maximum distance of the pointer from the dot that it picks
+	const LABELLED_WIDTH_PX = 560; // narrower plots have no labels of techniques
 	const MARGIN_PX = { left: 48, right: 14, top: 26, bottom: 38 };
 	const LABEL_FONT = "600 12px system-ui, sans-serif";
 	const LABEL_HEIGHT_PX = 15;
@@ -17,30 +17,31 @@
 	const hidden = new Set();
 	const measuring = make("canvas").getContext("2d");
 
-	/* Where errors of 0 are drawn: at the lower edge, below all others. */
+	/* Returns the error at which errors of about 0 are drawn: below all other errors. */
 	report.getErrorFloor = function (errors) {
-		const positive = errors.filter((error) => error >= LEAST_ERROR_FLOOR);
-		const least = positive.length > 0 ? d3.min(positive) : LEAST_ERROR_FLOOR;
-		return positive.length < errors.length ? Math.max(LEAST_ERROR_FLOOR, Number((least / 2).toPrecision(2))) : least;
+		const positive = errors.filter((error) => error >= MIN_ERROR_FLOOR);
+		const least = positive.length > 0 ? d3.min(positive) : MIN_ERROR_FLOOR;
+		return positive.length < errors.length ? Math.max(MIN_ERROR_FLOOR, Number((least / 2).toPrecision(2))) : least;
 	};
 
-	/* p_has_front: with room for its name, which is below everything. */
+	/* Returns the [min, max] of an axis for these values, with padding. hasFront: more padding below, for the label
+	   "Pareto front". */
 	report.getDomain = function (values, hasFront) {
 		const low = Math.log(d3.min(values));
 		const high = Math.log(d3.max(values));
-		const widening = Math.max(0, LEAST_SPAN - (high - low)) / 2;
-		const padding = 0.07 * Math.max(high - low, LEAST_SPAN);
+		const widening = Math.max(0, MIN_LOG_SPAN - (high - low)) / 2;
+		const padding = 0.07 * Math.max(high - low, MIN_LOG_SPAN);
 		return [Math.exp(low - widening - (hasFront ? 2 : 1) * padding), Math.exp(high + widening + padding)];
 	};
 
-	/* The densest of the usual ticks whose labels do not touch. */
+	/* Returns the densest set of ticks (1, 2, 5, ... per decade) whose labels are at least spacing_px apart. */
 	function chooseTicks(domain, length_px, spacing_px) {
 		const [low, high] = domain.map(Math.log10);
 		const toPx = (value) => (Math.log10(value) - low) / (high - low) * length_px;
 		const decades = d3.range(Math.floor(low), Math.ceil(high) + 1);
 		const choices = [[1, 1.5, 2, 3, 4, 5, 7], [1, 2, 3, 5], [1, 2, 5], [1, 3], [1]];
 		for (const digits of choices) {
-			// Number() of the text: 3 * 10 ** -3 is not 0.003.
+			// Parsed from text, since 3 * 10 ** -3 is not exactly 0.003.
 			const ticks = decades.flatMap((decade) => digits.map((digit) => Number(`${digit}e${decade}`)))
 				.filter((tick) => tick >= domain[0] && tick <= domain[1]);
 			if (d3.pairs(ticks).every(([a, b]) => toPx(b) - toPx(a) >= spacing_px)) {
@@ -50,7 +51,7 @@
 		return decades.filter((decade) => decade % 2 === 0).map((decade) => 10 ** decade);
 	}
 
-	/* The front of p_points: no other point is both further left and lower. */
+	/* Returns the Pareto front of the points, by ascending x: no other point is both further left and lower. */
 	report.computeFront = function (points) {
 		let least = Infinity;
 		return d3.sort(points, (point) => point.x, (point) => point.y).filter((point) => {
@@ -60,9 +61,11 @@
 		});
 	};
 
-	/* Draws into p_host, whose width decides; an earlier plot there gives way. p_plot: { points, front (points),
-	   x_label, y_label, x_domain, y_domain, x_ticks ([x, name] of each; absent: the usual ones), height_px, labels: "best" | "end", describe(point) -> lines of the tip,
-	   onPick(point), name }. A point: { x, y, technique, is_hollow, item }. Returns { mark(item) }. */
+	/* Draws a plot with logarithmic axes into the element host, with its width, and replaces an earlier plot there. plot:
+	   { points, front (points of the Pareto front), x_label, y_label, x_domain, y_domain, x_ticks ([x, name] of each; absent:
+	   chosen automatically), height_px, labels: "best" | "end" | null (where techniques are labelled), describe(point): lines of
+	   the tooltip, onPick(item): called on a click, name }. A point: { x, y, technique, is_hollow, item }. Returns
+	   { mark(item) }, which highlights the point of an item. */
 	report.drawPlot = function (host, plot) {
 		const width_px = Math.max(240, Math.floor(host.clientWidth));
 		const isLabelled = plot.labels && width_px >= LABELLED_WIDTH_PX;
@@ -74,7 +77,7 @@
 		const x_ticks = plot.x_ticks ? plot.x_ticks.map(([x]) => x) : chooseTicks(plot.x_domain, width_px - MARGIN_PX.left - right_px, 38);
 		const x_names = new Map(plot.x_ticks || []);
 		const y_ticks = chooseTicks(plot.y_domain, plot.height_px - MARGIN_PX.top - MARGIN_PX.bottom, 22);
-		// The text of a logarithmic axis is given here: d3 would omit that of some ticks.
+		// Tick labels are set explicitly, because d3 omits some on a logarithmic axis.
 		const axes = [Plot.gridX(x_ticks), Plot.gridY(y_ticks), Plot.axisX(x_ticks, { text: (x) => x_names.get(x) || report.showTick(x), tickSize: 0, label: plot.x_label }),
 			Plot.axisY(y_ticks, { text: report.showTick, tickSize: 0, label: plot.y_label })];
 		const marks = groups.map(([id, points]) => Plot.line(d3.sort(points, (point) => point.x), {
@@ -88,7 +91,7 @@
 		if (plot.front && plot.front.length > 0) {
 			const first = { x: plot.front[0].x, y: plot.y_domain[1] };
 			const last = { x: plot.x_domain[1], y: plot.front.at(-1).y };
-			// Under the end of the front there is never a dot.
+			// The label is placed below the right end of the front, where there are no dots.
 			marks.unshift(Plot.line([first, ...plot.front, last], {
 				x: "x", y: "y", curve: "step-after", stroke: "var(--front)", strokeWidth: 5, strokeOpacity: 0.5, strokeLinejoin: "round",
 			}), Plot.text([last], { x: "x", y: "y", text: ["Pareto front"], textAnchor: "end", dy: 11, fill: "var(--soft)", fontSize: 11 }));
@@ -117,7 +120,7 @@
 			.attr("dy", "0.32em").attr("text-anchor", "start").text((label) => label.technique.name);
 	}
 
-	/* Right of the last points, pushed apart where they would overlap. */
+	/* Places labels right of the last point of each technique, moved apart if they would overlap. */
 	function placeAtEnd(groups, dots) {
 		const labels = groups.map(([id]) => {
 			const last = d3.greatest(dots.filter((dot) => dot.point.technique === id), (dot) => dot.x_px);
@@ -130,7 +133,7 @@
 		return labels;
 	}
 
-	/* Next to the dot of least error of each technique, on the side with the least in the way. */
+	/* Places the label of each technique next to one of its dots, preferably that of lowest error, where it overlaps least. */
 	function placeNearBest(groups, dots, width_px, height_px) {
 		const taken = dots.map((dot) => ({ left: dot.x_px - 6, right: dot.x_px + 6, top: dot.y_px - 6, bottom: dot.y_px + 6 }));
 		const getOverlap = (a, b) => Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) *
@@ -145,6 +148,7 @@
 					top: dot.y_px + y_px - LABEL_HEIGHT_PX / 2, bottom: dot.y_px + y_px + LABEL_HEIGHT_PX / 2 };
 				const isOutside = box.left < MARGIN_PX.left || box.right > width_px || box.top < MARGIN_PX.top ||
 					box.bottom > height_px - MARGIN_PX.bottom;
+				// Overlaps, in square pixels, and leaving the plot count most. Ties go to the first sides and dots of low error.
 				return { box, cost: d3.sum(taken, (other) => getOverlap(box, other)) + (isOutside ? 1e6 : 0) + side + 3 * rank };
 			}));
 			const { box } = d3.least(candidates, (candidate) => candidate.cost);
@@ -153,7 +157,7 @@
 		});
 	}
 
-	/* The tip and the rings; returns what moves the ring of the chosen item. */
+	/* Adds the tooltip and the rings around the hovered and the chosen dot. Returns a function that chooses an item. */
 	function addPointer(svg, dots, plot) {
 		const chosen = d3.select(svg).append("circle").attr("class", "chosen").attr("r", 10).attr("visibility", "hidden");
 		const ring = d3.select(svg).append("circle").attr("class", "ring").attr("r", 8).attr("visibility", "hidden");
@@ -207,7 +211,8 @@
 	}
 	window.addEventListener("scroll", () => showTip(null), { passive: true });
 
-	/* Pressed: shown. Hiding is a rule of style, so that no plot is redrawn. */
+	/* Creates the legend: one button per technique, pressed while the technique is shown. Techniques are hidden by a CSS rule, so
+	   that no plot has to be redrawn. */
 	report.fillLegend = function (host) {
 		const rules = make("style");
 		document.head.append(rules);

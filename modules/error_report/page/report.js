@@ -1,4 +1,4 @@
-/* Builds the page from the data, in the order in which it is read. The last file by name: it starts the work. */
+/* Builds the sections of the page in order, and starts when it is loaded. It is the last file in alphabetical order. */
 (function () {
 	"use strict";
 
@@ -6,7 +6,7 @@
 	const make = report.make;
 	const root = document.documentElement;
 	const ERROR_LABEL = "penumbra MAE";
-	// What costs three times the baseline could still take its place in many programs.
+	// Many programs could afford up to three times the time of the baseline.
 	const AFFORDABLE_RATIO = 3;
 	const PLOT_HEIGHT_PX = { overview: 440, configuration: 270, scaling: 320 };
 
@@ -48,8 +48,8 @@
 			section.append(make("p", { class: "soft" }, "Nothing is measured yet."));
 			return section;
 		}
-		const most = report.getMostConfigurations(rows);
-		const full = rows.filter((row) => row.configuration_count === most);
+		const maxCount = report.getMaxConfigurationCount(rows);
+		const full = rows.filter((row) => row.configuration_count === maxCount);
 		const least = (list) => d3.least(list, (row) => row.penumbra_mae);
 		const baseline = full.find((row) => row.technique === report.baseline?.id);
 		const affordable = least(full.filter((row) => row.time_ratio <= AFFORDABLE_RATIO));
@@ -61,7 +61,7 @@
 		const draw = () => {
 			const floor = report.getErrorFloor(rows.map((row) => row.penumbra_mae));
 			const points = rows.filter((row) => row[key] > 0).map((row) => ({ x: row[key], y: Math.max(floor, row.penumbra_mae),
-				technique: row.technique, is_hollow: row.configuration_count < most, item: row }));
+				technique: row.technique, is_hollow: row.configuration_count < maxCount, item: row }));
 			if (points.length === 0) {
 				host.replaceChildren(make("p", { class: "soft" }, "No times relative to the baseline."));
 				return;
@@ -76,7 +76,7 @@
 			draw();
 		});
 		const partial = full.length < rows.length ? make("p", { class: "soft" }, "Hollow dots and marked rows: measured in fewer " +
-			`than ${most} configurations, so their means are over other images. They take no part in the Pareto front and the answers next to it.`) : null;
+			`than ${maxCount} configurations, so their means are over other images. They are not part of the Pareto front and the values next to it.`) : null;
 		report.add(section, make("div", { class: "overview" }, make("div", {}, make("div", { class: "bar-line" },
 			make("p", { class: "soft" }, "One dot a setting. Lower is closer to the reference, further left is faster."), choice), host), tiles),
 		partial, report.makeRankingTable("All settings, means over configurations", data.ranking),
@@ -85,7 +85,7 @@
 		return section;
 	}
 
-	/* The scene as its camera sees it, with the shadows of all its lights and without any. */
+	/* Creates the two lit images of a scene: with the shadows of all its lights, and without shadows. */
 	function makeSceneImages(scene) {
 		const shown = (report.data.scene_images || []).filter((item) => item.scene === scene && report.data.images[item.image]);
 		return make("div", { class: "scene-images" }, shown.map((item) => {
@@ -141,7 +141,7 @@
 			section.append(viewer.element);
 			const start = configurations.find((item) => item === configurations[configurations.length >> 1] && item.pareto?.length > 0) ||
 				configurations.find((item) => item.pareto?.length > 0);
-			// The middle of a front is a setting that one might use, with an error that one can see.
+			// Initially shows the middle of a Pareto front: a plausible setting whose error is visible.
 			report.drawWhenNear(viewer.element, () => viewer.select(
 				chosen || (start ? report.data.cells[start.pareto[start.pareto.length >> 1]] : cells[0])));
 		}
@@ -185,14 +185,14 @@
 	}
 
 	const DEFINITIONS = [
-		["Visibility", "The share of the light that a receiver sees: 0 hidden, 1 lit. Penumbra pixels are those with a reference visibility between 0.002 and 0.998."],
+		["Visibility", "The fraction of the light that a receiver sees: 0 hidden, 1 lit. Penumbra pixels are those with a reference visibility between 0.002 and 0.998."],
 		["Error", "Visibility of the technique minus that of the reference, a ray-traced area light. Negative: too dark. Positive: too light."],
 		["MAE, RMSE", "Mean absolute error; root of the mean squared error. Over penumbra pixels if nothing else is stated."],
 		["Bias", "Mean signed error. Near 0 does not mean correct: too dark and too light cancel."],
 		["p99", "99 of 100 pixels have a smaller absolute error."],
-		["Wrong", "The share of the pixels whose absolute error exceeds 0.2."],
-		["Umbra over-estimation", "Of the penumbra pixels that see more than 5 % of the light, the share that is shown with less than 1 %."],
-		["Whole light", "The same over receivers that have the whole light above their own horizon."],
+		["Wrong", "The fraction of the pixels whose absolute error exceeds 0.2."],
+		["Umbra over-estimation", "Of the penumbra pixels that see more than 5 % of the light, the fraction that is shown with less than 1 %."],
+		["Whole light", "Errors over only the receivers that have the whole light above their own horizon."],
 		["cost_ms", "Time of the light's own passes, each submitted alone, median over frames: GPU time, or wall time of passes on the CPU. Nothing is cached between frames."],
 		["Baseline", "× baseline is cost_ms over that of the baseline technique in the same configuration and run."],
 		["Pareto front", "The settings that no other setting beats in both error and time."],
@@ -206,7 +206,7 @@
 		make("p", { class: "soft" }, `Gnomon ${data.program || ""}, project ${data.project || ""}`));
 	}
 
-	/* A plot has the width of its box, so it is redrawn when that changes. */
+	/* Calls draw when host is near the viewport, and again after the window's width has changed, since a plot has a fixed width. */
 	const sized = [];
 	function drawOnEverySize(host, draw) {
 		sized.push([host, draw]);
@@ -215,12 +215,13 @@
 
 	let width_px = window.innerWidth;
 	let timer = 0;
+	/* Stores by how many pixels the page is wider than the window, for tests. */
 	function reportOverflow() {
 		root.dataset.overflow = root.scrollWidth - root.clientWidth;
 	}
 	window.addEventListener("resize", () => {
 		clearTimeout(timer);
-		// Phones send this while scrolling, when the height of their bars changes.
+		// Redraws only if the width changed: phones also send this event when their toolbar appears or disappears.
 		timer = width_px === window.innerWidth ? 0 : setTimeout(() => {
 			width_px = window.innerWidth;
 			sized.forEach(([host, draw]) => report.drawWhenNear(host, draw));
@@ -236,10 +237,10 @@
 		const scenes = d3.groups(report.matrix, (item) => item.scene);
 		const sections = [makeRanking(data), report.makeBudget(data),
 			...scenes.map(([scene, configurations], index) => makeScene(scene, configurations, index)), makeScaling(data)];
-		if (data.animation) { // absent where the build lacks that part of the report
+		if (data.animation) { // absent if the build lacks the module animation_report
 			sections.push(report.makeChange(data.animation, drawOnEverySize));
 		}
-		if (data.stability) { // absent where the build lacks it
+		if (data.stability) { // absent if the build lacks the module stability_report
 			sections.push(report.makeStability(data.stability, drawOnEverySize));
 		}
 		const against = report.makeAgainst(data.against);
@@ -255,7 +256,7 @@
 		if (location.hash === "#all") {
 			await report.drawAll();
 		} else {
-			// The browser looked for the section before it was there.
+			// The browser handled the URL's fragment before the section existed.
 			document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();
 		}
 		reportOverflow();

@@ -11,38 +11,39 @@
 
 namespace gnomon {
 
-/// Thrown in place of killing the process; no code of the report may catch it.
+/// Thrown to simulate a killed process. It is no std::exception, so the report must not catch it.
 struct Killed {};
 
-/// Answers without a GPU: the reference is a ramp, a technique's error its own constant.
-class ScriptedMasks : public MaskSource {
+/// A fake MaskSource without a GPU. The reference is a ramp of eight values; a technique's
+/// visibility is the reference minus a constant fraction of it, given by `errors`.
+class ScriptedMaskSource : public MaskSource {
 public:
+	/// Relative errors by technique id.
 	std::map<std::string, float> errors = { { "hard", 0.25f }, { "soft", 0.125f } };
 	std::string failing_technique;
 	bool fails_reference = false;
-	bool runs_out_of_memory = false;	// failures are out-of-memory errors
-	size_t lose_after_count = SIZE_MAX; // calls of measure, before the device is lost
-	size_t kill_after_count = SIZE_MAX; // calls of measure
+	bool runs_out_of_memory = false;		   // failures are out-of-memory errors
+	size_t lose_device_after_count = SIZE_MAX; // calls of measure() before the device is lost
+	size_t kill_after_count = SIZE_MAX;		   // calls of measure() before Killed is thrown
 	std::string device = "scripted";
-	size_t lose_after_drawn_count = SIZE_MAX; // calls of draw, before the device is lost
+	size_t lose_device_after_draw_count = SIZE_MAX; // calls of draw() before the device is lost
 	size_t draw_count = 0;
-	std::vector<std::string> warnings; // that drawing gives
+	std::vector<std::string> warnings; // returned by draw()
 	unsigned validation_message_count = 0;
-	std::optional<float> spoiled_value; // written to one pixel of drawn masks
+	std::optional<float> invalid_value; // written to one pixel of drawn masks
 	size_t reference_count = 0;
 	size_t measure_count = 0;
-	std::vector<PropertyValues> requested; // properties of the light, as measure got them
+	std::vector<PropertyValues> requested; // properties of the first light, per call of measure()
 
 	ReportMachine get_machine() const override { return { device, "driver", "cpu", 2 }; }
 
-	TracedReference trace_reference(
-			const MaskQuestion &p_question, uint32_t p_sample_count) override {
+	TracedReference trace_reference(const MaskTask &p_task, uint32_t p_sample_count) override {
 		++reference_count;
 		if (fails_reference) {
 			fail("no rays today");
 		}
 		TracedReference reference;
-		reference.mask = make_mask(p_question, 0.0f);
+		reference.mask = make_mask(p_task, 0.0f);
 		reference.sees_whole_light.assign(reference.mask.get_pixel_count(), 1);
 		reference.sees_whole_light[0] = 0;
 		reference.standard_error = 1.0 / p_sample_count;
@@ -55,15 +56,15 @@ public:
 		return std::vector<uint8_t>(size_t(4) * p_size_px.x * p_size_px.y, 128);
 	}
 
-	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override {
+	MeasuredMask measure(const MaskTask &p_task, const std::string &p_technique) override {
 		if (measure_count == kill_after_count) {
 			throw Killed();
 		}
-		if (measure_count == lose_after_count) {
+		if (measure_count == lose_device_after_count) {
 			throw DeviceLost("The device was lost. Restart it.");
 		}
 		++measure_count;
-		requested.push_back(p_question.scene->lights.front().properties);
+		requested.push_back(p_task.scene->lights.front().properties);
 		if (p_technique == failing_technique && runs_out_of_memory) {
 			throw std::bad_alloc();
 		}
@@ -71,8 +72,8 @@ public:
 			fail("the device is sad");
 		}
 		MeasuredMask measured;
-		if (!p_question.light.empty()) {
-			measured.mask = make_mask(p_question, errors.at(p_technique));
+		if (!p_task.light.empty()) {
+			measured.mask = make_mask(p_task, errors.at(p_technique));
 		}
 		TimingSamples samples;
 		samples.add_frame({ { "depth view 0", 1.0 / 3.0, 0.5 }, { "resolve", 2.0 / 3.0, 1.0 } });
@@ -81,9 +82,8 @@ public:
 		return measured;
 	}
 
-	DrawnMasks draw(
-			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override {
-		if (draw_count++ == lose_after_drawn_count) {
+	DrawnMasks draw(std::span<const MaskTask> p_tasks, const std::string &p_technique) override {
+		if (draw_count++ == lose_device_after_draw_count) {
 			throw DeviceLost("The device was lost. Restart it.");
 		}
 		if (p_technique == failing_technique) {
@@ -92,19 +92,19 @@ public:
 		DrawnMasks drawn;
 		drawn.warnings = warnings;
 		drawn.validation_message_count = validation_message_count;
-		for (const MaskQuestion &question : p_questions) {
-			drawn.frames.push_back(make_mask(question, errors.at(p_technique)));
-			if (spoiled_value) {
-				drawn.frames.back().visibility[1] = *spoiled_value;
+		for (const MaskTask &task : p_tasks) {
+			drawn.frames.push_back(make_mask(task, errors.at(p_technique)));
+			if (invalid_value) {
+				drawn.frames.back().visibility[1] = *invalid_value;
 			}
 		}
 		return drawn;
 	}
 
 private:
-	static MaskImage make_mask(const MaskQuestion &p_question, float p_error) {
+	static MaskImage make_mask(const MaskTask &p_task, float p_error) {
 		MaskImage mask;
-		mask.size_px = p_question.size_px;
+		mask.size_px = p_task.size_px;
 		mask.receiver.assign(mask.get_pixel_count(), 1.0f);
 		for (size_t index = 0; index < mask.get_pixel_count(); ++index) {
 			const float reference = float(index % 8) / 8.0f;
@@ -114,8 +114,9 @@ private:
 	}
 };
 
-/// "hard", the baseline, with one setting; "soft" with two, the second of them expensive.
-inline std::vector<TechniqueSource> make_scripted_techniques() {
+/// Returns "hard", the baseline, without quality settings, and "soft" with two, of which the second
+/// is expensive.
+inline std::vector<MeasurableTechnique> make_scripted_techniques() {
 	const auto no_settings = [](const LightSnapshot &) { return std::vector<QualitySetting>(); };
 	const auto two_settings = [](const LightSnapshot &) {
 		return std::vector<QualitySetting>{ { "few", { { "soft_taps", int64_t(4) } } },
@@ -136,7 +137,7 @@ inline ReportOptions make_scripted_options() {
 	return options;
 }
 
-/// Small scenes with one light each.
+/// Returns small scenes with one light each.
 inline std::vector<ReportScene> make_scripted_scenes(size_t p_count = 2) {
 	std::vector<ReportScene> scenes;
 	for (size_t index = 0; index < p_count; ++index) {

@@ -17,11 +17,11 @@ template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
 	return static_cast<T *>(p_parent.add_child(std::move(node)));
 }
 
-const double EXACT = 1e-9; // of lengths in metres, computed in double
-const glm::dvec3 MIDDLE(2, 1, 0);
+const double LENGTH_TOLERANCE_M = 1e-9; // tolerance of positions computed in double, metres
+const glm::dvec3 CASTER_CENTER_M(2, 1, 0);
 
-/// A caster of the box (1, 0, 0)..(3, 2, 0), S = 4 m, and a spot light in a turned, moved and
-/// scaled group; a lampshade that casts no shadow hangs below the light.
+/// A scene with S = 4 m, a caster with the bounds (1, 0, 0)..(3, 2, 0), and a spot light in a
+/// rotated, translated and scaled group. A lampshade that casts no shadow is a child of the light.
 struct SmallScene {
 	Scene scene;
 	Camera3D *camera = add<Camera3D>(*scene.root, "Camera");
@@ -55,7 +55,7 @@ struct SmallScene {
 	}
 };
 
-/// What the function may touch of a light, and what hangs on it.
+/// Returns the state of the light and its child that build_variant changes.
 auto get_state(const SmallScene &p_small) {
 	const Light3D &light = *p_small.light;
 	return std::tuple(light.type, light.parent_from_node, p_small.shade->parent_from_node,
@@ -64,7 +64,7 @@ auto get_state(const SmallScene &p_small) {
 
 } // namespace
 
-TEST_CASE("[ErrorReport] a light of its own type gets the size and stays as it is otherwise") {
+TEST_CASE("[ErrorReport] a variant of the same type changes only the size of the light") {
 	SmallScene small;
 	const LightSnapshot before = build_snapshot(small.scene, *small.camera)->lights[0];
 	const LightSnapshot light = small.build(LightType::SPOT, 0.4);
@@ -77,7 +77,7 @@ TEST_CASE("[ErrorReport] a light of its own type gets the size and stays as it i
 	CHECK(light.properties == expected);
 }
 
-TEST_CASE("[ErrorReport] a directional light subtends what a disc of that radius does at 1.5 S") {
+TEST_CASE("[ErrorReport] a directional light has the angular size of the disc at distance 1.5 S") {
 	SmallScene small;
 	small.light->type = LightType::DIRECTIONAL;
 	const LightSnapshot light = small.build(LightType::DIRECTIONAL, 0.4);
@@ -88,59 +88,62 @@ TEST_CASE("[ErrorReport] a directional light subtends what a disc of that radius
 			build_snapshot(small.scene, *small.camera)->lights[0].world_from_light);
 }
 
-TEST_CASE("[ErrorReport] a light of another type stays in place and looks at the casters' middle") {
+TEST_CASE("[ErrorReport] a light of another type keeps its position and faces the casters") {
 	for (const LightType type : { LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene small;
 		const glm::dvec3 position =
 				build_snapshot(small.scene, *small.camera)->lights[0].position_world;
 		const LightSnapshot light = small.build(type, 0.4);
 		CHECK(light.type == type);
-		CHECK(glm::length(light.position_world - position) < EXACT);
-		const glm::dvec3 way = glm::normalize(MIDDLE - position);
-		CHECK(glm::length(light.get_direction_world() - way) < EXACT);
+		CHECK(glm::length(light.position_world - position) < LENGTH_TOLERANCE_M);
+		const glm::dvec3 direction = glm::normalize(CASTER_CENTER_M - position);
+		CHECK(glm::length(light.get_direction_world() - direction) < LENGTH_TOLERANCE_M);
 	}
-	SmallScene small; // straight down there is no side to take from the world's up
+	SmallScene small; // a light that shines straight down, parallel to the world's up vector
 	small.group->parent_from_node = glm::dmat4(1.0);
-	small.light->parent_from_node = glm::translate(glm::dmat4(1.0), MIDDLE + glm::dvec3(0, 5, 0));
+	small.light->parent_from_node =
+			glm::translate(glm::dmat4(1.0), CASTER_CENTER_M + glm::dvec3(0, 5, 0));
 	const LightSnapshot light = small.build(LightType::DIRECTIONAL, 0.4);
-	CHECK(glm::length(light.get_direction_world() - glm::dvec3(0, -1, 0)) < EXACT);
+	CHECK(glm::length(light.get_direction_world() - glm::dvec3(0, -1, 0)) < LENGTH_TOLERANCE_M);
 }
 
-TEST_CASE("[ErrorReport] an omni light made a spot light has all casters in its cone") {
+TEST_CASE("[ErrorReport] an omni light changed to a spot light has all casters in its cone") {
 	SmallScene small;
 	small.light->type = LightType::OMNI;
 	const LightSnapshot light = small.build(LightType::SPOT, 0.4);
 	CHECK(light.inner_cone_rad == 0);
-	const double distance = glm::length(MIDDLE - light.position_world);
-	CHECK(light.outer_cone_rad > std::asin(std::sqrt(2.0) / distance)); // of the casters' ball
+	const double distance = glm::length(CASTER_CENTER_M - light.position_world);
+	CHECK(light.outer_cone_rad > std::asin(std::sqrt(2.0) / distance)); // their bounding sphere
 	CHECK(light.outer_cone_rad < 1.2 * std::asin(std::sqrt(2.0) / distance));
-	// Inside the casters: no cone holds them; it is as wide as a view can be, not NaN.
+	// Inside the bounding sphere no cone contains all casters; it gets the maximum angle, not NaN.
 	small.group->parent_from_node = glm::dmat4(1.0);
-	small.light->parent_from_node = glm::translate(glm::dmat4(1.0), MIDDLE);
+	small.light->parent_from_node = glm::translate(glm::dmat4(1.0), CASTER_CENTER_M);
 	CHECK(small.build(LightType::SPOT, 0.4).outer_cone_rad == doctest::Approx(1.4));
 }
 
-TEST_CASE("[ErrorReport] a light that was directional is 1.5 S from the casters' middle") {
+TEST_CASE("[ErrorReport] a formerly directional light is placed 1.5 S from the casters' centre") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		SmallScene small;
 		small.light->type = LightType::DIRECTIONAL;
 		const glm::dvec3 direction =
 				build_snapshot(small.scene, *small.camera)->lights[0].get_direction_world();
 		const LightSnapshot light = small.build(type, 0.4);
-		CHECK(glm::length(light.position_world - (MIDDLE - 6.0 * direction)) < EXACT);
-		CHECK(glm::length(light.get_direction_world() - direction) < EXACT);
+		CHECK(glm::length(light.position_world - (CASTER_CENTER_M - 6.0 * direction)) <
+				LENGTH_TOLERANCE_M);
+		CHECK(glm::length(light.get_direction_world() - direction) < LENGTH_TOLERANCE_M);
 	}
 }
 
-TEST_CASE("[ErrorReport] what hangs below a light stays where it was") {
+TEST_CASE("[ErrorReport] child nodes of a changed light keep their world transform") {
 	SmallScene small;
 	const Bounds before = build_snapshot(small.scene, *small.camera)->instances.at(1).bounds_world;
 	const LightVariant variant = { LightType::OMNI, 0.4 };
 	const auto scene = build_variant(small.scene, *small.camera, *small.light, variant, {});
-	CHECK(glm::length(scene->instances.at(1).bounds_world.minimum - before.minimum) < EXACT);
+	CHECK(glm::length(scene->instances.at(1).bounds_world.minimum - before.minimum) <
+			LENGTH_TOLERANCE_M);
 }
 
-TEST_CASE("[ErrorReport] properties that are given replace the light's own, size included") {
+TEST_CASE("[ErrorReport] given properties override those of the light, including its size") {
 	SmallScene small;
 	const LightSnapshot light = small.build(LightType::SPOT, 0.4,
 			{ { "soft_taps", int64_t(64) }, { "penumbra_outer_width", -1.0 }, { "extra", true } });
@@ -152,7 +155,7 @@ TEST_CASE("[ErrorReport] properties that are given replace the light's own, size
 	CHECK(small.build(LightType::SPOT, 0.4, { { "light_size", 0.7 } }).light_size_m == 0.7f);
 }
 
-TEST_CASE("[ErrorReport] the scene is as before afterwards, also when the build fails") {
+TEST_CASE("[ErrorReport] build_variant restores the scene, also when it fails") {
 	SmallScene small;
 	const auto before = get_state(small);
 	for (const LightType type : { LightType::OMNI, LightType::SPOT, LightType::DIRECTIONAL }) {
@@ -176,30 +179,31 @@ TEST_CASE("[ErrorReport] without casters a light cannot change its type, only it
 	CHECK(small.build(LightType::SPOT, 0.4).light_size_m == 0.4f);
 }
 
-TEST_CASE("[ErrorReport] a disc is seen whole until its rim touches the surface's horizon") {
+TEST_CASE("[ErrorReport] the whole light is seen until its disc touches the surface's horizon") {
 	LightSnapshot light;
 	const auto sees = [&](float p_size_m, const glm::vec3 &p_light) {
 		light.light_size_m = p_size_m;
-		return sees_whole_disc(light, p_light + glm::vec3(7), glm::vec3(7), { 0, 1, 0 });
+		return is_light_disc_above_horizon(
+				light, p_light + glm::vec3(7), glm::vec3(7), { 0, 1, 0 });
 	};
 	// The disc's lowest point is 3 - R * 4 / 5 above the plane.
 	CHECK(sees(3.74f, { 4, 3, 0 }));
 	CHECK_FALSE(sees(3.76f, { 4, 3, 0 }));
-	CHECK(sees(1e4f, { 0, 1e-3f, 0 }));	   // straight above it is parallel to the surface
-	CHECK_FALSE(sees(1e-3f, { 4, 0, 0 })); // a grazing surface sees half of it
+	CHECK(sees(1e4f, { 0, 1e-3f, 0 }));	   // directly above, the disc is parallel to the surface
+	CHECK_FALSE(sees(1e-3f, { 4, 0, 0 })); // light in the tangent plane: half of the disc is seen
 	CHECK(sees(0, { 4, 0, 0 }));
 	CHECK_FALSE(sees(0, { 4, -1e-3f, 0 }));
-	CHECK_FALSE(sees(0, { 0, 0, 0 })); // exactly at the point: there is no direction to it
+	CHECK_FALSE(sees(0, { 0, 0, 0 })); // light at the point itself: no direction
 }
 
-TEST_CASE("[ErrorReport] a directional disc is seen whole wherever it is above the horizon") {
+TEST_CASE("[ErrorReport] a directional light is seen whole if its disc is above the horizon") {
 	LightSnapshot light; // shines along -Z
 	light.type = LightType::DIRECTIONAL;
 	light.light_angular_distance_deg = 60;
 	const auto sees = [&](double p_elevation_deg) {
 		const double elevation = glm::radians(p_elevation_deg);
 		const glm::vec3 normal(std::cos(elevation), 0, std::sin(elevation));
-		return sees_whole_disc(light, glm::vec3(-9), glm::vec3(0, 0, 100), normal);
+		return is_light_disc_above_horizon(light, glm::vec3(-9), glm::vec3(0, 0, 100), normal);
 	};
 	CHECK(sees(90));
 	CHECK(sees(30.01));

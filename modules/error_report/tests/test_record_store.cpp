@@ -18,7 +18,7 @@ const std::string NAME = "scene-technique-0123456789abcdef";
 const Json CONTENT = { { "status", "ok" }, { "value", 0.1 }, { "list", { 1, 2.5, "x" } } };
 const std::vector<uint8_t> IMAGE = { 1, 2, 3, 4, 5 };
 
-/// Writes other bytes over a file from p_offset on.
+/// Flips one bit of the byte at p_offset.
 void damage_file(const fs::path &p_path, size_t p_offset) {
 	std::vector<uint8_t> bytes = load_file(p_path);
 	REQUIRE(p_offset < bytes.size());
@@ -28,7 +28,7 @@ void damage_file(const fs::path &p_path, size_t p_offset) {
 
 } // namespace
 
-TEST_CASE("[ErrorReport] killed at any step of saving a record, it is there whole or not at all") {
+TEST_CASE("[ErrorReport] a kill while a record is saved leaves it complete or absent") {
 	TemporaryFolder folder;
 	RecordStore store(folder.path);
 	const LogSink before = set_log_sink([](LogLevel, const std::string &p_line) { FAIL(p_line); });
@@ -42,12 +42,12 @@ TEST_CASE("[ErrorReport] killed at any step of saving a record, it is there whol
 				remove_left_over_files(folder.path);
 				CHECK(fs::is_empty(folder.path));
 			});
-	CHECK(kill_count == 8); // the image and the record: made, written, synced, renamed
+	CHECK(kill_count == 8); // steps: create, write, sync, rename, for the image and the JSON
 	CHECK(found_count == 2);
 	set_log_sink(before);
 }
 
-TEST_CASE("[ErrorReport] a record is read back as it was saved") {
+TEST_CASE("[ErrorReport] a loaded record equals the saved one") {
 	TemporaryFolder folder;
 	RecordStore store(folder.path / "new" / "cells");
 	CHECK(!store.load(NAME));
@@ -58,7 +58,7 @@ TEST_CASE("[ErrorReport] a record is read back as it was saved") {
 	CHECK(store.load(NAME) == Json{ { "other", true } });
 }
 
-TEST_CASE("[ErrorReport] a damaged record is noticed and counts as absent") {
+TEST_CASE("[ErrorReport] a damaged record is detected and treated as absent") {
 	TemporaryFolder folder;
 	RecordStore store(folder.path);
 	size_t warning_count = 0;
@@ -69,7 +69,7 @@ TEST_CASE("[ErrorReport] a damaged record is noticed and counts as absent") {
 	const fs::path png = folder.path / (NAME + ".png");
 	store.save(NAME, CONTENT, IMAGE);
 	const std::string whole = load_text_file(json);
-	for (size_t offset = 0; offset + 1 < whole.size(); ++offset) { // the last is the line's end
+	for (size_t offset = 0; offset + 1 < whole.size(); ++offset) { // all but the final newline
 		damage_file(json, offset);
 		CAPTURE(offset);
 		CHECK(!store.load(NAME));
@@ -89,7 +89,7 @@ TEST_CASE("[ErrorReport] a damaged record is noticed and counts as absent") {
 	set_log_sink(before);
 }
 
-TEST_CASE("[ErrorReport] leftovers of other plans go, files of others stay") {
+TEST_CASE("[ErrorReport] remove_others deletes records of other plans, but no other files") {
 	TemporaryFolder folder;
 	RecordStore store(folder.path);
 	const std::string other = "scene-technique-fedcba9876543210";
@@ -107,7 +107,7 @@ TEST_CASE("[ErrorReport] leftovers of other plans go, files of others stay") {
 	}
 }
 
-TEST_CASE("[ErrorReport] a folder that cannot be made is refused with its name") {
+TEST_CASE("[ErrorReport] a folder that cannot be created is an Error") {
 	TemporaryFolder folder;
 	save_file_atomically(folder.path / "file", "x");
 	CHECK_THROWS_WITH_AS(RecordStore(folder.path / "file" / "cells"),

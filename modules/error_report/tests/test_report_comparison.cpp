@@ -9,8 +9,8 @@ using namespace gnomon;
 
 namespace {
 
-/// One configuration with "hard", the baseline of 2 ms, and "soft", cell 1, of 6 ms and a penumbra
-/// MAE of 0.1.
+/// Returns a report with one configuration and two cells: "hard", the baseline, with 2 ms and a
+/// penumbra MAE of 0.4, and "soft" with 6 ms and 0.1.
 Report make_report() {
 	Report report;
 	report.sample_count = 1024;
@@ -49,7 +49,7 @@ size_t count_differences(const Report &p_old, const Report &p_new) {
 	return compare_reports(p_old, p_new).differences.size();
 }
 
-/// The one difference there must be.
+/// Returns the only difference; fails if there is not exactly one.
 ReportDifference find_difference(const Report &p_old, const Report &p_new) {
 	const ReportComparison comparison = compare_reports(p_old, p_new);
 	REQUIRE(comparison.differences.size() == 1);
@@ -69,7 +69,7 @@ TEST_CASE("[ErrorReport] equal reports do not differ") {
 	CHECK(to_text(comparison).find("Nothing differs") != std::string::npos);
 }
 
-TEST_CASE("[ErrorReport] an error differs by more than 0.0005 and 1 %, in both directions") {
+TEST_CASE("[ErrorReport] an error differs beyond 0.0005 plus 1 %, upwards and downwards") {
 	const Report old_report = make_report(); // 0.1: a margin of 0.0015
 	CHECK(count_differences(old_report, make_report(0.10149)) == 0);
 	CHECK(count_differences(old_report, make_report(0.09851)) == 0);
@@ -80,12 +80,12 @@ TEST_CASE("[ErrorReport] an error differs by more than 0.0005 and 1 %, in both d
 	CHECK(worse.old_value == 0.1);
 	CHECK(worse.new_value == 0.10151);
 	CHECK_FALSE(find_difference(old_report, make_report(0.09849)).is_worse);
-	// Where there was no error, the fixed part is all of it.
+	// With an old error of 0 the margin is 0.0005.
 	CHECK(count_differences(make_report(0), make_report(0.00049)) == 0);
 	CHECK(find_difference(make_report(0), make_report(0.00051)).is_worse);
 }
 
-TEST_CASE("[ErrorReport] references of other numbers of samples widen the margin by their noise") {
+TEST_CASE("[ErrorReport] different sample counts widen the margin by both standard errors") {
 	Report new_report = make_report(0.1054); // the margin is now 0.0015 + 0.002 + 0.002
 	CHECK(find_difference(make_report(), new_report).is_worse);
 	new_report.sample_count = 256;
@@ -96,7 +96,7 @@ TEST_CASE("[ErrorReport] references of other numbers of samples widen the margin
 	CHECK_FALSE(find_difference(make_report(), new_report).is_worse);
 }
 
-TEST_CASE("[ErrorReport] a time differs by more than 15 % and is never a regression") {
+TEST_CASE("[ErrorReport] a time ratio differs beyond 15 % and is never a regression") {
 	const Report old_report = make_report(); // three times the baseline
 	CHECK(count_differences(old_report, make_report(0.1, 6.89)) == 0);
 	CHECK(count_differences(old_report, make_report(0.1, 5.11)) == 0);
@@ -108,12 +108,12 @@ TEST_CASE("[ErrorReport] a time differs by more than 15 % and is never a regress
 	CHECK_FALSE(find_difference(old_report, make_report(0.1, 5.08)).is_worse);
 }
 
-TEST_CASE("[ErrorReport] unsteady times differ by more than both their spreads") {
+TEST_CASE("[ErrorReport] a time ratio differs only beyond the spreads of its times") {
 	Report old_report = make_report();
-	old_report.cells[1].time.total = { 6, 6 * 1.2, 7, 70 }; // the GPU's spread counts
+	old_report.cells[1].time.total = { 6, 6 * 1.2, 7, 70 }; // the spread of the GPU time is used
 	Report new_report = make_report(0.1, 6 * 1.29);
 	CHECK(find_difference(old_report, new_report).is_worse);
-	new_report.cells[1].time.total = { 0, 0, 7, 7 * 1.1 }; // without it that of the wall
+	new_report.cells[1].time.total = { 0, 0, 7, 7 * 1.1 }; // without GPU time that of the wall time
 	CHECK(count_differences(old_report, new_report) == 0);
 	new_report.cells[1].time.cost_ms = 6 * 1.31;
 	CHECK(find_difference(old_report, new_report).is_worse);
@@ -128,11 +128,11 @@ TEST_CASE("[ErrorReport] a slower machine alone is no difference") {
 	const ReportComparison comparison = compare_reports(make_report(), slow);
 	CHECK(comparison.differences.empty());
 	CHECK_FALSE(comparison.has_same_machine);
-	slow.cells[0].time.cost_ms = 2; // the baseline as fast as ever: the other did change
+	slow.cells[0].time.cost_ms = 2; // the baseline is unchanged, so "soft" is slower
 	CHECK(find_difference(make_report(), slow).what == "time ratio");
 }
 
-TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed before is better") {
+TEST_CASE("[ErrorReport] a cell that newly fails is a regression, one that now works is better") {
 	Report failed = make_report();
 	failed.cells[1].status = ReportStatus::FAILED;
 	failed.cells[1].message = "no memory";
@@ -145,7 +145,7 @@ TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed 
 			"worse status: sphere/Spot/0.4, soft, 32 taps: fails now: no memory\n");
 	CHECK_FALSE(find_difference(failed, make_report()).is_worse);
 	CHECK(count_differences(failed, failed) == 0);
-	// What was not run is not reported.
+	// Cells that were not measured are no difference.
 	Report missing = make_report();
 	missing.cells[1].status = ReportStatus::MISSING;
 	CHECK(count_differences(make_report(), missing) == 0);
@@ -153,7 +153,7 @@ TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed 
 	CHECK(count_differences(failed, missing) == 0);
 }
 
-TEST_CASE("[ErrorReport] cells are the same by names and size of the image") {
+TEST_CASE("[ErrorReport] cells correspond if their names and image sizes are equal") {
 	Report other = make_report(0.9);
 	const auto check_apart = [&] {
 		const ReportComparison comparison = compare_reports(make_report(), other);
@@ -175,7 +175,7 @@ TEST_CASE("[ErrorReport] cells are the same by names and size of the image") {
 	other.configurations[1].size_px = { 64, 32 };
 	other.cells[1].configuration_index = 1;
 	check_apart();
-	// Other indices change nothing.
+	// The indices of the cells do not matter.
 	std::swap(other.cells[0], other.cells[1]);
 	CHECK(find_difference(make_report(), other).new_value == 0.9);
 	other.cells.clear();
@@ -183,7 +183,7 @@ TEST_CASE("[ErrorReport] cells are the same by names and size of the image") {
 	CHECK(compare_reports(other, make_report()).only_new_count == 2);
 }
 
-TEST_CASE("[ErrorReport] worse ones come first, in text and JSON") {
+TEST_CASE("[ErrorReport] worse differences come first, in text and JSON") {
 	Report new_report = make_report(0.5);
 	new_report.cells[0].error->all.penumbra.mae = 0.25; // better, and measured first
 	new_report.cells[1].time.cost_ms = 4;				// better too
@@ -201,7 +201,7 @@ TEST_CASE("[ErrorReport] worse ones come first, in text and JSON") {
 			R"("verdict":"better","message":""})");
 }
 
-TEST_CASE("[ErrorReport] an error outside the penumbra is seen too") {
+TEST_CASE("[ErrorReport] a grown error outside the penumbra is a regression") {
 	Report old_report = make_report();
 	Report new_report = make_report();
 	old_report.cells[1].error->all.receiver = { 1000, 0.01, 0, 0, 0 };
@@ -215,7 +215,7 @@ TEST_CASE("[ErrorReport] an error outside the penumbra is seen too") {
 TEST_CASE("[ErrorReport] the baseline's own time is compared on the same machine, beyond 30 %") {
 	Report slow = make_report();
 	for (ReportCell &cell : slow.cells) {
-		cell.time.cost_ms *= 1.29; // a pass that both share: no ratio changes
+		cell.time.cost_ms *= 1.29; // e.g. a slower common pass: no ratio changes
 	}
 	CHECK(count_differences(make_report(), slow) == 0);
 	for (ReportCell &cell : slow.cells) {
@@ -224,7 +224,7 @@ TEST_CASE("[ErrorReport] the baseline's own time is compared on the same machine
 	const ReportDifference worse = find_difference(make_report(), slow);
 	CHECK(worse.what == "time");
 	CHECK(worse.technique == "hard");
-	// An unsteady baseline makes the ratios to it unsteady.
+	// The spread of the baseline's time counts for ratios to it.
 	Report unsteady = make_report(0.1, 6 * 1.2);
 	CHECK(find_difference(make_report(), unsteady).what == "time ratio");
 	unsteady.cells[0].time.total = { 2, 2.5, 3, 3 };

@@ -11,7 +11,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// Reads CSV as RFC 4180 has it; rows end with LF or CRLF. Refuses what a strict reader would.
+/// A strict parser for CSV (RFC 4180); rows end with LF or CRLF. Checks fail on invalid CSV.
 std::vector<Row> parse_csv(const std::string &p_csv) {
 	std::vector<Row> rows(1, Row(1));
 	bool is_quoted = false;
@@ -29,7 +29,7 @@ std::vector<Row> parse_csv(const std::string &p_csv) {
 				CHECK((next == ',' || next == '\r' || next == '\n')); // nothing follows the quote
 			}
 		} else if (letter == '"') {
-			CHECK(rows.back().back().empty()); // a quote opens a field or is in a quoted one
+			CHECK(rows.back().back().empty()); // a quote is only allowed at the start of a field
 			is_quoted = true;
 		} else if (letter == ',') {
 			rows.back().emplace_back();
@@ -42,12 +42,12 @@ std::vector<Row> parse_csv(const std::string &p_csv) {
 		}
 	}
 	CHECK_FALSE(is_quoted);
-	CHECK(rows.back() == Row(1)); // the last row is ended too
+	CHECK(rows.back() == Row(1)); // the last row also has a line end
 	rows.pop_back();
 	return rows;
 }
 
-/// Rows by the names of their columns; all must be as long as the first.
+/// Returns the rows as maps from column name to field. All rows must have the same length.
 std::vector<std::map<std::string, std::string>> read_rows(const Report &p_report) {
 	const std::vector<Row> rows = parse_csv(to_csv(p_report));
 	REQUIRE(rows.size() == p_report.cells.size() + 1);
@@ -62,7 +62,8 @@ std::vector<std::map<std::string, std::string>> read_rows(const Report &p_report
 	return named;
 }
 
-/// The baseline and another technique in one configuration of the matrix.
+/// Returns a report with one configuration of the matrix and two cells: the baseline "hard", and
+/// "soft".
 Report make_report() {
 	Report report;
 	report.program = "1.0 abc";
@@ -99,6 +100,7 @@ Report make_report() {
 	return report;
 }
 
+/// Checks that all fields of measured values are empty.
 void check_no_numbers(const std::map<std::string, std::string> &p_row) {
 	for (const char *name : { "receiver_mae", "receiver_rmse", "receiver_p99", "receiver_bias",
 				 "receiver_wrong", "penumbra_wrong", "whole_light_penumbra_wrong", "penumbra_mae",
@@ -112,7 +114,7 @@ void check_no_numbers(const std::map<std::string, std::string> &p_row) {
 
 } // namespace
 
-TEST_CASE("[ErrorReport] a row of the CSV has each number under its name") {
+TEST_CASE("[ErrorReport] each value of a cell is in the CSV column of its name") {
 	const auto rows = read_rows(make_report());
 	const std::map<std::string, std::string> expected = { { "program", "1.0 abc" },
 		{ "device", "GPU 1" }, { "driver", "driver 2" }, { "cpu", "CPU 3" }, { "threads", "4" },
@@ -141,7 +143,7 @@ TEST_CASE("[ErrorReport] a row of the CSV has each number under its name") {
 	CHECK(rows[0].at("time_ratio") == "1");
 }
 
-TEST_CASE("[ErrorReport] an error of a report without `wrong` has an empty field for it") {
+TEST_CASE("[ErrorReport] the CSV field of an absent `wrong` is empty") {
 	Report report = make_report();
 	report.cells[1].error->all.penumbra.wrong.reset();
 	const auto row = read_rows(report)[1];
@@ -150,7 +152,7 @@ TEST_CASE("[ErrorReport] an error of a report without `wrong` has an empty field
 	CHECK(row.at("receiver_wrong") == "0.05");
 }
 
-TEST_CASE("[ErrorReport] commas, quotes and line ends in the CSV are quoted, nothing else is") {
+TEST_CASE("[ErrorReport] only CSV fields with commas, quotes or line ends are quoted") {
 	Report report = make_report();
 	report.program = "a,b";
 	report.cells[1].setting = "the \"best\"";
@@ -168,28 +170,28 @@ TEST_CASE("[ErrorReport] commas, quotes and line ends in the CSV are quoted, not
 	CHECK(csv.find(",it's; a\tscene,\"\"\"\",") != std::string::npos);
 }
 
-TEST_CASE("[ErrorReport] a row that begins with an empty field is as long as the others") {
+TEST_CASE("[ErrorReport] a CSV row with an empty first field has all fields") {
 	Report report = make_report();
 	report.program.clear();
 	report.machines.clear();
 	const auto rows = read_rows(report);
 	CHECK(rows[1].at("device").empty());
-	CHECK(rows[1].at("threads").empty()); // of a machine that is not there
+	CHECK(rows[1].at("threads").empty()); // the machine index is out of range
 	CHECK(rows[1].at("configuration") == "sphere/Spot/0.4");
 }
 
-TEST_CASE("[ErrorReport] a cell that failed has its message and no numbers") {
+TEST_CASE("[ErrorReport] the CSV row of a failed cell has a message and no measured values") {
 	Report report = make_report();
-	report.cells[1].status = ReportStatus::FAILED; // after its error was known, even
+	report.cells[1].status = ReportStatus::FAILED; // although the cell has an error metric
 	report.cells[1].message = "no memory";
 	const auto row = read_rows(report)[1];
 	CHECK(row.at("status") == "failed");
 	CHECK(row.at("message") == "no memory");
-	CHECK(row.at("device") == "GPU 1"); // where it failed
+	CHECK(row.at("device") == "GPU 1"); // the machine on which it failed
 	check_no_numbers(row);
 }
 
-TEST_CASE("[ErrorReport] a cell that was not run has neither numbers nor a machine") {
+TEST_CASE("[ErrorReport] the CSV row of a missing cell has neither values nor a machine") {
 	Report report = make_report();
 	report.cells[1].status = ReportStatus::MISSING;
 	report.configurations[0].status = ReportStatus::MISSING;
@@ -202,7 +204,7 @@ TEST_CASE("[ErrorReport] a cell that was not run has neither numbers nor a machi
 	check_no_numbers(row);
 }
 
-TEST_CASE("[ErrorReport] a cell of a scaling curve has a time and no reference") {
+TEST_CASE("[ErrorReport] the CSV row of a scaling cell has a time and no reference") {
 	Report report = make_report();
 	report.configurations[0].group = TRIANGLES_GROUP;
 	report.cells[1].error.reset();

@@ -17,14 +17,14 @@ namespace {
 
 Report make_report(const std::filesystem::path &p_folder) {
 	const ReportPlan plan = make_scripted_plan(1);
-	ScriptedMasks masks;
+	ScriptedMaskSource masks;
 	RecordStore store(get_record_folder(p_folder));
 	return run_report(plan, masks, store, {});
 }
 
 } // namespace
 
-TEST_CASE("[ErrorReport] report.json is read back whole") {
+TEST_CASE("[ErrorReport] a loaded report.json equals the saved report") {
 	TemporaryFolder folder;
 	const Report report = make_report(folder.path);
 	const Json json = to_json(report);
@@ -37,7 +37,7 @@ TEST_CASE("[ErrorReport] report.json is read back whole") {
 	CHECK(json.at("configurations")[0].at("pareto").size() == 1);
 }
 
-TEST_CASE("[ErrorReport] a report of an earlier version, without `wrong`, is read without it") {
+TEST_CASE("[ErrorReport] an older report without `wrong` is loaded with unset values") {
 	TemporaryFolder folder;
 	const Json json = to_json(make_report(folder.path));
 	CHECK(json.at("cells")[0].at("error").at("all").at("receiver").contains("wrong"));
@@ -61,7 +61,7 @@ TEST_CASE("[ErrorReport] a report of an earlier version, without `wrong`, is rea
 	CHECK(to_json(report) == older);
 }
 
-TEST_CASE("[ErrorReport] a report of version 1 is read by its old names") {
+TEST_CASE("[ErrorReport] a report of version 1 is loaded with its old key names") {
 	TemporaryFolder folder;
 	const std::filesystem::path path = folder.path / "report.json";
 	Report report = make_report(folder.path);
@@ -83,14 +83,14 @@ TEST_CASE("[ErrorReport] a report of version 1 is read by its old names") {
 	replace("\"reference_mask\":", "\"truth\":");
 	replace("\"reference_error\":", "\"truth_error\":");
 	save_file_atomically(path, written);
-	const bool is_same = to_json(load_report(path)) == current; // the whole report is long
+	const bool is_same = to_json(load_report(path)) == current; // CHECK would print both
 	CHECK(is_same);
 	replace("\"version\":1", "\"version\":3");
 	save_file_atomically(path, written);
 	CHECK_THROWS_WITH_AS(load_report(path), doctest::Contains("version 1..2"), Error);
 }
 
-TEST_CASE("[ErrorReport] a file that is no report is refused by name") {
+TEST_CASE("[ErrorReport] an invalid report file is an Error that names the file") {
 	TemporaryFolder folder;
 	const std::filesystem::path path = folder.path / "report.json";
 	const Json whole = to_json(make_report(folder.path));
@@ -119,7 +119,7 @@ TEST_CASE("[ErrorReport] a file that is no report is refused by name") {
 	CHECK_THROWS_AS(load_report(folder.path / "absent.json"), Error);
 }
 
-TEST_CASE("[ErrorReport] the page holds library, data and images, and names cannot break out") {
+TEST_CASE("[ErrorReport] the page contains library, data and images, and escapes names") {
 	TemporaryFolder folder;
 	Report report = make_report(folder.path);
 	report.project = "<b>&</script><script>alert(1)</script>";
@@ -144,7 +144,7 @@ TEST_CASE("[ErrorReport] the page holds library, data and images, and names cann
 	CHECK(data.at("heat_map").at("colors").size() % 2 == 1);
 }
 
-TEST_CASE("[ErrorReport] what has no pixels has no numbers, and file names may be any bytes") {
+TEST_CASE("[ErrorReport] empty pixel sets have no metrics, and names may be invalid UTF-8") {
 	TemporaryFolder folder;
 	Report report = make_report(folder.path);
 	report.cells[0].error->all.penumbra = {};

@@ -13,26 +13,25 @@ namespace {
 
 const char *const PART_ID = "made_up";
 
-/// One configuration, whose cells get half of the reference for an answer.
-class MadeUpPart : public ReportPart {
+/// A part with one configuration, whose cells get half of the reference's visibility as their mask.
+class FakePart : public ReportPart {
 public:
 	std::vector<std::string> list_sweeps() const override { return {}; }
-	void plan(const ReportOptions &p_options, const Add &p_add) const override {
+	void plan(const ReportOptions &p_options, const AddConfiguration &p_add) const override {
 		const auto scene = make_scripted_scenes(1)[0].scene;
-		const MaskQuestion question = { build_snapshot(
-												*scene, *scene->find_nodes<Camera3D>().front()),
+		const MaskTask task = { build_snapshot(*scene, *scene->find_nodes<Camera3D>().front()),
 			"Light 1", p_options.size_px };
 		ReportConfiguration configuration;
 		configuration.id = "made_up/only";
 		configuration.group = PART_ID;
-		configuration.light = question.light;
-		p_add(configuration, [question](const PropertyValues &) { return question; });
+		configuration.light = task.light;
+		p_add(configuration, [task](const PropertyValues &) { return task; });
 	}
-	std::vector<TracedReference> trace_references(MaskSource &r_source,
-			const MaskQuestion &p_question, uint32_t p_sample_count) const override {
-		return { r_source.trace_reference(p_question, p_sample_count) };
+	std::vector<TracedReference> trace_references(
+			MaskSource &r_source, const MaskTask &p_task, uint32_t p_sample_count) const override {
+		return { r_source.trace_reference(p_task, p_sample_count) };
 	}
-	MaskImage run_cell(MaskSource & /*r_source*/, const MaskQuestion & /*p_question*/,
+	MaskImage run_cell(MaskSource & /*r_source*/, const MaskTask & /*p_task*/,
 			std::span<const TracedReference> p_references, Report &r_report,
 			size_t p_cell) const override {
 		MaskImage mask = p_references.front().mask;
@@ -51,13 +50,13 @@ public:
 };
 
 struct RegisteredPart {
-	RegisteredPart() { ReportPartRegistry::add({ PART_ID, std::make_shared<MadeUpPart>() }); }
+	RegisteredPart() { ReportPartRegistry::add({ PART_ID, std::make_shared<FakePart>() }); }
 	~RegisteredPart() { ReportPartRegistry::remove(PART_ID); }
 };
 
 } // namespace
 
-TEST_CASE("[ReportPart] a part that a module adds is planned, run and written under its id") {
+TEST_CASE("[ReportPart] a registered part is planned, measured and written under its id") {
 	const TemporaryFolder folder;
 	RecordStore store(folder.path);
 	const RegisteredPart registered;
@@ -65,7 +64,7 @@ TEST_CASE("[ReportPart] a part that a module adds is planned, run and written un
 			make_report_plan(make_scripted_options(), {}, make_scripted_techniques());
 	REQUIRE(plan.report.configurations.size() == 1);
 	CHECK(plan.report.configurations[0].has_reference());
-	ScriptedMasks masks;
+	ScriptedMaskSource masks;
 	const Report report = run_report(plan, masks, store, {});
 	REQUIRE(report.cells.size() == 2);
 	for (const ReportCell &cell : report.cells) {
@@ -74,11 +73,11 @@ TEST_CASE("[ReportPart] a part that a module adds is planned, run and written un
 		CHECK_FALSE(cell.image.empty());
 	}
 	CHECK(masks.reference_count == 1);
-	CHECK(masks.measure_count == 0); // the part draws, and times nothing
+	CHECK(masks.measure_count == 0); // cells of a part are not timed
 	CHECK(to_json(report).at(PART_ID) == 2);
 }
 
-TEST_CASE("[ReportPart] a report without the part has neither its configurations nor its key") {
+TEST_CASE("[ReportPart] without the part a report has neither its configurations nor its key") {
 	const ReportPlan plan =
 			make_report_plan(make_scripted_options(), {}, make_scripted_techniques());
 	CHECK(plan.report.configurations.empty());

@@ -18,18 +18,18 @@ size_t count_cells(const ReportPlan &p_plan, const std::string &p_setting) {
 
 } // namespace
 
-TEST_CASE("[ErrorReport] every scene is measured at 0.02, 0.1 and 0.3 S of its own size") {
+TEST_CASE("[ErrorReport] by default light radii are 0.02, 0.1 and 0.3 of the scene's size") {
 	const ReportPlan plan = make_scripted_plan(1);
 	REQUIRE(plan.report.configurations.size() == 3);
 	CHECK(plan.report.configurations[0].light_size_m == doctest::Approx(0.08));
 	CHECK(plan.report.configurations[1].id == "scene_0/Light 1/0.4");
 	CHECK(plan.report.configurations[2].light_size_m == doctest::Approx(1.2));
-	const MaskQuestion question = plan.questions[2]({});
-	CHECK(get_light(*question.scene, "Light 1").light_size_m == doctest::Approx(1.2));
-	CHECK(question.size_px == glm::uvec2(16u));
+	const MaskTask task = plan.tasks[2]({});
+	CHECK(get_light(*task.scene, "Light 1").light_size_m == doctest::Approx(1.2));
+	CHECK(task.size_px == glm::uvec2(16u));
 }
 
-TEST_CASE("[ErrorReport] an expensive setting is measured at the middle size only") {
+TEST_CASE("[ErrorReport] an expensive setting is measured only at the middle light size") {
 	const ReportPlan plan = make_scripted_plan(2);
 	CHECK(count_cells(plan, "default") == 6);
 	CHECK(count_cells(plan, "few") == 6);
@@ -42,7 +42,7 @@ TEST_CASE("[ErrorReport] an expensive setting is measured at the middle size onl
 	}
 }
 
-TEST_CASE("[ErrorReport] sizes and light types that are requested replace the scene's own") {
+TEST_CASE("[ErrorReport] requested light sizes and types replace those of the scene") {
 	ReportOptions options = make_scripted_options();
 	options.sizes_m = { 0.5 };
 	options.light_types = { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL };
@@ -57,20 +57,20 @@ TEST_CASE("[ErrorReport] sizes and light types that are requested replace the sc
 	CHECK(plan.report.configurations[2].light_size_m == 0);
 }
 
-TEST_CASE("[ErrorReport] a setting reaches the light's properties, r and t are derived otherwise") {
+TEST_CASE("[ErrorReport] a setting sets light properties, and r and t are derived from R") {
 	const ReportPlan plan = make_scripted_plan(1);
 	for (size_t index = 0; index < plan.report.cells.size(); ++index) {
 		const ReportCell &cell = plan.report.cells[index];
-		const MaskQuestion question =
-				plan.questions[cell.configuration_index](plan.settings[index]);
-		const LightSnapshot &light = question.scene->lights.front();
+		const MaskTask task = plan.tasks[cell.configuration_index](plan.settings[index]);
+		const LightSnapshot &light = task.scene->lights.front();
 		CHECK(light.penumbra_outer_width_m == light.light_size_m);
+		CHECK(light.penumbra_inner_width_m == light.light_size_m);
 		CHECK((light.properties.count("soft_taps") == 1) == (cell.technique == "soft"));
 		CHECK(cell.properties.count("soft_taps") == light.properties.count("soft_taps"));
 	}
 }
 
-TEST_CASE("[ErrorReport] a record's name changes with everything that its result depends on") {
+TEST_CASE("[ErrorReport] a record's name depends on program, samples, size, camera and scene") {
 	const auto collect = [](const ReportPlan &p_plan) {
 		std::set<std::string> names;
 		for (const ReportCell &cell : p_plan.report.cells) {
@@ -111,7 +111,7 @@ TEST_CASE("[ErrorReport] a record's name changes with everything that its result
 	check_all_new(make_scripted_options(), scenes);
 }
 
-TEST_CASE("[ErrorReport] a scene that cannot be shown fails alone") {
+TEST_CASE("[ErrorReport] a scene that cannot be measured fails without affecting others") {
 	std::vector<ReportScene> scenes = make_scripted_scenes(2);
 	scenes[0].scene = nullptr;
 	scenes[0].failure = "it is gone";
@@ -129,10 +129,10 @@ TEST_CASE("[ErrorReport] a scene that cannot be shown fails alone") {
 	CHECK(plan.report.count(ReportStatus::MISSING) == 3 + 7 + 2);
 }
 
-TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their common point") {
+TEST_CASE("[ErrorReport] scaling curves vary one quantity and share the record of common points") {
 	ReportOptions options = make_scripted_options();
 	options.scaling = ReportExtent::QUICK;
-	std::vector<TechniqueSource> techniques = make_scripted_techniques();
+	std::vector<MeasurableTechnique> techniques = make_scripted_techniques();
 	techniques[1].info.id = "other";
 	techniques[1].get_settings = techniques[0].get_settings;
 	techniques.push_back(make_scripted_techniques()[1]); // with an expensive setting: skipped
@@ -148,22 +148,22 @@ TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their
 		CHECK(cell.technique != "soft");
 	}
 	CHECK(groups == std::set<std::string>{ "triangles", "light_size", "lights", "resolution" });
-	// Images here are 16 px, so that the curve of resolutions does not pass the common point.
+	// Images have 16 px here, so that only the other three curves have a point in common.
 	CHECK(plan.report.cells.size() == 2 * 12);
 	CHECK(records.size() == 2 * 10);
 	for (size_t index = 0; index < plan.report.configurations.size(); ++index) {
 		const ReportConfiguration &at = plan.report.configurations[index];
-		const MaskQuestion question = plan.questions[index]({});
-		CHECK(question.scene->lights.size() == at.light_count);
-		CHECK(question.size_px == at.size_px);
-		CHECK(question.light.empty() == (at.light_count > 1));
+		const MaskTask task = plan.tasks[index]({});
+		CHECK(task.scene->lights.size() == at.light_count);
+		CHECK(task.size_px == at.size_px);
+		CHECK(task.light.empty() == (at.light_count > 1));
 		if (at.group == TRIANGLES_GROUP) {
 			CHECK(double(at.triangle_count) == doctest::Approx(at.value).epsilon(0.02));
 		}
 	}
 }
 
-TEST_CASE("[ErrorReport] a light size that a light cannot have fails alone") {
+TEST_CASE("[ErrorReport] an invalid light size fails without affecting other configurations") {
 	ReportOptions options = make_scripted_options();
 	options.sizes_m = { 0.1, 1000 }; // a directional light of 180 degrees
 	options.light_types = { LightType::DIRECTIONAL, LightType::SPOT };

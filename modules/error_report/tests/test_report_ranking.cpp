@@ -10,7 +10,8 @@ using Indices = std::vector<size_t>;
 
 namespace {
 
-/// "hard", the baseline, "soft" and "best", on one of two machines; no cells yet.
+/// Returns a report without cells: two machines and the techniques "hard" (the baseline), "soft"
+/// and "best".
 Report make_report(size_t p_configuration_count = 1) {
 	Report report;
 	report.machines = { { "a", "", "", 2 }, { "b", "", "", 8 } };
@@ -39,26 +40,26 @@ ReportCell &add_cell(Report &r_report, size_t p_configuration, const std::string
 
 } // namespace
 
-TEST_CASE("[ErrorReport] the front has the cells of which none is both cheaper and closer") {
+TEST_CASE("[ErrorReport] no cell is both cheaper and closer than one on the Pareto front") {
 	Report report = make_report(2);
-	add_cell(report, 0, "hard", 8, 0.1); // behind the cell of 4 ms
+	add_cell(report, 0, "hard", 8, 0.1); // dominated by the cell of 4 ms
 	add_cell(report, 0, "hard", 1, 0.4);
-	add_cell(report, 1, "hard", 0.5, 0.001); // of another configuration
+	add_cell(report, 1, "hard", 0.5, 0.001); // in another configuration
 	add_cell(report, 0, "soft", 4, 0.1);
 	add_cell(report, 0, "best", 16, 0.05);
 	CHECK(find_pareto_front(report, 0) == Indices{ 1, 3, 4 });
 }
 
-TEST_CASE("[ErrorReport] of cells of one cost the front has the closest, of equal ones the first") {
+TEST_CASE("[ErrorReport] of cells with equal cost the front has the closest, on a tie the first") {
 	Report report = make_report();
 	add_cell(report, 0, "hard", 2, 0.3);
 	add_cell(report, 0, "soft", 2, 0.2);
 	add_cell(report, 0, "best", 2, 0.2);
-	add_cell(report, 0, "best", 3, 0.2); // as close, and dearer
+	add_cell(report, 0, "best", 3, 0.2); // equal error, higher cost
 	CHECK(find_pareto_front(report, 0) == Indices{ 1 });
 }
 
-TEST_CASE("[ErrorReport] cells that failed or have no error in a penumbra are in no choice") {
+TEST_CASE("[ErrorReport] cells without a penumbra error are in no front and no ranking") {
 	Report report = make_report();
 	add_cell(report, 0, "hard", 1, 0.01).status = ReportStatus::FAILED;
 	add_cell(report, 0, "hard", 1, 0.01, "later").status = ReportStatus::MISSING;
@@ -70,7 +71,7 @@ TEST_CASE("[ErrorReport] cells that failed or have no error in a penumbra are in
 	CHECK(rank_best_settings(report).empty());
 }
 
-TEST_CASE("[ErrorReport] a budget buys the closest cell that costs no more") {
+TEST_CASE("[ErrorReport] find_within_budget returns the closest cell within the budget") {
 	Report report = make_report();
 	add_cell(report, 0, "hard", 1, 0.4);
 	add_cell(report, 0, "soft", 4, 0.1);
@@ -82,7 +83,7 @@ TEST_CASE("[ErrorReport] a budget buys the closest cell that costs no more") {
 	CHECK(find_within_budget(report, 0, 1000) == 3);
 }
 
-TEST_CASE("[ErrorReport] settings are ranked by their mean error, with medians of the times") {
+TEST_CASE("[ErrorReport] settings are ranked by mean error, and rows have median times") {
 	Report report = make_report(3);
 	const double costs_ms[] = { 1, 2, 10 };
 	for (size_t at = 0; at < 3; ++at) {
@@ -90,7 +91,8 @@ TEST_CASE("[ErrorReport] settings are ranked by their mean error, with medians o
 		add_cell(report, at, "soft", costs_ms[at] * (at + 2.0), 0.1 * double(at + 1));
 	}
 	add_cell(report, 1, "soft", 100, 0.05, "expensive").error->whole_light.penumbra.pixel_count = 0;
-	report.cells[1].error->whole_light.penumbra.pixel_count = 0; // skipped in that mean alone
+	// Ignored only in whole_light_penumbra_mae.
+	report.cells[1].error->whole_light.penumbra.pixel_count = 0;
 	const std::vector<RankingRow> rows = rank_settings(report);
 	REQUIRE(rows.size() == 3);
 	CHECK(rows[0].setting == "expensive");
@@ -110,7 +112,7 @@ TEST_CASE("[ErrorReport] settings are ranked by their mean error, with medians o
 	CHECK(rows[2].technique == "hard");
 }
 
-TEST_CASE("[ErrorReport] where one cell has no `wrong`, its setting's mean has none") {
+TEST_CASE("[ErrorReport] the mean of `wrong` is unset if one cell has no value") {
 	Report report = make_report(2);
 	add_cell(report, 0, "soft", 1, 0.4);
 	add_cell(report, 1, "soft", 1, 0.4).error->all.penumbra.wrong.reset();
@@ -137,7 +139,7 @@ TEST_CASE("[ErrorReport] the best setting is chosen separately in each configura
 	CHECK_FALSE(rows[1].time_ratio);					  // there is no baseline
 }
 
-TEST_CASE("[ErrorReport] a cell's time is a ratio to the baseline of its own configuration") {
+TEST_CASE("[ErrorReport] time ratios are relative to the baseline in the same configuration") {
 	Report report = make_report(2);
 	add_cell(report, 0, "soft", 6, 0.1);
 	add_cell(report, 0, "hard", 4, 0.4);
@@ -168,12 +170,11 @@ TEST_CASE("[ErrorReport] without a baseline of the same machine there is no time
 	CHECK_FALSE(report.compute_time_ratio(soft));
 }
 
-TEST_CASE(
-		"[ErrorReport] what failed or is missing is counted, references only where there is one") {
+TEST_CASE("[ErrorReport] count() includes references, but not of configurations that have none") {
 	Report report = make_report(4);
 	report.configurations[0].status = ReportStatus::OK;
 	report.configurations[1].status = ReportStatus::FAILED;
-	report.configurations[3].group = LIGHTS_GROUP; // missing for ever
+	report.configurations[3].group = LIGHTS_GROUP; // has no reference
 	add_cell(report, 0, "hard", 1, 0.1);
 	add_cell(report, 0, "soft", 1, 0.1).status = ReportStatus::FAILED;
 	add_cell(report, 0, "best", 1, 0.1).status = ReportStatus::MISSING;
@@ -182,7 +183,7 @@ TEST_CASE(
 	CHECK(report.count(ReportStatus::MISSING) == 2);
 }
 
-TEST_CASE("[ErrorReport] scaling curves rise in their group's value and lack what failed") {
+TEST_CASE("[ErrorReport] points of scaling curves are sorted by value, without failed cells") {
 	Report report = make_report(5);
 	const std::pair<const char *, double> groups[] = { { LIGHTS_GROUP, 16 }, { LIGHTS_GROUP, 1 },
 		{ LIGHTS_GROUP, 4 }, { TRIANGLES_GROUP, 2000 }, { MATRIX_GROUP, 0.4 } };
@@ -203,7 +204,7 @@ TEST_CASE("[ErrorReport] scaling curves rise in their group's value and lack wha
 	CHECK(scaling_to_json(make_report()).empty());
 }
 
-TEST_CASE("[ErrorReport] rows of the ranking have the documented keys, a ratio only where it is") {
+TEST_CASE("[ErrorReport] ranking rows have the documented keys, and omit unset values") {
 	RankingRow row = { "soft", "32 taps", 33, 0.5, 0.25, 1, -0.5, 0.25, 0.5, 0.125, 0.75, 12, 2.5 };
 	const std::string expected =
 			R"([{"technique":"soft","setting":"32 taps","configuration_count":33,)"

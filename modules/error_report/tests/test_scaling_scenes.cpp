@@ -24,19 +24,19 @@ uint32_t count_triangles(const SceneSnapshot &p_scene) {
 	return count;
 }
 
-/// How far the ray's line passes by the point.
-double compute_miss(
+/// Returns the distance of a point from a line. p_direction: unit.
+double compute_line_distance(
 		const glm::dvec3 &p_origin, const glm::dvec3 &p_direction, const glm::dvec3 &p_point) {
 	return glm::length(glm::cross(p_point - p_origin, p_direction));
 }
 
-// The study's light, see doc/benchmarks.md.
+// Target of the light in the benchmark scene torus_knot.
 const glm::dvec3 LIGHT_TARGET(0, 0.4, 0);
-const double EXACT = 1e-9; // of lengths in metres, computed in double
+const double TOLERANCE_M = 1e-9; // tolerance of positions computed in double, metres
 
 } // namespace
 
-TEST_CASE("[ErrorReport] the generated scene has the triangles requested within 2 %") {
+TEST_CASE("[ErrorReport] the scaling scene has the requested number of triangles within 2 %") {
 	for (const uint32_t requested : { 1000u, 1234u, 2000u, 3000u, 5000u, 8000u, 12345u, 30000u,
 				 77777u, 120000u, 500000u, 1000000u }) {
 		CAPTURE(requested);
@@ -47,7 +47,7 @@ TEST_CASE("[ErrorReport] the generated scene has the triangles requested within 
 	}
 }
 
-TEST_CASE("[ErrorReport] at 30000 triangles the knot is the study's, 500 times 30 quads") {
+TEST_CASE("[ErrorReport] with 30000 triangles the knot has 500 x 30 quads, as in the benchmarks") {
 	const auto scene = build(*make_scaling_scene({}));
 	REQUIRE(scene->instances.size() == 2);
 	CHECK(scene->instances[0].mesh->name == "knot");
@@ -57,7 +57,7 @@ TEST_CASE("[ErrorReport] at 30000 triangles the knot is the study's, 500 times 3
 	CHECK(scene->instances[1].mesh->get_triangle_count() == 12);
 }
 
-TEST_CASE("[ErrorReport] generated meshes are closed and wind outwards") {
+TEST_CASE("[ErrorReport] meshes of the scaling scene are closed and face outwards") {
 	for (const uint32_t requested : { 1000u, 2000u, 30000u, 120000u }) {
 		CAPTURE(requested);
 		ScalingScene description;
@@ -75,7 +75,7 @@ TEST_CASE("[ErrorReport] generated meshes are closed and wind outwards") {
 	}
 }
 
-TEST_CASE("[ErrorReport] the knot's surface is one tube radius off the study's line, faces away") {
+TEST_CASE("[ErrorReport] the knot's vertices are one tube radius from its centre line") {
 	const auto scene = build(*make_scaling_scene({ 2000, 1, 0.4 }));
 	std::vector<glm::dvec3> line;
 	for (int step = 0; step < 4000; ++step) {
@@ -86,30 +86,30 @@ TEST_CASE("[ErrorReport] the knot's surface is one tube radius off the study's l
 						glm::dvec3(
 								ring * std::cos(2 * t), -std::sin(3 * t), ring * std::sin(2 * t)));
 	}
-	double farthest = 0;
-	double nearest = 1e9;
-	double least_cosine = 1;
+	double max_distance = 0;
+	double min_distance = 1e9;
+	double min_cosine = 1;
 	const Mesh &knot = *scene->instances[0].mesh;
 	for (size_t index = 0; index < knot.positions_node.size(); ++index) {
-		glm::dvec3 way(1e9);
+		glm::dvec3 direction(1e9);
 		for (const glm::dvec3 &point : line) {
 			const glm::dvec3 other = glm::dvec3(knot.positions_node[index]) - point;
-			way = glm::length(other) < glm::length(way) ? other : way;
+			direction = glm::length(other) < glm::length(direction) ? other : direction;
 		}
-		farthest = std::max(farthest, glm::length(way));
-		nearest = std::min(nearest, glm::length(way));
+		max_distance = std::max(max_distance, glm::length(direction));
+		min_distance = std::min(min_distance, glm::length(direction));
 		const glm::dvec3 normal = knot.normals_node[index];
-		least_cosine = std::min(least_cosine, glm::dot(normal, glm::normalize(way)));
+		min_cosine = std::min(min_cosine, glm::dot(normal, glm::normalize(direction)));
 	}
-	CHECK(least_cosine > 0.9); // they are made of the faces, which wind around them
-	CHECK(nearest > 0.1599);
-	CHECK(farthest < 0.1601);
+	CHECK(min_cosine > 0.9); // vertex normals, computed from the faces, point outwards
+	CHECK(min_distance > 0.1599);
+	CHECK(max_distance < 0.1601);
 	const Bounds &ground = scene->instances[1].bounds_world;
 	CHECK(glm::length(ground.minimum - glm::dvec3(-4.2, -0.4, -4.2)) < 1e-6);
 	CHECK(glm::length(ground.maximum - glm::dvec3(4.2, 0, 4.2)) < 1e-6);
 }
 
-TEST_CASE("[ErrorReport] light and camera of the generated scene are the study's, S is 4 m") {
+TEST_CASE("[ErrorReport] the scaling scene has the light, camera and S of the benchmark scene") {
 	const auto scene = build(*make_scaling_scene({ 2000, 1, 0.08 }));
 	CHECK(scene->scene_size_m == 4);
 	REQUIRE(scene->lights.size() == 1);
@@ -120,23 +120,23 @@ TEST_CASE("[ErrorReport] light and camera of the generated scene are the study's
 	CHECK(light.casts_shadow);
 	CHECK(light.range_m == 0);
 	const glm::dvec3 position(1.8, 6, 1.2);
-	CHECK(glm::length(light.position_world - position) < EXACT);
+	CHECK(glm::length(light.position_world - position) < TOLERANCE_M);
 	CHECK(glm::length(light.get_direction_world() - glm::normalize(LIGHT_TARGET - position)) <
-			EXACT);
+			TOLERANCE_M);
 	CHECK(std::tan(light.outer_cone_rad) == doctest::Approx(0.95));
 
 	const CameraSnapshot &camera = scene->camera;
 	CHECK(camera.name == "Camera");
 	const glm::dvec3 camera_position(-3.2, 4.6, 4.6);
-	CHECK(glm::length(camera.position_world - camera_position) < EXACT);
-	const glm::dvec3 way = glm::normalize(glm::dvec3(-0.3, 0.45, -0.2) - camera_position);
-	CHECK(glm::length(-camera.world_from_camera[2] - way) < EXACT);
+	CHECK(glm::length(camera.position_world - camera_position) < TOLERANCE_M);
+	const glm::dvec3 direction = glm::normalize(glm::dvec3(-0.3, 0.45, -0.2) - camera_position);
+	CHECK(glm::length(-camera.world_from_camera[2] - direction) < TOLERANCE_M);
 	CHECK(camera.world_from_camera[0].y == doctest::Approx(0)); // upright
 	CHECK(camera.world_from_camera[1].y > 0);
 	CHECK(glm::degrees(camera.vertical_fov_rad) == doctest::Approx(36.87).epsilon(1e-5));
 }
 
-TEST_CASE("[ErrorReport] many lights are numbered, in different positions and aimed at one point") {
+TEST_CASE("[ErrorReport] several lights have different names and positions and a common target") {
 	for (const uint32_t count : { 2u, 4u, 64u, 1024u }) {
 		CAPTURE(count);
 		const auto scene = build(*make_scaling_scene({ 1000, count, 0.4 }));
@@ -150,7 +150,8 @@ TEST_CASE("[ErrorReport] many lights are numbered, in different positions and ai
 			CHECK(light.light_size_m == 0.4f);
 			CHECK(light.casts_shadow);
 			const glm::dvec3 direction = light.get_direction_world();
-			CHECK(compute_miss(light.position_world, direction, LIGHT_TARGET) < EXACT);
+			CHECK(compute_line_distance(light.position_world, direction, LIGHT_TARGET) <
+					TOLERANCE_M);
 			CHECK(glm::dot(LIGHT_TARGET - light.position_world, direction) > 0);
 			CHECK(light.position_world.y == doctest::Approx(6));
 			CHECK(std::hypot(light.position_world.x, light.position_world.z) ==
@@ -160,7 +161,7 @@ TEST_CASE("[ErrorReport] many lights are numbered, in different positions and ai
 			intensity += light.intensity;
 		}
 		CHECK(positions.size() == count);
-		CHECK(intensity == doctest::Approx(500)); // however many, the image is as bright
-		CHECK(glm::length(scene->lights[0].position_world - glm::dvec3(1.8, 6, 1.2)) < EXACT);
+		CHECK(intensity == doctest::Approx(500)); // independent of the number of lights
+		CHECK(glm::length(scene->lights[0].position_world - glm::dvec3(1.8, 6, 1.2)) < TOLERANCE_M);
 	}
 }

@@ -4,10 +4,11 @@
 
 namespace gnomon {
 
-/// A document in which the animation "Move" moves everything for 2 s, linearly. The card "Skinned",
-/// x -0.5..0.5, y 0..1, z 0, follows the joint "Tip" below "Base", which goes 10 m along x; "Flag",
-/// the same card at z -5, goes 3 m up with its morph target, from weight 0 to 1; its own weight is
-/// 0.25. The animation "Turn" of "Base" has one key.
+/// Returns a document with two quads and two animations. The animation "Move" lasts 2 s and is
+/// linear. The quad "Skinned" (x -0.5..0.5, y 0..1, z 0) follows the joint "Tip", a child of
+/// "Base", which moves 10 m along x. The same quad at z -5, "Flag", moves 3 m up as the weight of
+/// its morph target goes from 0 to 1. Without animation the weight is 0.25. The animation "Turn"
+/// rotates "Base" and has one key.
 inline Json make_animated(const GltfTestFolder &p_folder) {
 	GltfTestBuffer buffer;
 	const auto add = [&](const auto &p_values, int p_component, const char *p_type,

@@ -15,14 +15,15 @@
 
 namespace gnomon {
 
-/// A folder of files that is removed at the end of the test.
+/// A temporary folder, which is removed with its files at the end of the test.
 struct GltfTestFolder : TemporaryFolder {
-	/// Writes and loads a file.
+	/// Writes the document to "scene.gltf" and loads it.
 	std::unique_ptr<Scene> load(const Json &p_json, const GltfLoadOptions &p_options = {}) const {
 		write("scene.gltf", p_json.dump());
 		return load_gltf(path / "scene.gltf", p_options);
 	}
-	/// Without the sync to disk of save_file_atomically, which thousands of files would wait for.
+	/// Writes a file without the disk sync of save_file_atomically, which is slow for thousands of
+	/// files.
 	void write(const std::string &p_name, std::string_view p_text) const {
 		std::ofstream(path / p_name, std::ios::binary) << p_text;
 	}
@@ -35,7 +36,7 @@ struct GltfTestFolder : TemporaryFolder {
 	}
 };
 
-/// Collects the log's lines while it lives.
+/// Collects the log's lines during its lifetime instead of printing them.
 struct GltfTestLog {
 	std::vector<std::string> errors;
 	std::vector<std::string> warnings;
@@ -49,9 +50,9 @@ struct GltfTestLog {
 	GltfTestLog(const GltfTestLog &) = delete;
 	GltfTestLog &operator=(const GltfTestLog &) = delete;
 
-	static bool contains(const std::vector<std::string> &p_lines, std::string_view p_part) {
+	static bool contains(const std::vector<std::string> &p_lines, std::string_view p_text_part) {
 		for (const std::string &line : p_lines) {
-			if (line.find(p_part) != std::string::npos) {
+			if (line.find(p_text_part) != std::string::npos) {
 				return true;
 			}
 		}
@@ -59,9 +60,9 @@ struct GltfTestLog {
 	}
 };
 
-/// Sorts the keys alphabetically, because elements that a save adds have them in the writer's
-/// order.
-inline nlohmann::json sort(const Json &p_json) {
+/// Sorts the keys alphabetically for a comparison, because elements that a save adds have their
+/// keys in the writer's order.
+inline nlohmann::json sort_keys(const Json &p_json) {
 	return nlohmann::json::parse(p_json.dump());
 }
 
@@ -76,7 +77,7 @@ inline std::string get_load_error(
 	return "";
 }
 
-/// Bytes of a buffer, and the JSON of its views and accessors, as they are appended.
+/// Builds a buffer with its views and accessors, to which values are appended.
 struct GltfTestBuffer {
 	std::vector<uint8_t> bytes;
 	Json views = Json::array();
@@ -100,7 +101,7 @@ struct GltfTestBuffer {
 				{ "type", p_type }, { "count", p_count }, { "byteOffset", p_offset } });
 		return accessors.size() - 1;
 	}
-	/// Puts them into the document; the bytes go to "data.bin" in the folder.
+	/// Writes buffer, views and accessors into the document, and the bytes to "data.bin".
 	void store(Json &r_json, const GltfTestFolder &p_folder) const {
 		p_folder.write("data.bin", bytes);
 		r_json["buffers"] = Json::array();
@@ -113,11 +114,12 @@ struct GltfTestBuffer {
 const int GLTF_TEST_BYTE = 5120, GLTF_TEST_SHORT = 5122, GLTF_TEST_USHORT = 5123,
 		  GLTF_TEST_UINT = 5125, GLTF_TEST_FLOAT = 5126;
 
-inline Json make_header() {
+/// Returns a document without content.
+inline Json make_empty_document() {
 	return Json::parse(R"({"asset": {"version": "2.0"}})");
 }
 
-/// A document of one node with a mesh of one triangle, whose buffer is "data.bin".
+/// Returns a document of one node with a mesh of one triangle, whose buffer is "data.bin".
 inline Json make_triangle(const GltfTestFolder &p_folder) {
 	GltfTestBuffer buffer;
 	const std::vector<float> positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
@@ -133,8 +135,8 @@ inline Json make_triangle(const GltfTestFolder &p_folder) {
 	return json;
 }
 
-/// A document of one spot light, to be changed by the test.
-inline Json make_lamp() {
+/// Returns a document of one spot light, which tests modify.
+inline Json make_spot_light_document() {
 	return Json::parse(R"({
 		"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
 		"extensionsUsed": ["KHR_lights_punctual"],
@@ -145,8 +147,8 @@ inline Json make_lamp() {
 	})");
 }
 
-/// Describes the first difference between two scenes, or is empty: compares everything in the trees
-/// that a renderer uses.
+/// Returns a description of the first difference between two scenes, or "" if there is none.
+/// Compares all node data that a renderer uses.
 std::string find_difference(const Scene &p_first, const Scene &p_second);
 
 } // namespace gnomon

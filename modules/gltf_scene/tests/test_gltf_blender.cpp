@@ -1,6 +1,6 @@
-// A scene as Blender 3.4's exporter wrote it (binary form, "Custom Properties", "Punctual Lights"
-// and "Cameras" ticked): Suzanne and a torus over a plane, one light of each type. The sizes are
-// on the light data of Key and Sun and on the object of Fill.
+// Loads a scene that was exported by Blender 3.4 (binary form, with "Custom Properties", "Punctual
+// Lights" and "Cameras" enabled): Suzanne and a torus over a plane, one light of each type. The
+// light sizes are custom properties of the light data of Key and Sun and of the object Fill.
 
 #include "modules/core/files.h"
 #include "modules/gltf_scene/tests/gltf_test_files.h"
@@ -11,7 +11,8 @@ using namespace gnomon;
 
 namespace {
 
-const char FILE_NAME[] = "modules/gltf_scene/tests/blender_3_4.glb"; // tests run in the root
+// Relative to the root of the repository, in which tests run.
+const char FILE_NAME[] = "modules/gltf_scene/tests/blender_3_4.glb";
 
 double get_number(const Light3D &p_light, const char *p_name) {
 	return get_float(Light3D::get_property_list(), p_light.properties, p_name);
@@ -19,7 +20,7 @@ double get_number(const Light3D &p_light, const char *p_name) {
 
 } // namespace
 
-TEST_CASE("[GltfScene] a file of Blender's exporter has its lights' sizes, cameras and meshes") {
+TEST_CASE("[GltfScene] light sizes, cameras and meshes of a Blender export are read") {
 	const std::unique_ptr<Scene> scene = load_gltf(FILE_NAME);
 	CHECK(scene->find_nodes<MeshInstance3D>().size() == 3);
 	const Light3D &key = scene->find_node<Light3D>("Key", "Light");
@@ -27,6 +28,8 @@ TEST_CASE("[GltfScene] a file of Blender's exporter has its lights' sizes, camer
 	CHECK(key.outer_cone_rad == doctest::Approx(0.7));
 	CHECK(key.intensity == doctest::Approx(54351.4));
 	CHECK(get_number(key, "light_size") == doctest::Approx(0.35));
+	// The file names a technique of another module. This module may not use that name (rule of
+	// tests/layers), so only its length is compared.
 	CHECK(std::get<std::string>(key.properties.at("shadow_technique")).size() == 5);
 	const Light3D &fill = scene->find_node<Light3D>("Fill", "Light");
 	CHECK(fill.type == LightType::OMNI);
@@ -36,6 +39,6 @@ TEST_CASE("[GltfScene] a file of Blender's exporter has its lights' sizes, camer
 	CHECK(get_number(sun, "light_angular_distance") == doctest::Approx(3.0));
 	const Camera3D &camera = scene->find_node<Camera3D>("Cam", "Camera");
 	const glm::dvec3 position = glm::dvec3(camera.compute_world_from_node()[3]);
-	// Blender's (4, -5, 3.5), z up, is (4, 3.5, 5) here.
+	// Blender's position (4, -5, 3.5) with z up is (4, 3.5, 5) with y up.
 	CHECK(glm::distance(position, glm::dvec3(4.0, 3.5, 5.0)) < 1e-5);
 }

@@ -46,7 +46,7 @@ std::string compare_nodes(const Node3D &p_first, const Node3D &p_second) {
 	if (typeid(p_first) != typeid(p_second) || p_first.name != p_second.name) {
 		return location + "class or name, \"" + p_second.name + "\"";
 	}
-	// A turned node is written as a quaternion, which rounds.
+	// A rotation is written as a quaternion, which adds rounding errors.
 	for (int column = 0; column < 4; ++column) {
 		if (glm::length(p_first.parent_from_node[column] - p_second.parent_from_node[column]) >
 				1e-12) {

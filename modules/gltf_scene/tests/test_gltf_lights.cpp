@@ -12,7 +12,7 @@ Json &get_light(Json &r_json) {
 	return r_json["extensions"]["KHR_lights_punctual"]["lights"][0];
 }
 
-/// The light's property as it is stored, or -99 when it is not set.
+/// Returns the value of a light's property, or -99 if it is not set.
 double load_number(const GltfTestFolder &p_folder, const Json &p_json, const char *p_name) {
 	const auto scene = p_folder.load(p_json);
 	const Light3D &light = *scene->find_nodes<Light3D>().at(0);
@@ -20,6 +20,7 @@ double load_number(const GltfTestFolder &p_folder, const Json &p_json, const cha
 	return found == light.properties.end() ? -99.0 : std::get<double>(found->second);
 }
 
+/// Adds an area light to the light's node.
 Json add_area(Json p_json, const Json &p_area) {
 	p_json["extensions"]["EXT_lights_area"]["lights"] = Json::array();
 	p_json["extensions"]["EXT_lights_area"]["lights"].push_back(p_area);
@@ -31,7 +32,7 @@ Json add_area(Json p_json, const Json &p_area) {
 
 TEST_CASE("[GltfLights] type, colour, intensity, range and cones are read") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	get_light(json)["range"] = 7;
 	const auto scene = folder.load(json);
 	const Light3D &light = *scene->find_nodes<Light3D>().at(0);
@@ -49,42 +50,42 @@ TEST_CASE("[GltfLights] type, colour, intensity, range and cones are read") {
 TEST_CASE("[GltfLights] a spot light without a spot object has the default cones") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	get_light(json).erase("spot");
 	const auto scene = folder.load(json);
 	CHECK(scene->find_nodes<Light3D>().at(0)->outer_cone_rad == doctest::Approx(M_PI / 4));
 	CHECK(log.errors.empty());
 }
 
-TEST_CASE("[GltfLights] names: the node's, else the light's, else a number") {
+TEST_CASE("[GltfLights] a light has the name of its node, else of its definition, else a number") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	json["nodes"][0].erase("name");
 	CHECK(folder.load(json)->find_nodes<Light3D>().at(0)->name == "Bulb");
 	get_light(json).erase("name");
 	CHECK(folder.load(json)->find_nodes<Light3D>().at(0)->name == "Light 0");
 }
 
-TEST_CASE("[GltfLights] size and angle are read under every name they are known by") {
+TEST_CASE("[GltfLights] size and angle are read under each of their names") {
 	GltfTestFolder folder;
 	for (const char *name : { "light_size", "radius", "shadow_soft_size" }) {
-		Json json = make_lamp();
+		Json json = make_spot_light_document();
 		get_light(json)["extras"][name] = 0.25;
 		CHECK(load_number(folder, json, "light_size") == 0.25);
 	}
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	get_light(json)["extras"]["angle"] = 0.5;
 	CHECK(load_number(folder, json, "light_angular_distance") ==
 			doctest::Approx(0.5 * 180 / M_PI).epsilon(1e-12));
-	json = add_area(make_lamp(), { { "type", "disk" }, { "size", 0.5 } });
+	json = add_area(make_spot_light_document(), { { "type", "disk" }, { "size", 0.5 } });
 	CHECK(load_number(folder, json, "light_size") == 0.25);
-	json = add_area(make_lamp(), { { "type", "disk" } });
+	json = add_area(make_spot_light_document(), { { "type", "disk" } });
 	CHECK(load_number(folder, json, "light_size") == 0.5);
 }
 
-TEST_CASE("[GltfLights] the area disc outranks the light's extras, and they the node's") {
+TEST_CASE("[GltfLights] an area light overrides the light's extras, which override the node's") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	json["nodes"][0]["extras"] = { { "light_size", 0.3 }, { "penumbra_outer_width", 0.6 } };
 	CHECK(load_number(folder, json, "light_size") == 0.3);
 	get_light(json)["extras"]["shadow_soft_size"] = 0.2;
@@ -96,10 +97,10 @@ TEST_CASE("[GltfLights] the area disc outranks the light's extras, and they the 
 	CHECK(load_number(folder, json, "penumbra_outer_width") == 0.6);
 }
 
-TEST_CASE("[GltfLights] an area light without members does not shift those after it") {
+TEST_CASE("[GltfLights] an empty area light does not shift the indices of those after it") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = add_area(make_lamp(), { { "type", "disk" }, { "size", 0.5 } });
+	Json json = add_area(make_spot_light_document(), { { "type", "disk" }, { "size", 0.5 } });
 	Json &lights = json["extensions"]["EXT_lights_area"]["lights"];
 	lights.insert(lights.begin(), Json::object());
 	json["nodes"][0]["extensions"]["EXT_lights_area"]["light"] = 1;
@@ -115,9 +116,9 @@ TEST_CASE("[GltfLights] an area light without members does not shift those after
 	CHECK(folder.load(json)->find_nodes<Light3D>().at(0)->properties.empty());
 }
 
-TEST_CASE("[GltfLights] -1 is allowed for r and t; other bad values are reported and ignored") {
+TEST_CASE("[GltfLights] penumbra widths may be -1; invalid values are reported and ignored") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	Json &extras = get_light(json)["extras"];
 	extras = { { "penumbra_outer_width", -1 }, { "penumbra_inner_width", 0 } };
 	CHECK(load_number(folder, json, "penumbra_outer_width") == -1);
@@ -141,10 +142,10 @@ TEST_CASE("[GltfLights] -1 is allowed for r and t; other bad values are reported
 	}
 }
 
-TEST_CASE("[GltfLights] a refused alias is reported under its own name") {
+TEST_CASE("[GltfLights] an invalid value of an alias is reported under the alias's name") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	get_light(json)["extras"] = { { "angle", 3 }, { "radius", 20000 } };
 	folder.load(json);
 	CHECK(GltfTestLog::contains(log.errors, "lights[0].extras.angle is 3"));
@@ -152,9 +153,9 @@ TEST_CASE("[GltfLights] a refused alias is reported under its own name") {
 			log.errors, "lights[0].extras.radius is 20000, must be 0..10000 m"));
 }
 
-TEST_CASE("[GltfLights] flags are read as true or 1") {
+TEST_CASE("[GltfLights] a flag can be a boolean or a number") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	for (const Json &value : { Json(0), Json(false) }) {
 		get_light(json)["extras"] = { { "shadow_enabled", value } };
 		const auto scene = folder.load(json);
@@ -163,7 +164,7 @@ TEST_CASE("[GltfLights] flags are read as true or 1") {
 	}
 }
 
-TEST_CASE("[GltfLights] wrong punctual values are reported and replaced by their defaults") {
+TEST_CASE("[GltfLights] invalid values of punctual lights are reported and replaced by defaults") {
 	const std::vector<std::pair<const char *, Json>> bad = { { "range", 0 }, { "range", -1 },
 		{ "range", "far" }, { "intensity", -1 }, { "intensity", 1e300 },
 		{ "color", Json::array({ 1, 1 }) }, { "color", Json::array({ 1, -1, 1 }) },
@@ -174,7 +175,7 @@ TEST_CASE("[GltfLights] wrong punctual values are reported and replaced by their
 		CAPTURE(name);
 		CAPTURE(value.dump());
 		GltfTestLog log;
-		Json json = make_lamp();
+		Json json = make_spot_light_document();
 		get_light(json)[name] = value;
 		const auto scene = folder.load(json);
 		const Light3D &light = *scene->find_nodes<Light3D>().at(0);
@@ -182,14 +183,14 @@ TEST_CASE("[GltfLights] wrong punctual values are reported and replaced by their
 		CHECK(GltfTestLog::contains(log.errors, name));
 		CHECK(light.range_m == 0);
 		CHECK(light.inner_cone_rad < light.outer_cone_rad);
-		CHECK(std::isfinite(light.intensity));
+		CHECK(light.intensity == (std::string(name) == "intensity" ? 1.0f : 20.0f));
 	}
 }
 
-TEST_CASE("[GltfLights] a spot light with a hard edge, both cones alike, keeps it") {
+TEST_CASE("[GltfLights] a spot light with equal cone angles keeps its hard edge") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	get_light(json)["spot"] = { { "outerConeAngle", 0.5 }, { "innerConeAngle", 0.5 } };
 	const auto scene = folder.load(json);
 	const Light3D &light = *scene->find_nodes<Light3D>().at(0);
@@ -199,10 +200,10 @@ TEST_CASE("[GltfLights] a spot light with a hard edge, both cones alike, keeps i
 	CHECK(light.inner_cone_rad == doctest::Approx(0.5f));
 }
 
-TEST_CASE("[GltfLights] a light of unknown type is no light; a reference to none fails") {
+TEST_CASE("[GltfLights] a light of unknown type is skipped; a missing light is an error") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	get_light(json)["type"] = "laser";
 	CHECK(folder.load(json)->find_nodes<Light3D>().empty());
 	CHECK(GltfTestLog::contains(log.errors, "lights[0].type is \"laser\""));
@@ -212,7 +213,7 @@ TEST_CASE("[GltfLights] a light of unknown type is no light; a reference to none
 			std::string::npos);
 }
 
-TEST_CASE("[GltfLights] technique properties are checked when known and preserved when not") {
+TEST_CASE("[GltfLights] technique properties are checked if they are registered, else preserved") {
 	static const PropertyInfo TAPS = { "later_taps", PropertyType::INT, int64_t(16), "1,64,1",
 		"Taps." };
 	GltfLoadOptions options;
@@ -221,7 +222,7 @@ TEST_CASE("[GltfLights] technique properties are checked when known and preserve
 	};
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	get_light(json)["extras"] =
 			Json::parse(R"({"later_taps": 8.0, "later_bias": 0.5, "later_on": true,
 		"later_mode": "soft", "later_count": 3, "later_list": [1, 2]})");
@@ -233,17 +234,18 @@ TEST_CASE("[GltfLights] technique properties are checked when known and preserve
 					{ "later_count", int64_t(3) } });
 	CHECK(log.errors.empty());
 	get_light(json)["extras"] = { { "later_taps", 65 } };
-	json["nodes"][0]["extras"] = { { "later_taps", 4 } }; // the first present decides, good or bad
+	// Not used: the light's value comes first, even if it is invalid.
+	json["nodes"][0]["extras"] = { { "later_taps", 4 } };
 	CHECK(folder.load(json, options)->find_nodes<Light3D>().at(0)->properties.empty());
 	CHECK(GltfTestLog::contains(
 			log.errors, "lights[0].extras.later_taps is 65, must be 1..64; 16 is used"));
 }
 
-TEST_CASE("[GltfLights] Blender's light below its object has the object's properties") {
+TEST_CASE("[GltfLights] a Blender light in a child node has the properties of its parent") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_header();
-	json["extensions"] = make_lamp()["extensions"];
+	Json json = make_empty_document();
+	json["extensions"] = make_spot_light_document()["extensions"];
 	json["nodes"] = Json::parse(R"([
 		{"name": "Lamp", "translation": [4, 5, 1], "rotation": [0.169, 0.272, 0.756, 0.571],
 		 "children": [1], "extras": {"light_size": 0.35, "shadow_enabled": 1}},
@@ -260,7 +262,7 @@ TEST_CASE("[GltfLights] Blender's light below its object has the object's proper
 	CHECK(std::get<bool>(light.properties.at("shadow_enabled")));
 	CHECK(light.compute_world_from_node()[3].x == 4);
 	CHECK(scene->find_nodes<Camera3D>().at(0)->compute_world_from_node()[3].y == 5);
-	// Blender's z up is glTF's y up: the camera of an object that is not turned looks down.
+	// Blender has z up and glTF y up. The camera of an object without rotation looks down.
 	const glm::dmat4 world_from_camera =
 			scene->find_nodes<Camera3D>()[0]->compute_world_from_node();
 	CHECK(-world_from_camera[2].y == doctest::Approx(-1.0));

@@ -8,9 +8,9 @@ using namespace gnomon;
 
 namespace {
 
-/// Two nodes of one mesh with one material, and of another material, which the program understands
-/// in part.
-Json make_waxes(const GltfTestFolder &p_folder) {
+/// Returns a document of two nodes that share a mesh with a material, which has data unknown to the
+/// program. A second material is not used.
+Json make_wax_document(const GltfTestFolder &p_folder) {
 	Json json = make_triangle(p_folder);
 	json["extensionsUsed"] = { "KHR_materials_transmission", "KHR_materials_volume", "X_odd" };
 	json["materials"] = Json::parse(R"([{"name": "Wax", "alphaMode": "BLEND",
@@ -33,17 +33,17 @@ std::vector<MeshInstance3D *> get_instances(const Scene &p_scene) {
 
 } // namespace
 
-TEST_CASE("[GltfMaterials] transmission and volume are read, and what they leave of the light") {
+TEST_CASE("[GltfMaterials] transmission and volume are read and determine the transmittance") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_waxes(folder);
+	Json json = make_wax_document(folder);
 	const auto scene = folder.load(json);
 	const Material wax = *get_instances(*scene)[0]->surfaces[0].material;
 	CHECK(wax.transmission == 0.75f);
 	CHECK(wax.thickness_m == 0.5f);
 	CHECK(wax.attenuation_distance_m == 0.25f);
 	CHECK(wax.attenuation_color == glm::vec3(0.5f, 1, 0.25f));
-	CHECK(wax.scatter_distance_m == 0.25f); // the volume states it where the extras do not
+	CHECK(wax.scatter_distance_m == 0.25f); // from the volume, because the extras have none
 	const glm::vec3 left = wax.compute_transmittance(1.0f);
 	CHECK(left.x == doctest::Approx(0.75 * 0.5 * 0.25));
 	CHECK(left.y == doctest::Approx(0.75 * 0.25));
@@ -60,10 +60,10 @@ TEST_CASE("[GltfMaterials] transmission and volume are read, and what they leave
 	CHECK(Material().compute_transmittance(1.0f) == glm::vec3(0.0f));
 }
 
-TEST_CASE("[GltfMaterials] bad values are refused with their location and range") {
+TEST_CASE("[GltfMaterials] invalid values are reported with their location and range") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_waxes(folder);
+	Json json = make_wax_document(folder);
 	Json &material = json["materials"][0];
 	material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 1.5;
 	material["extensions"]["KHR_materials_volume"]["thicknessFactor"] = -1;
@@ -79,10 +79,10 @@ TEST_CASE("[GltfMaterials] bad values are refused with their location and range"
 			log.errors, "shading_model is \"toon\", must be metallic_roughness or phong"));
 }
 
-TEST_CASE("[GltfMaterials] a changed material changes alone in the file, at its index") {
+TEST_CASE("[GltfMaterials] a changed material is replaced in the file and nothing else changes") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json expected = make_waxes(folder);
+	Json expected = make_wax_document(folder);
 	expected["nodes"].erase(1);
 	expected["scenes"][0]["nodes"].erase(1);
 	const auto scene = folder.load(expected);
@@ -102,17 +102,17 @@ TEST_CASE("[GltfMaterials] a changed material changes alone in the file, at its 
 	CHECK(folder.read_json("again.gltf") == expected);
 	const auto again = load_gltf(folder.path / "again.gltf");
 	CHECK(*get_instances(*again)[0]->surfaces[0].material == *instance.surfaces[0].material);
-	// Saved once more after another change, from the same loaded document.
+	// Saves again after another change of the same loaded scene.
 	set_node_property(instance, "scatter", 0.5);
 	save_gltf(*scene, folder.path / "again.gltf");
 	material["extras"]["scatter"] = 0.5;
 	CHECK(folder.read_json("again.gltf") == expected);
 }
 
-TEST_CASE("[GltfMaterials] a node whose material changes leaves those that shared it alone") {
+TEST_CASE("[GltfMaterials] changing a node's material does not change nodes that shared it") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	const Json before = make_waxes(folder);
+	const Json before = make_wax_document(folder);
 	const auto scene = folder.load(before);
 	set_node_property(*get_instances(*scene)[1], "scatter", 1.0);
 	CHECK(get_instances(*scene)[0]->surfaces[0].material->scatter == 0.5f);
@@ -122,7 +122,7 @@ TEST_CASE("[GltfMaterials] a node whose material changes leaves those that share
 	CHECK(after["materials"][0] == before["materials"][0]);
 	Json expected = before["materials"][0];
 	expected["extras"]["scatter"] = 1.0;
-	CHECK(sort(after["materials"][2]) == sort(expected)); // what is not understood goes along
+	CHECK(sort_keys(after["materials"][2]) == sort_keys(expected)); // with all unknown data
 	REQUIRE(after["meshes"].size() == 2);
 	CHECK(after["accessors"] == before["accessors"]); // the vertices are shared
 	CHECK(after["meshes"][1]["primitives"][0]["material"] == 2);
@@ -130,7 +130,7 @@ TEST_CASE("[GltfMaterials] a node whose material changes leaves those that share
 	const auto again = load_gltf(folder.path / "again.gltf");
 	CHECK(get_instances(*again)[0]->surfaces[0].material->scatter == 0.5f);
 	CHECK(get_instances(*again)[1]->surfaces[0].material->scatter == 1.0f);
-	// Changed alike, both take the old index.
+	// With the same change in both nodes, the old material is replaced.
 	set_node_property(*get_instances(*scene)[0], "scatter", 1.0);
 	save_gltf(*scene, folder.path / "alike.gltf");
 	const Json alike = folder.read_json("alike.gltf");
@@ -166,11 +166,11 @@ TEST_CASE("[GltfMaterials] a new scene's materials are written in full") {
 	CHECK(json["extensionsUsed"] == Json({ "KHR_materials_transmission", "KHR_materials_volume" }));
 }
 
-TEST_CASE("[GltfMaterials] a distance that the volume defines stays what it is when the volume "
-		  "changes") {
+TEST_CASE("[GltfMaterials] the scatter distance is preserved when the attenuation distance from "
+		  "which it was derived changes") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	const Json json = make_waxes(folder);
+	const Json json = make_wax_document(folder);
 	const auto save_and_load = [&](const Scene &p_scene) {
 		save_gltf(p_scene, folder.path / "again.gltf");
 		const auto again = load_gltf(folder.path / "again.gltf");
@@ -189,23 +189,23 @@ TEST_CASE("[GltfMaterials] a distance that the volume defines stays what it is w
 	Json opaque = json;
 	opaque["materials"][0].erase("extras");
 	const auto other = folder.load(opaque);
-	set_node_property(*get_instances(*other)[0], "scatter", 0.5); // and 16 pixels
+	set_node_property(*get_instances(*other)[0], "scatter", 0.5); // its distance is the default
 	CHECK(save_and_load(*other).scatter_distance_m == 0.0f);
 	CHECK(save_and_load(*other).scatter == 0.5f);
 }
 
-TEST_CASE("[GltfMaterials] lines of a mesh, and what a copy's mesh has in addition, stay in the "
-		  "file") {
+TEST_CASE("[GltfMaterials] lines and unknown data of a mesh are preserved when a copied node's "
+		  "material changes") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_waxes(folder);
+	Json json = make_wax_document(folder);
 	Json &primitives = json["meshes"][0]["primitives"];
 	Json lines = primitives[0];
 	lines["mode"] = 1;
 	lines["extras"] = { { "drawn", "by hand" } };
 	primitives.insert(primitives.begin(), lines);
 	const auto scene = folder.load(json);
-	// A copy of the second node, whose material changes, as does that of the second.
+	// Copies the second node, and gives the copy and the second node different materials.
 	auto copy = get_instances(*scene)[1]->copy();
 	copy->name = "Copy";
 	copy->file_index = -1;
@@ -218,7 +218,7 @@ TEST_CASE("[GltfMaterials] lines of a mesh, and what a copy's mesh has in additi
 	REQUIRE(after["meshes"].size() == 3);
 	for (const Json &mesh : after["meshes"]) {
 		REQUIRE(mesh["primitives"].size() == 2);
-		CHECK(sort(mesh["primitives"][0]) == sort(lines));
+		CHECK(sort_keys(mesh["primitives"][0]) == sort_keys(lines));
 		CHECK(mesh["extras"] == json["meshes"][0]["extras"]);
 	}
 	const auto again = load_gltf(folder.path / "again.gltf");
@@ -228,10 +228,10 @@ TEST_CASE("[GltfMaterials] lines of a mesh, and what a copy's mesh has in additi
 	CHECK(get_instances(*again)[2]->surfaces[0].material->roughness == 0.25f);
 }
 
-TEST_CASE("[GltfMaterials] the other scenes of a file keep the material") {
+TEST_CASE("[GltfMaterials] changing a material does not change other scenes of the file") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_waxes(folder);
+	Json json = make_wax_document(folder);
 	json["scenes"][0]["nodes"].erase(1);
 	json["scenes"].push_back({ { "nodes", { json["nodes"].size() - 1 } } });
 	json["scene"] = 0;

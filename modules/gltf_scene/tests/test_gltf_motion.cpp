@@ -1,4 +1,4 @@
-// Skins, morph targets and animations of files, good and hostile ones.
+// Tests the reading of skins, morph targets and animations from valid and invalid files.
 
 #include "modules/gltf_scene/tests/gltf_test_files.h"
 #include "modules/scene/animation.h"
@@ -17,33 +17,34 @@ const int GLTF_TEST_UBYTE = 5121;
 const float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 const std::vector<float> IDENTITY = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
 
-/// What a test changes of a document with a skinned and morphed triangle and its animation.
-struct Motion {
+/// The data of a document with a skinned and morphed triangle and its animation. Tests modify it
+/// before make.
+struct MotionDocument {
 	std::vector<float> weights = { 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0, 1, 0, 0 };
 	std::vector<uint8_t> joints = { 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0 };
-	std::vector<float> binds = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, //
+	std::vector<float> inverse_bind_matrices = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, //
 		1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1 };
 	std::vector<float> deltas = { 0, 0, 1, 0, 0, 1, 0, 0, 1 };
 	std::vector<float> times = { 0, 1, 3 };
-	std::vector<float> moves = { 0, 0, 0, 2, 0, 0, 2, 4, 0 };
-	std::vector<float> morphs = { 0, 1, 0.5f };
+	std::vector<float> translations = { 0, 0, 0, 2, 0, 0, 2, 4, 0 };
+	std::vector<float> animated_weights = { 0, 1, 0.5f };
 
-	/// Nodes: 0 the mesh, 1 the frame, 2 and 3 joints.
+	/// Returns the document. Node 0 has the mesh, node 1 is the skin's frame, 2 and 3 are joints.
 	Json make(const GltfTestFolder &p_folder) const {
 		GltfTestBuffer buffer;
 		const auto add = [&](const auto &p_values, int p_type, const char *p_shape,
 								 size_t p_count) {
 			return buffer.add_accessor(buffer.add_view(p_values), p_type, p_shape, p_count);
 		};
-		add(std::vector<float>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 }, GLTF_TEST_FLOAT, "VEC3", 3); // 0
-		add(std::vector<uint16_t>{ 0, 1, 2 }, GLTF_TEST_USHORT, "SCALAR", 3);			  // 1
-		add(joints, GLTF_TEST_UBYTE, "VEC4", joints.size() / 4);						  // 2
-		add(weights, GLTF_TEST_FLOAT, "VEC4", weights.size() / 4);						  // 3
-		add(binds, GLTF_TEST_FLOAT, "MAT4", binds.size() / 16);							  // 4
-		add(deltas, GLTF_TEST_FLOAT, "VEC3", deltas.size() / 3);						  // 5
-		add(times, GLTF_TEST_FLOAT, "SCALAR", times.size());							  // 6
-		add(moves, GLTF_TEST_FLOAT, "VEC3", moves.size() / 3);							  // 7
-		add(morphs, GLTF_TEST_FLOAT, "SCALAR", morphs.size());							  // 8
+		add(std::vector<float>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 }, GLTF_TEST_FLOAT, "VEC3", 3);		// 0
+		add(std::vector<uint16_t>{ 0, 1, 2 }, GLTF_TEST_USHORT, "SCALAR", 3);					// 1
+		add(joints, GLTF_TEST_UBYTE, "VEC4", joints.size() / 4);								// 2
+		add(weights, GLTF_TEST_FLOAT, "VEC4", weights.size() / 4);								// 3
+		add(inverse_bind_matrices, GLTF_TEST_FLOAT, "MAT4", inverse_bind_matrices.size() / 16); // 4
+		add(deltas, GLTF_TEST_FLOAT, "VEC3", deltas.size() / 3);								// 5
+		add(times, GLTF_TEST_FLOAT, "SCALAR", times.size());									// 6
+		add(translations, GLTF_TEST_FLOAT, "VEC3", translations.size() / 3);					// 7
+		add(animated_weights, GLTF_TEST_FLOAT, "SCALAR", animated_weights.size());				// 8
 		Json json = Json::parse(R"({
 			"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
 			"nodes": [{"name": "Body", "mesh": 0, "skin": 0, "scale": [7, 7, 7]},
@@ -78,7 +79,7 @@ std::unique_ptr<Scene> load_with_log(
 TEST_CASE("gltf motion: a skin, a morph target and an animation are read") {
 	const GltfTestFolder folder;
 	std::vector<std::string> messages;
-	const auto scene = load_with_log(folder, Motion().make(folder), messages);
+	const auto scene = load_with_log(folder, MotionDocument().make(folder), messages);
 	CHECK(messages.empty());
 	MeshInstance3D &body = scene->find_node<MeshInstance3D>("Body", "Mesh");
 	REQUIRE(body.skin);
@@ -107,15 +108,15 @@ TEST_CASE("gltf motion: a skin, a morph target and an animation are read") {
 	pose_scene(*scene, scene->animations[0].get(), 3);
 	snapshot = build_snapshot(*scene, camera);
 	mesh = snapshot->instances[0].get_posed_mesh();
-	// The knee at (2, 4), 1 and 4 from where it was bound: half of it for vertex 1, all for
-	// vertex 2.
+	// The knee is at (2, 4), a translation of (1, 4) from its bind pose. Vertex 1 moves by half of
+	// that, vertex 2 by all of it.
 	CHECK(mesh->positions_node[1] == glm::vec3(1.5f, 2, 0.5f));
 	CHECK(mesh->positions_node[2] == glm::vec3(1, 5, 0.5f));
 }
 
-TEST_CASE("gltf motion: bytes and shorts as weights, and a second set of joints") {
+TEST_CASE("gltf motion: a second set of joints with normalized byte weights is read") {
 	const GltfTestFolder folder;
-	const Motion motion;
+	const MotionDocument motion;
 	Json json = motion.make(folder);
 	GltfTestBuffer buffer;
 	buffer.bytes = load_file(folder.path / "data.bin");
@@ -138,15 +139,15 @@ TEST_CASE("gltf motion: bytes and shorts as weights, and a second set of joints"
 	CHECK(rig.joints[4] == 1);
 }
 
-TEST_CASE("gltf motion: what a skin lacks or exceeds is refused with its location") {
+TEST_CASE("gltf motion: invalid skins and morph targets are rejected with their location") {
 	const GltfTestFolder folder;
-	const auto find = [&](const Json &p_json, const std::string &p_part) {
+	const auto find = [&](const Json &p_json, const std::string &p_text_part) {
 		const std::string message = get_load_error(folder, p_json);
 		CAPTURE(message);
-		CHECK(message.find(p_part) != std::string::npos);
+		CHECK(message.find(p_text_part) != std::string::npos);
 		CHECK(message.find('\n') == std::string::npos);
 	};
-	Motion motion;
+	MotionDocument motion;
 	motion.weights[5] = NOT_A_NUMBER;
 	find(motion.make(folder), "weight 1 of vertex 1 is nan, must be 0..1");
 	motion = {};
@@ -157,10 +158,10 @@ TEST_CASE("gltf motion: what a skin lacks or exceeds is refused with its locatio
 	motion.weights.resize(8);
 	find(motion.make(folder), "WEIGHTS_0 has 2 elements, must be 3, one per POSITION");
 	motion = {};
-	motion.binds = IDENTITY;
+	motion.inverse_bind_matrices = IDENTITY;
 	find(motion.make(folder), "inverseBindMatrices has 1 elements, must be at least 2");
 	motion = {};
-	motion.binds[20] = NOT_A_NUMBER;
+	motion.inverse_bind_matrices[20] = NOT_A_NUMBER;
 	find(motion.make(folder), "skins[0].inverseBindMatrices[1] is not finite");
 	motion = {};
 	motion.deltas[4] = NOT_A_NUMBER;
@@ -180,7 +181,7 @@ TEST_CASE("gltf motion: what a skin lacks or exceeds is refused with its locatio
 	json["nodes"][0]["skin"] = 4;
 	find(json, "nodes[0].skin is 4, must be 0");
 	json = motion.make(folder);
-	json["nodes"][3]["children"] = { 1 }; // the frame hangs on the knee
+	json["nodes"][3]["children"] = { 1 }; // the frame is a child of the knee
 	find(json, "is its own ancestor");
 	json = motion.make(folder);
 	json["accessors"][2]["componentType"] = GLTF_TEST_FLOAT;
@@ -192,32 +193,32 @@ TEST_CASE("gltf motion: what a skin lacks or exceeds is refused with its locatio
 	find(json, "accessors[4].type is \"VEC4\", must be \"MAT4\"");
 }
 
-TEST_CASE("gltf motion: a channel that cannot be played is skipped, and all else is there") {
+TEST_CASE("gltf motion: a channel that cannot be played is skipped and the rest is loaded") {
 	const GltfTestFolder folder;
-	const auto check = [&](const Json &p_json, const std::string &p_part, size_t p_channels) {
+	const auto check = [&](const Json &p_json, const std::string &p_text_part, size_t p_channels) {
 		std::vector<std::string> messages;
 		const auto scene = load_with_log(folder, p_json, messages);
-		CAPTURE(p_part);
+		CAPTURE(p_text_part);
 		CAPTURE((messages.empty() ? "" : messages[0]));
-		CHECK(GltfTestLog::contains(messages, p_part));
+		CHECK(GltfTestLog::contains(messages, p_text_part));
 		REQUIRE(scene->animations.size() == 1);
 		CHECK(scene->animations[0]->channels.size() == p_channels);
 		pose_scene(*scene, scene->animations[0].get(), 1);
 		Camera3D camera;
 		CHECK(build_snapshot(*scene, camera)->instances.size() == 1);
 	};
-	Motion motion;
+	MotionDocument motion;
 	motion.times = { 0, NOT_A_NUMBER, 3 };
 	check(motion.make(folder),
-			"samplers[0].input has nan at 1, must be finite times in s that grow", 0);
+			"samplers[0].input has nan at 1, must be finite times in s that ascend", 0);
 	motion = {};
 	motion.times = { 0, 2, 2 };
 	check(motion.make(folder), "samplers[1].input has 2 at 2", 0);
 	motion = {};
-	motion.moves[4] = NOT_A_NUMBER;
+	motion.translations[4] = NOT_A_NUMBER;
 	check(motion.make(folder), "samplers[0].output has a number that is not finite at 4", 1);
 	motion = {};
-	motion.morphs.push_back(1);
+	motion.animated_weights.push_back(1);
 	check(motion.make(folder), "samplers[1].output has 4 numbers, must be 3, for 3 times", 1);
 	motion = {};
 	Json json = motion.make(folder);
@@ -248,10 +249,10 @@ TEST_CASE("gltf motion: a channel that cannot be played is skipped, and all else
 	check(json, "nodes[0].weights is an array of 1, must be a list of numbers", 2);
 }
 
-TEST_CASE("gltf motion: zero scales and degenerate rotations are played") {
+TEST_CASE("gltf motion: animations with zero scale are played") {
 	const GltfTestFolder folder;
-	Motion motion;
-	motion.moves.assign(9, 0.0f);
+	MotionDocument motion;
+	motion.translations.assign(9, 0.0f);
 	Json json = motion.make(folder);
 	json["animations"][0]["channels"][0]["target"]["path"] = "scale";
 	json["nodes"][1]["scale"] = { 0, 0, 0 };
@@ -267,15 +268,15 @@ TEST_CASE("gltf motion: zero scales and degenerate rotations are played") {
 	}
 }
 
-TEST_CASE("gltf motion: a save keeps skins and animations, and never writes a pose") {
+TEST_CASE("gltf motion: saving preserves skins and animations and does not write the pose") {
 	const GltfTestFolder folder;
-	const auto scene = folder.load(Motion().make(folder));
+	const auto scene = folder.load(MotionDocument().make(folder));
 	pose_scene(*scene, scene->animations[0].get(), 2);
 	save_gltf(*scene, folder.path / "saved.gltf");
 	const Json before = folder.read_json("scene.gltf");
 	const Json after = folder.read_json("saved.gltf");
-	CHECK(sort(before["nodes"]) == sort(after["nodes"]));
-	CHECK(sort(before["skins"]) == sort(after["skins"]));
-	CHECK(sort(before["animations"]) == sort(after["animations"]));
-	CHECK(sort(before["meshes"]) == sort(after["meshes"]));
+	CHECK(sort_keys(before["nodes"]) == sort_keys(after["nodes"]));
+	CHECK(sort_keys(before["skins"]) == sort_keys(after["skins"]));
+	CHECK(sort_keys(before["animations"]) == sort_keys(after["animations"]));
+	CHECK(sort_keys(before["meshes"]) == sort_keys(after["meshes"]));
 }

@@ -36,7 +36,7 @@ TEST_CASE("[GltfReader] interleaved positions and normals are read with their st
 	CHECK(mesh.indices == std::vector<uint32_t>{ 0, 1, 2 });
 }
 
-TEST_CASE("[GltfReader] sparse accessors replace some elements, of a view or of zeros") {
+TEST_CASE("[GltfReader] sparse accessors replace elements of a buffer view or of zeros") {
 	GltfTestFolder folder;
 	for (const bool has_base : { true, false }) {
 		CAPTURE(has_base);
@@ -62,7 +62,7 @@ TEST_CASE("[GltfReader] sparse accessors replace some elements, of a view or of 
 	}
 }
 
-TEST_CASE("[GltfReader] strips and fans become triangles of the same winding; points are skipped") {
+TEST_CASE("[GltfReader] strips and fans become triangles with their winding; points are skipped") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_triangle(folder);
@@ -122,9 +122,9 @@ TEST_CASE("[GltfReader] nodes that share a mesh share its vertices") {
 	CHECK(instances[1]->name == "Triangle_2");
 }
 
-TEST_CASE("[GltfReader] transforms are stored in double, as matrix or in parts") {
+TEST_CASE("[GltfReader] transforms are read in double, as a matrix or as separate properties") {
 	GltfTestFolder folder;
-	Json json = make_header();
+	Json json = make_empty_document();
 	json["nodes"] = Json::parse(R"([
 		{"name": "Parts", "translation": [1000000000.5, 0, 0], "scale": [1, 2, 1],
 		 "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476], "children": [1]},
@@ -137,10 +137,10 @@ TEST_CASE("[GltfReader] transforms are stored in double, as matrix or in parts")
 	CHECK(parts.children[0]->parent_from_node[3].x == 0.1);
 }
 
-TEST_CASE("[GltfReader] the default scene is read, its size, and names are made unique") {
+TEST_CASE("[GltfReader] the default scene and its size are read, and names are made unique") {
 	GltfTestFolder folder;
 	GltfTestLog log;
-	Json json = make_header();
+	Json json = make_empty_document();
 	json["nodes"] =
 			Json::parse(R"([{"name": "A"}, {"name": "A"}, {"name": "A"}, {}, {"name": "A\nB"}])");
 	json["scenes"] = Json::parse(
@@ -159,8 +159,8 @@ TEST_CASE("[GltfReader] the default scene is read, its size, and names are made 
 	CHECK(GltfTestLog::contains(log.errors, "scenes[1].extras.scene_size is 0"));
 }
 
-TEST_CASE("[GltfReader] materials have the format's values, ours in extras, and defaults if "
-		  "refused") {
+TEST_CASE("[GltfReader] material values are read from glTF and from extras; invalid ones get "
+		  "defaults") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_triangle(folder);
@@ -193,7 +193,7 @@ TEST_CASE("[GltfReader] materials have the format's values, ours in extras, and 
 	CHECK(GltfTestLog::contains(log.errors, "materials[0].extras.scatter_distance is -1"));
 }
 
-TEST_CASE("[GltfReader] cameras are read, orthographic ones skipped, flags of meshes found") {
+TEST_CASE("[GltfReader] perspective cameras and the shadow flags of meshes are read") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_triangle(folder);
@@ -224,8 +224,8 @@ TEST_CASE(
 		"[GltfReader] a node that is a mesh, a light and a camera becomes one with two children") {
 	GltfTestFolder folder;
 	Json json = make_triangle(folder);
-	json["extensions"] = make_lamp()["extensions"];
-	json["nodes"][0]["extensions"] = make_lamp()["nodes"][0]["extensions"];
+	json["extensions"] = make_spot_light_document()["extensions"];
+	json["nodes"][0]["extensions"] = make_spot_light_document()["nodes"][0]["extensions"];
 	json["nodes"][0]["camera"] = 0;
 	json["cameras"] = Json::parse(
 			R"([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.01}}])");

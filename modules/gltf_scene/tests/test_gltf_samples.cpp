@@ -13,8 +13,8 @@ namespace {
 
 const char MODELS[] = "/usr/share/assimp/models";
 
-/// Files of the package that must be refused: glTF 1.0, extensions that change the geometry, and
-/// those that were broken on purpose.
+/// Files of the package that must be rejected: glTF 1.0, unsupported extensions that change the
+/// geometry, and files that are invalid on purpose.
 const std::set<std::string> REFUSED = {
 	"glTF/BoxTextured-glTF-Binary/BoxTextured.glb",
 	"glTF/BoxTextured-glTF-Embedded/BoxTextured.gltf",
@@ -47,7 +47,7 @@ size_t count_triangles(const Scene &p_scene) {
 
 } // namespace
 
-TEST_CASE("[GltfSamples] every file of assimp-testmodels loads and saves, or is refused by name") {
+TEST_CASE("[GltfSamples] each file of assimp-testmodels loads and saves, unless it is in REFUSED") {
 	REQUIRE_MESSAGE(fs::is_directory(MODELS),
 			"the sample files are missing: install the package assimp-testmodels");
 	GltfTestLog log;
@@ -69,7 +69,7 @@ TEST_CASE("[GltfSamples] every file of assimp-testmodels loads and saves, or is 
 				save_gltf(*scene, folder.path / copy);
 				CHECK(find_difference(*scene, *load_gltf(folder.path / copy)) == "");
 			}
-			// For tests/gltf/test_validator.py.
+			// Saves the scene and its source path for tests/gltf/test_validator.py.
 			if (const char *saved = std::getenv("GNOMON_SAVED_FOLDER")) {
 				save_gltf(*scene, fs::path(saved) / (std::to_string(loaded_count) + ".glb"));
 				std::ofstream(fs::path(saved) / (std::to_string(loaded_count) + ".txt"))
@@ -88,7 +88,7 @@ TEST_CASE("[GltfSamples] every file of assimp-testmodels loads and saves, or is 
 	CHECK(refused_count == REFUSED.size());
 }
 
-TEST_CASE("[GltfSamples] the engine, the cameras and the primitive modes have what they show") {
+TEST_CASE("[GltfSamples] sample files have the expected number of triangles and cameras") {
 	REQUIRE_MESSAGE(fs::is_directory(MODELS),
 			"the sample files are missing: install the package assimp-testmodels");
 	GltfTestLog log;

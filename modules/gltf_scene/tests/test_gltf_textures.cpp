@@ -39,7 +39,7 @@ std::vector<uint8_t> encode_jpeg(
 	return file;
 }
 
-/// A triangle whose material has the image as its base colour, in a file next to it.
+/// Returns a document of a triangle whose material has a base colour texture from an image file.
 Json make_textured(const GltfTestFolder &p_folder) {
 	Json json = make_triangle(p_folder);
 	GltfTestBuffer buffer;
@@ -84,8 +84,8 @@ void write_big_endian(uint32_t p_number, uint8_t *r_bytes) {
 	}
 }
 
-/// Writes the checksum of a chunk, which begins with its length.
-void sign_png_chunk(std::vector<uint8_t> &r_bytes, size_t p_chunk) {
+/// Writes the checksum of the PNG chunk that begins at offset p_chunk.
+void write_png_checksum(std::vector<uint8_t> &r_bytes, size_t p_chunk) {
 	const size_t length_bytes = r_bytes[p_chunk + 3];
 	uint32_t crc = 0xffffffffu;
 	for (size_t index = p_chunk + 4; index < p_chunk + 8 + length_bytes; ++index) {
@@ -97,17 +97,19 @@ void sign_png_chunk(std::vector<uint8_t> &r_bytes, size_t p_chunk) {
 	write_big_endian(~crc, &r_bytes[p_chunk + 8 + length_bytes]);
 }
 
+/// Decodes an image and returns the error or warning; empty if there is none.
 std::string get_decode_error(const std::vector<uint8_t> &p_bytes) {
-	std::string damage;
+	std::string warning;
 	try {
-		decode_image(p_bytes, "image", damage);
+		decode_image(p_bytes, "image", warning);
 	} catch (const Error &error) {
 		return error.what();
 	}
-	return damage;
+	return warning;
 }
 
-std::vector<uint8_t> encode_wide_png(
+/// Returns a PNG file of 2 x 1 pixels. p_depth: bits per channel. p_row: the encoded pixels.
+std::vector<uint8_t> encode_png_of_type(
 		int p_color_type, int p_depth, const std::vector<uint8_t> &p_row) {
 	struct File {
 		std::vector<uint8_t> bytes;
@@ -139,7 +141,7 @@ std::vector<uint8_t> encode_wide_png(
 
 } // namespace
 
-TEST_CASE("[GltfTextures] images come from files, data URIs and buffer views, each once") {
+TEST_CASE("[GltfTextures] images are read from files, data URIs and buffer views, each once") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_textured(folder);
@@ -177,27 +179,27 @@ TEST_CASE("[GltfTextures] images come from files, data URIs and buffer views, ea
 	CHECK(log.errors.empty());
 }
 
-TEST_CASE("[GltfTextures] all kinds of PNG become eight bits of four channels, untouched") {
-	std::string damage;
+TEST_CASE("[GltfTextures] all PNG colour types are expanded to RGBA8 without colour conversion") {
+	std::string warning;
 	const auto decode = [&](const std::vector<uint8_t> &p_bytes) {
-		return decode_image(p_bytes, "image", damage)->texels;
+		return decode_image(p_bytes, "image", warning)->texels;
 	};
 	using Bytes = std::vector<uint8_t>;
-	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_GRAY, 8, { 9, 200 })) ==
+	CHECK(decode(encode_png_of_type(PNG_COLOR_TYPE_GRAY, 8, { 9, 200 })) ==
 			Bytes{ 9, 9, 9, 255, 200, 200, 200, 255 });
-	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_GRAY, 1, { 0x40 })) ==
+	CHECK(decode(encode_png_of_type(PNG_COLOR_TYPE_GRAY, 1, { 0x40 })) ==
 			Bytes{ 0, 0, 0, 255, 255, 255, 255, 255 });
-	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_GRAY_ALPHA, 8, { 9, 3, 200, 4 })) ==
+	CHECK(decode(encode_png_of_type(PNG_COLOR_TYPE_GRAY_ALPHA, 8, { 9, 3, 200, 4 })) ==
 			Bytes{ 9, 9, 9, 3, 200, 200, 200, 4 });
-	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_PALETTE, 8, { 0, 1 })) ==
+	CHECK(decode(encode_png_of_type(PNG_COLOR_TYPE_PALETTE, 8, { 0, 1 })) ==
 			Bytes{ 1, 2, 3, 7, 4, 5, 6, 255 });
-	CHECK(decode(encode_wide_png(
+	CHECK(decode(encode_png_of_type(
 				  PNG_COLOR_TYPE_RGB, 16, { 1, 99, 2, 99, 3, 99, 4, 0, 5, 0, 6, 0 })) ==
 			Bytes{ 1, 2, 3, 255, 4, 5, 6, 255 });
-	CHECK(damage.empty());
+	CHECK(warning.empty());
 }
 
-TEST_CASE("[GltfTextures] JPEG images are read, also damaged ones in part") {
+TEST_CASE("[GltfTextures] JPEG images are read, and damaged ones in part") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_textured(folder);
@@ -210,16 +212,16 @@ TEST_CASE("[GltfTextures] JPEG images are read, also damaged ones in part") {
 	folder.write("wood a.png", jpeg); // the bytes decide, not the name
 	const Texture texture = load_base_color(folder, json);
 	REQUIRE(texture.image);
-	int greatest = 0;
+	int max_difference = 0;
 	for (size_t index = 0; index < 64 * 64; ++index) {
 		for (size_t channel = 0; channel < 3; ++channel) {
-			greatest = std::max(greatest,
+			max_difference = std::max(max_difference,
 					std::abs(
 							texture.image->texels[index * 4 + channel] - rgb[index * 3 + channel]));
 		}
 		CHECK(texture.image->texels[index * 4 + 3] == 255);
 	}
-	CHECK(greatest <= 8);
+	CHECK(max_difference <= 8);
 	CHECK(log.errors.empty());
 	folder.write("wood a.png", std::span(jpeg).first(jpeg.size() / 2));
 	CHECK(load_base_color(folder, json).image);
@@ -229,7 +231,7 @@ TEST_CASE("[GltfTextures] JPEG images are read, also damaged ones in part") {
 					.find("CMYK") != std::string::npos);
 }
 
-TEST_CASE("[GltfTextures] images that cannot be read are named, and the scene loads without them") {
+TEST_CASE("[GltfTextures] images that cannot be read are reported; the scene loads without them") {
 	GltfTestFolder folder;
 	const Json json = make_textured(folder);
 	std::vector<uint8_t> huge = encode_small_png();
@@ -247,14 +249,14 @@ TEST_CASE("[GltfTextures] images that cannot be read are named, and the scene lo
 		{ to_bytes("1234ftypavif"), "is an AVIF image" },
 		{ { 0xff, 0xd8, 0xff, 0xe0, 0 }, "JPEG image that cannot be read" }
 	};
-	for (const auto &[bytes, words] : bad) {
-		CAPTURE(words);
+	for (const auto &[bytes, expected_text] : bad) {
+		CAPTURE(expected_text);
 		GltfTestLog log;
 		folder.write("wood a.png", bytes);
 		CHECK_FALSE(load_base_color(folder, json).image);
 		REQUIRE(log.errors.size() == 1);
 		CHECK(GltfTestLog::contains(log.errors, "scene.gltf\": images[0] is "));
-		CHECK(GltfTestLog::contains(log.errors, words));
+		CHECK(GltfTestLog::contains(log.errors, expected_text));
 	}
 	const std::vector<std::pair<Json, std::string>> bad_images = {
 		{ { { "uri", "missing.png" } }, "images[0].uri cannot be read" },
@@ -265,17 +267,17 @@ TEST_CASE("[GltfTextures] images that cannot be read are named, and the scene lo
 		{ Json::object(),
 				"images[0] has neither uri nor bufferView, must have one of them. Export" }
 	};
-	for (const auto &[image, words] : bad_images) {
-		CAPTURE(words);
+	for (const auto &[image, expected_text] : bad_images) {
+		CAPTURE(expected_text);
 		GltfTestLog log;
 		Json changed = json;
 		changed["images"][0] = image;
 		CHECK_FALSE(load_base_color(folder, changed).image);
-		CHECK(GltfTestLog::contains(log.errors, words));
+		CHECK(GltfTestLog::contains(log.errors, expected_text));
 	}
 }
 
-TEST_CASE("[GltfTextures] a size that no device takes is refused before memory is taken") {
+TEST_CASE("[GltfTextures] an image that is too large is rejected before memory is allocated") {
 	// A real header with its checksum, and no rows.
 	std::vector<uint8_t> png = encode_png({ 1, 1 }, 4, std::vector<uint8_t>(4));
 	const size_t header = 8;
@@ -284,7 +286,7 @@ TEST_CASE("[GltfTextures] a size that no device takes is refused before memory i
 	for (const auto &[width_px, height_px] : sizes) {
 		write_big_endian(width_px, &png[header + 8]);
 		write_big_endian(height_px, &png[header + 12]);
-		sign_png_chunk(png, header);
+		write_png_checksum(png, header);
 		CHECK(get_decode_error(png) ==
 				text("has ", width_px, " x ", height_px,
 						" pixels, must have 1..16384 on each side and at most 67108864 in all. "
@@ -292,8 +294,7 @@ TEST_CASE("[GltfTextures] a size that no device takes is refused before memory i
 	}
 }
 
-TEST_CASE(
-		"[GltfTextures] of an animated PNG image the first frame is shown, and that is reported") {
+TEST_CASE("[GltfTextures] only the first frame of an animated PNG image is read, with a message") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const Json json = make_textured(folder);
@@ -302,7 +303,7 @@ TEST_CASE(
 	write_big_endian(8, chunk.data());
 	std::memcpy(&chunk[4], "acTL", 4);
 	write_big_endian(2, &chunk[8]); // frames
-	sign_png_chunk(chunk, 0);
+	write_png_checksum(chunk, 0);
 	const size_t header_end = 33;
 	png.insert(png.begin() + header_end, chunk.begin(), chunk.end());
 	folder.write("wood a.png", png);
@@ -314,7 +315,7 @@ TEST_CASE(
 			log.errors, "images[0] is an animated PNG image, of which the first frame is shown."));
 }
 
-TEST_CASE("[GltfTextures] a wrong reference is reported once, with what is used instead") {
+TEST_CASE("[GltfTextures] an invalid index is reported once, with the default that is used") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_textured(folder);
@@ -324,14 +325,14 @@ TEST_CASE("[GltfTextures] a wrong reference is reported once, with what is used 
 	json["materials"][0]["occlusionTexture"] = { { "index", 2 } };
 	CHECK(load_base_color(folder, json).image);
 	CHECK(log.errors.size() == 3);
-	for (const char *words :
+	for (const char *expected_text :
 			{ "textures[0].sampler is 9, must be 0..0; repetition with interpolation is used.",
 					"textures[1].source is 5, must be 0..0; no image is used.",
 					"textures[2].source is missing, must name a PNG or JPEG image" }) {
-		CAPTURE(words);
-		CHECK(GltfTestLog::contains(log.errors, words));
+		CAPTURE(expected_text);
+		CHECK(GltfTestLog::contains(log.errors, expected_text));
 	}
-	// Without samplers and without a sampler all is in order.
+	// A texture without sampler, in a document without samplers, is valid.
 	log.errors.clear();
 	json.erase("samplers");
 	json["textures"] = Json::parse(R"([{"source": 0}])");
@@ -347,7 +348,7 @@ TEST_CASE("[GltfTextures] a wrong reference is reported once, with what is used 
 			"textures[0].sampler is 0, must be absent, as there is nothing to refer to"));
 }
 
-TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong ones are named") {
+TEST_CASE("[GltfTextures] samplers, UV sets and transforms are read; invalid ones are reported") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_textured(folder);
@@ -366,12 +367,12 @@ TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong o
 	CHECK(texture.is_minified_nearest);
 	CHECK(texture.mip_filter == MipFilter::NEAREST);
 	CHECK(texture.uv_set == 1);
-	// The extension's own example: the lower left quarter, turned clockwise.
+	// The example of the extension's specification: the lower left quarter, rotated clockwise.
 	CHECK(glm::distance(texture.transform_uv({ 0, 0 }), glm::vec2(0, 1)) < 1e-6f);
 	CHECK(glm::distance(texture.transform_uv({ 1, 0 }), glm::vec2(0, 0.5f)) < 1e-6f);
 	CHECK(glm::distance(texture.transform_uv({ 0, 1 }), glm::vec2(0.5f, 1)) < 1e-6f);
 	const MeshAttributes &attributes = get_surface(*scene).mesh->attributes;
-	CHECK(attributes.uvs[0].empty()); // nothing shows them
+	CHECK(attributes.uvs[0].empty()); // no texture uses them
 	REQUIRE(attributes.uvs[1].size() == 3);
 	CHECK(attributes.uvs[1][1].x == 1.0f);
 	CHECK(attributes.uvs[1][2].y == doctest::Approx(0.5).epsilon(1e-4));
@@ -385,14 +386,14 @@ TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong o
 	const Texture &plain = get_surface(*refused).material->base_color_texture;
 	CHECK(plain.transform == glm::mat3x2(1, 0, 0, 1, 0, 0));
 	CHECK(plain.uv_set == 1);
-	for (const char *words :
+	for (const char *expected_text :
 			{ "KHR_texture_transform.offset is an array of 2", "scale is an array of 1",
 					"rotation is \"x\"", "KHR_texture_transform.texCoord is -1" }) {
-		CAPTURE(words);
-		CHECK(GltfTestLog::contains(log.errors, words));
+		CAPTURE(expected_text);
+		CHECK(GltfTestLog::contains(log.errors, expected_text));
 	}
 	info["texCoord"] = 2;
-	info["index"] = 0.0; // a whole number, if an odd one
+	info["index"] = 0.0; // valid: a whole number written as a float
 	info.erase("extensions");
 	json["samplers"][0]["wrapS"] = 7;
 	json["samplers"][0]["magFilter"] = "x";
@@ -405,15 +406,15 @@ TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong o
 	CHECK(get_surface(*other).material->base_color_texture.uv_set == 0);
 	CHECK(get_surface(*other).mesh->attributes.uvs[0] ==
 			std::vector<glm::vec2>(3, glm::vec2(0.0f)));
-	for (const char *words :
+	for (const char *expected_text :
 			{ "baseColorTexture.texCoord is 2, must be one of 0, 1", "samplers[0].wrapS is 7",
 					"samplers[0].magFilter is \"x\"", "textures[1].source is 5, must be 0..0",
 					"textures[1].sampler is 9", "emissiveTexture.index is 44",
 					"occlusionTexture is \"x\"", "has no TEXCOORD_0" }) {
-		CAPTURE(words);
-		CHECK(GltfTestLog::contains(log.errors, words));
+		CAPTURE(expected_text);
+		CHECK(GltfTestLog::contains(log.errors, expected_text));
 	}
-	// Saved, what was refused is still there.
+	// Saving preserves the invalid values.
 	save_gltf(*other, folder.path / "again.gltf");
 	CHECK(folder.read_json("again.gltf") == json);
 }
@@ -453,7 +454,7 @@ TEST_CASE("[GltfTextures] alpha, cutoff and tangents are read") {
 			log.errors, "baseColorFactor is an array of 4, must be four numbers"));
 }
 
-TEST_CASE("[GltfTextures] separators of Windows in a URI are understood, and lead nowhere else") {
+TEST_CASE("[GltfTextures] backslashes in a URI are path separators and stay inside the project") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_textured(folder);
@@ -465,7 +466,7 @@ TEST_CASE("[GltfTextures] separators of Windows in a URI are understood, and lea
 		CHECK(load_base_color(folder, json).image);
 	}
 	CHECK(log.errors.empty());
-	folder.write("with\\backslash.png", encode_small_png()); // a name of its own elsewhere
+	folder.write("with\\backslash.png", encode_small_png()); // a valid file name on Linux
 	json["images"][0]["uri"] = "with\\backslash.png";
 	CHECK(load_base_color(folder, json).image);
 	for (const char *uri : { "..\\..\\wood.png", "\\wood.png", "skins\\absent.png" }) {
@@ -477,7 +478,7 @@ TEST_CASE("[GltfTextures] separators of Windows in a URI are understood, and lea
 	}
 }
 
-TEST_CASE("[GltfTextures] damaged images are refused or drawn, and never crash") {
+TEST_CASE("[GltfTextures] damaged images are decoded or rejected, without a crash") {
 	std::vector<uint8_t> rgb(32 * 32 * 3, 77);
 	for (size_t index = 0; index < rgb.size(); ++index) {
 		rgb[index] = static_cast<uint8_t>(index * 7);

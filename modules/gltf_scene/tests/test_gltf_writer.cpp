@@ -9,10 +9,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A lamp above a triangle, with things that the program does not know.
+/// Returns a document of a light above a triangle, with data unknown to the program.
 Json make_desk(const GltfTestFolder &p_folder) {
 	Json json = make_triangle(p_folder);
-	const Json lamp = make_lamp();
+	const Json lamp = make_spot_light_document();
 	json["asset"]["copyright"] = "somebody";
 	json["extensions"] = lamp["extensions"];
 	json["extensionsUsed"] = { "KHR_lights_punctual", "ACME_dust" };
@@ -84,11 +84,11 @@ std::unique_ptr<Scene> make_generated_scene() {
 	return scene;
 }
 
-/// One node of the file that is a mesh and a light.
-std::unique_ptr<Scene> load_shining_mesh(GltfTestFolder &r_folder) {
+/// Loads a file in which one node has a mesh and a light.
+std::unique_ptr<Scene> load_mesh_with_light(GltfTestFolder &r_folder) {
 	Json json = make_triangle(r_folder);
-	json["extensions"] = make_lamp()["extensions"];
-	json["nodes"][0]["extensions"] = make_lamp()["nodes"][0]["extensions"];
+	json["extensions"] = make_spot_light_document()["extensions"];
+	json["nodes"][0]["extensions"] = make_spot_light_document()["nodes"][0]["extensions"];
 	return r_folder.load(json);
 }
 
@@ -98,7 +98,7 @@ size_t count_files(const fs::path &p_folder) {
 
 } // namespace
 
-TEST_CASE("[GltfWriter] a scene saved unchanged is the same file, value for value") {
+TEST_CASE("[GltfWriter] saving an unchanged scene preserves every value of the file") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const Json json = make_desk(folder);
@@ -108,7 +108,7 @@ TEST_CASE("[GltfWriter] a scene saved unchanged is the same file, value for valu
 	CHECK(find_difference(*scene, *load_gltf(folder.path / "again.gltf")) == "");
 }
 
-TEST_CASE("[GltfWriter] what tinygltf does not hold stays where it is, in its order") {
+TEST_CASE("[GltfWriter] data that tinygltf does not store is preserved, in its order") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_desk(folder);
@@ -138,7 +138,7 @@ TEST_CASE("[GltfWriter] what tinygltf does not hold stays where it is, in its or
 	CHECK(folder.read_json("again.gltf") == json);
 }
 
-TEST_CASE("[GltfWriter] moving a light and setting its size changes that and nothing else") {
+TEST_CASE("[GltfWriter] changes of a light and the scene size change nothing else in the file") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json expected = make_desk(folder);
@@ -153,7 +153,7 @@ TEST_CASE("[GltfWriter] moving a light and setting its size changes that and not
 	expected["nodes"][1]["translation"] = { 0.1, 4, -2 };
 	Json &definition = expected["extensions"]["KHR_lights_punctual"]["lights"][0];
 	definition["extras"]["light_size"] = 0.5;
-	definition["extras"]["shadow_soft_size"] = 0.5; // the same thing under another name
+	definition["extras"]["shadow_soft_size"] = 0.5; // an alias of light_size
 	definition["extras"]["penumbra_outer_width"] = -1.0;
 	definition["intensity"] = 0.3;
 	expected["scenes"][0]["extras"]["scene_size"] = 4.0;
@@ -161,7 +161,7 @@ TEST_CASE("[GltfWriter] moving a light and setting its size changes that and not
 	CHECK(find_difference(*scene, *load_gltf(folder.path / "scene.gltf")) == "");
 }
 
-TEST_CASE("[GltfWriter] an unset property stays unset after loading, wherever it came from") {
+TEST_CASE("[GltfWriter] an unset property stays unset, even if several objects had it") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_desk(folder);
@@ -174,9 +174,9 @@ TEST_CASE("[GltfWriter] an unset property stays unset after loading, wherever it
 	CHECK(folder.read_json("again.gltf")["nodes"][1]["extras"]["owner"] == "lighting");
 }
 
-TEST_CASE("[GltfWriter] a size that an area disc gave is written to the disc") {
+TEST_CASE("[GltfWriter] a light size from an area light is written to the area light") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	json["extensions"]["EXT_lights_area"]["lights"] = Json::array();
 	json["extensions"]["EXT_lights_area"]["lights"].push_back(
 			{ { "type", "disk" }, { "size", 0.6 } });
@@ -188,9 +188,9 @@ TEST_CASE("[GltfWriter] a size that an area disc gave is written to the disc") {
 			PropertyValues{ { "light_size", 0.7 } });
 }
 
-TEST_CASE("[GltfWriter] one of two nodes that share a light can be changed alone") {
+TEST_CASE("[GltfWriter] changing one of two nodes that share a light does not change the other") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	json["nodes"].push_back(json["nodes"][0]);
 	json["scenes"][0]["nodes"] = { 0, 1 };
 	const auto scene = folder.load(json);
@@ -199,7 +199,7 @@ TEST_CASE("[GltfWriter] one of two nodes that share a light can be changed alone
 	CHECK(find_difference(*scene, *load_gltf(folder.path / "again.gltf")) == "");
 }
 
-TEST_CASE("[GltfWriter] turned, sheared and scaled nodes come back as they were") {
+TEST_CASE("[GltfWriter] rotated, sheared and scaled nodes are saved and loaded unchanged") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const auto scene = folder.load(make_desk(folder));
@@ -216,7 +216,7 @@ TEST_CASE("[GltfWriter] turned, sheared and scaled nodes come back as they were"
 	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
 }
 
-TEST_CASE("[GltfWriter] saved elsewhere, buffers and images come along and overwrite nothing") {
+TEST_CASE("[GltfWriter] saving in another folder copies buffers and images and overwrites none") {
 	GltfTestFolder folder;
 	GltfTestFolder other;
 	GltfTestLog log;
@@ -226,12 +226,12 @@ TEST_CASE("[GltfWriter] saved elsewhere, buffers and images come along and overw
 	CHECK(load_text_file(other.path / "data.bin") == "somebody else's");
 	CHECK(other.read_json("copy.gltf")["buffers"][0]["uri"] == "data_2.bin");
 	CHECK(load_text_file(other.path / "wood.png") == "not really an image");
-	save_gltf(*scene, other.path / "copy.gltf"); // the same again needs no third name
+	save_gltf(*scene, other.path / "copy.gltf"); // reuses the file with the same content
 	CHECK(other.read_json("copy.gltf")["buffers"][0]["uri"] == "data_2.bin");
 	CHECK(find_difference(*scene, *load_gltf(other.path / "copy.gltf")) == "");
 }
 
-TEST_CASE("[GltfWriter] binary and text form turn into each other, further chunks are preserved") {
+TEST_CASE("[GltfWriter] binary and text form can be converted; unknown chunks are preserved") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const auto scene = folder.load(make_desk(folder));
@@ -272,7 +272,7 @@ TEST_CASE("[GltfWriter] a generated scene is saved in full, in both forms") {
 	CHECK(json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"].dump() == "12.3");
 }
 
-TEST_CASE("[GltfWriter] what was staged is not saved, unless something that is saved hangs on it") {
+TEST_CASE("[GltfWriter] a staged node is not saved, unless one of its descendants is saved") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const Json json = make_desk(folder);
@@ -290,7 +290,7 @@ TEST_CASE("[GltfWriter] what was staged is not saved, unless something that is s
 	CHECK(again->find_node<Light3D>("Added", "Light").parent->name == "Stage");
 }
 
-TEST_CASE("[GltfWriter] killed at any step of a save, the scene before or the new one is there") {
+TEST_CASE("[GltfWriter] a process killed while saving leaves the old or the new scene complete") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	for (const char *name : { "made.gltf", "made.glb" }) {
@@ -314,7 +314,8 @@ TEST_CASE("[GltfWriter] killed at any step of a save, the scene before or the ne
 				});
 		CHECK(kill_count >= 4);
 		CHECK(new_count >= 1);
-		// Nothing piles up: of a kill between saving and tidying up, one buffer may remain.
+		// Files do not accumulate. One buffer may remain from a kill before the old one was
+		// removed.
 		remove_left_over_files(folder.path);
 		for (int repeat = 0; repeat < 3; ++repeat) {
 			save_gltf(*before, path);
@@ -325,13 +326,13 @@ TEST_CASE("[GltfWriter] killed at any step of a save, the scene before or the ne
 	}
 }
 
-TEST_CASE("[GltfWriter] nodes can be added, removed and hung elsewhere") {
+TEST_CASE("[GltfWriter] nodes can be added, removed and given another parent") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	for (const char *name : { "again.gltf", "again.glb" }) {
 		CAPTURE(name);
 		const auto scene = folder.load(make_desk(folder));
-		// The light goes below a new mesh; the triangle is removed.
+		// The light becomes a child of a new mesh, and the triangle is removed.
 		auto light = std::move(scene->root->children[1]);
 		light->parent = nullptr;
 		scene->root->children.clear();
@@ -350,9 +351,9 @@ TEST_CASE("[GltfWriter] nodes can be added, removed and hung elsewhere") {
 	}
 }
 
-TEST_CASE("[GltfWriter] a light of a mesh node can be changed, moved away and removed") {
+TEST_CASE("[GltfWriter] a light in the node of a mesh can be changed, moved and removed") {
 	GltfTestFolder folder;
-	const auto scene = load_shining_mesh(folder);
+	const auto scene = load_mesh_with_light(folder);
 	Light3D &light = get_light(*scene);
 	light.properties["light_size"] = 0.3;
 	save_gltf(*scene, folder.path / "a.gltf");
@@ -367,9 +368,9 @@ TEST_CASE("[GltfWriter] a light of a mesh node can be changed, moved away and re
 	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
 }
 
-TEST_CASE("[GltfWriter] a light of a mesh node keeps a name of its own") {
+TEST_CASE("[GltfWriter] a light in the node of a mesh can be renamed") {
 	GltfTestFolder folder;
-	const auto scene = load_shining_mesh(folder);
+	const auto scene = load_mesh_with_light(folder);
 	Light3D &light = get_light(*scene);
 	light.name = "Key light";
 	light.properties["light_size"] = 0.3;
@@ -379,10 +380,10 @@ TEST_CASE("[GltfWriter] a light of a mesh node keeps a name of its own") {
 	CHECK(find_difference(*scene, *again) == "");
 }
 
-TEST_CASE("[GltfWriter] a light that Blender hung below its object keeps its size when one of both "
-		  "is renamed") {
+TEST_CASE("[GltfWriter] a Blender light in a child node keeps its size when it or its parent is "
+		  "renamed") {
 	GltfTestFolder folder;
-	Json json = make_lamp();
+	Json json = make_spot_light_document();
 	json["nodes"] = Json::parse(R"([
 		{"name": "Lamp", "children": [1], "extras": {"light_size": 0.35}},
 		{"name": "Lamp_Orientation", "extensions": {"KHR_lights_punctual": {"light": 0}}}])");
@@ -401,7 +402,7 @@ TEST_CASE("[GltfWriter] a light that Blender hung below its object keeps its siz
 	CHECK(std::get<double>(get_light(*again).properties.at("light_size")) == 0.35);
 }
 
-TEST_CASE("[GltfWriter] what no file can hold, and where none can be, is refused by name") {
+TEST_CASE("[GltfWriter] invalid paths and values that are not finite are rejected") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const auto scene = folder.load(make_desk(folder));

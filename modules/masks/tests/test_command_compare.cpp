@@ -5,7 +5,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[CommandRegistry] a command comes with its module and goes with it") {
+TEST_CASE("[CommandRegistry] a module adds its command, and removes it when uninitialized") {
 	CHECK(CommandRegistry::find("compare") != nullptr);
 	uninitialize_masks_module(ModuleLevel::FEATURES);
 	CHECK(CommandRegistry::find("compare") == nullptr);

@@ -32,7 +32,7 @@ MaskImage make_image(uint32_t p_width, uint32_t p_height) {
 	return image;
 }
 
-/// Writes any float channels with a data window that starts at p_corner.
+/// Writes channels of zeros with a data window that starts at p_corner.
 void write_exr(const fs::path &p_path, const std::vector<std::string> &p_channels,
 		Imf::PixelType p_type, const Imath::V2i &p_corner, int p_size_px,
 		Imf::Compression p_compression) {
@@ -43,7 +43,7 @@ void write_exr(const fs::path &p_path, const std::vector<std::string> &p_channel
 	Imf::FrameBuffer buffer;
 	for (const std::string &channel : p_channels) {
 		header.channels().insert(channel, Imf::Channel(p_type));
-		// Every row from the same zeros, so that the window's height does not matter.
+		// Stride 0: all rows read the same zeros, so that the window's height does not matter.
 		const size_t stride = p_type == Imf::HALF ? 2 : 4;
 		const uintptr_t base = reinterpret_cast<uintptr_t>(zeros.data()) -
 				static_cast<uintptr_t>(static_cast<intptr_t>(p_corner.x)) * stride;
@@ -65,7 +65,7 @@ std::string get_error(const fs::path &p_path) {
 
 } // namespace
 
-TEST_CASE("[MaskImage] a saved mask is loaded bit for bit, odd sizes and odd values too") {
+TEST_CASE("[MaskImage] a saved mask loads bit-identical, odd sizes and denormals too") {
 	TemporaryFolder folder;
 	for (const glm::uvec2 &size : { glm::uvec2(1, 1), glm::uvec2(7, 33), glm::uvec2(128, 17) }) {
 		MaskImage image = make_image(size.x, size.y);
@@ -101,7 +101,7 @@ TEST_CASE("[MaskImage] other channels, half floats, offsets and compressions are
 	}
 }
 
-TEST_CASE("[MaskImage] a missing channel is named") {
+TEST_CASE("[MaskImage] the error of a missing channel names it") {
 	TemporaryFolder folder;
 	const fs::path path = folder.path / "half.exr";
 	write_exr(path, { "Y" }, Imf::FLOAT, { 0, 0 }, 4, Imf::ZIP_COMPRESSION);
@@ -111,10 +111,10 @@ TEST_CASE("[MaskImage] a missing channel is named") {
 	CHECK(get_error(path).find("\"Y\" is missing") != std::string::npos);
 }
 
-TEST_CASE("[MaskImage] a header that promises too much is refused before memory is taken") {
+TEST_CASE("[MaskImage] a header with too large a size is refused") {
 	TemporaryFolder folder;
 	std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "small");
-	// dataWindow is four int32: the name, its type, its size, then xMin yMin xMax yMax.
+	// Layout of dataWindow: name, type, size, then four int32: xMin yMin xMax yMax.
 	const std::string key = "dataWindow";
 	const auto found = std::search(bytes.begin(), bytes.end(), key.begin(), key.end());
 	REQUIRE(found != bytes.end());
@@ -134,8 +134,7 @@ TEST_CASE("[MaskImage] a header that promises too much is refused before memory 
 	}
 }
 
-TEST_CASE(
-		"[MaskImage] several parts, deep pixels and attributes longer than the file are refused") {
+TEST_CASE("[MaskImage] multi-part files, deep pixels and attributes longer than a file fail") {
 	const std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "whole");
 	for (const uint8_t flag : { 0x08, 0x10 }) {
 		std::vector<uint8_t> changed = bytes;
@@ -147,7 +146,7 @@ TEST_CASE(
 	CHECK_THROWS_WITH_AS(decode_mask_exr(longer, "longer"), doctest::Contains("cut short"), Error);
 }
 
-TEST_CASE("[MaskImage] a file cut short anywhere is an error") {
+TEST_CASE("[MaskImage] a file truncated anywhere is an error") {
 	const std::vector<uint8_t> bytes = encode_mask_exr(make_image(40, 40), "whole");
 	for (size_t size = 0; size < bytes.size(); size += size < 600 ? 1 : 37) {
 		CAPTURE(size);
@@ -157,13 +156,13 @@ TEST_CASE("[MaskImage] a file cut short anywhere is an error") {
 	CHECK_NOTHROW(decode_mask_exr(bytes, "whole"));
 }
 
-TEST_CASE("[MaskImage] damaged files give an image of their size or an error, nothing else") {
+TEST_CASE("[MaskImage] damaged files give a consistent image or an error, never a crash") {
 	const std::vector<uint8_t> bytes = encode_mask_exr(make_image(24, 24), "whole");
 	std::mt19937 random(3);
 	for (int i = 0; i < 500; ++i) {
 		std::vector<uint8_t> damaged = bytes;
 		for (int flip = 0; flip <= i % 4; ++flip) {
-			// The header is the part with lengths and types: most damage there.
+			// Two thirds of the damage is in the header, which has the lengths and types.
 			const size_t range = i % 3 == 0 ? damaged.size() : 400;
 			damaged[random() % range] = static_cast<uint8_t>(random());
 		}
@@ -175,11 +174,10 @@ TEST_CASE("[MaskImage] damaged files give an image of their size or an error, no
 	}
 }
 
-TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, whatever they hold") {
+TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, even invalid ones") {
 	const MaskImage image = make_image(5, 3);
 	std::vector<uint8_t> bytes = encode_mask_exr(image, "whole");
-	// The header is followed by the offset of the only block, which begins right after its 8
-	// bytes.
+	// The header is followed by the 8-byte offset of the only block, which begins right after it.
 	size_t table = 8;
 	uint64_t block = 0;
 	while (block != table + sizeof(block)) {
@@ -187,7 +185,7 @@ TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, whateve
 		REQUIRE(table + sizeof(block) < bytes.size());
 		std::memcpy(&block, bytes.data() + table, sizeof(block));
 	}
-	// OpenEXR refuses the sizes of this preview, or takes memory for them.
+	// OpenEXR would refuse the sizes of this preview, or allocate memory for them.
 	const std::string preview("x\0preview\0\x08\0\0\0\xff\xff\xff\x7f\xff\xff\0\0", 22);
 	block += preview.size();
 	std::memcpy(bytes.data() + table, &block, sizeof(block));
@@ -195,7 +193,7 @@ TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, whateve
 	CHECK(decode_mask_exr(bytes, "with preview").visibility == image.visibility);
 }
 
-TEST_CASE("[MaskImage] a list of channels that is not as long as it states is refused") {
+TEST_CASE("[MaskImage] a channel list that is not as long as it states is refused") {
 	std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "whole");
 	const size_t length = 8 + 9 + 7; // behind the names "channels" and "chlist"
 	for (const int change : { -18, -1, 1 }) {

@@ -11,7 +11,7 @@ using namespace gnomon;
 
 namespace {
 
-/// One row; a negative value marks a pixel without receiver.
+/// Makes a mask of one row; a negative value marks a pixel without receiver.
 MaskImage make_row(const std::vector<float> &p_values) {
 	MaskImage image;
 	image.size_px = glm::uvec2(p_values.size(), 1);
@@ -36,7 +36,7 @@ TEST_CASE("[MaskMetrics] equal masks have no error") {
 	CHECK(metrics.umbra_over == 0);
 }
 
-TEST_CASE("[MaskMetrics] five pixels computed by hand") {
+TEST_CASE("[MaskMetrics] metrics of five pixels match values computed by hand") {
 	// Receivers: errors +0.5, -0.5, -0.25, 0; penumbra: -0.5, -0.25 (reference 0.5 and 0.25).
 	const MaskImage reference = make_row({ 0, 0.5f, 0.25f, 1, -1 });
 	const MaskImage result = make_row({ 0.5f, 0, 0, 1, -1 });
@@ -52,15 +52,15 @@ TEST_CASE("[MaskMetrics] five pixels computed by hand") {
 	CHECK(metrics.umbra_over == 1); // both are black where the reference is not
 }
 
-TEST_CASE(
-		"[MaskMetrics] the penumbra is open at 0.002 and 0.998, the umbra share at 0.05 and 0.01") {
+TEST_CASE("[MaskMetrics] penumbra and umbra_over exclude values equal to their limits") {
+	// Penumbra: 0.002 < reference < 0.998. umbra_over: reference > 0.05 and result < 0.01.
 	const MaskImage reference =
 			make_row({ 0.002f, 0.0021f, 0.998f, 0.9979f, 0.05f, 0.051f, 0.5f, 0.6f });
 	const MaskImage result = make_row({ 0, 0, 0.998f, 0.5f, 0, 0.0099f, 0.01f, 0.6f });
 	const MaskMetrics metrics = compute_mask_metrics(reference, result);
 	CHECK(metrics.receiver.pixel_count == 8);
 	CHECK(metrics.penumbra.pixel_count == 6); // not 0.002 and 0.998 themselves
-	// Reference above 0.05: 0.9979, 0.051, 0.5, 0.6; below 0.01 of them: the second.
+	// Reference above 0.05: 0.9979, 0.051, 0.5, 0.6; of these, only the second is below 0.01.
 	CHECK(metrics.umbra_over == 0.25);
 }
 
@@ -73,8 +73,8 @@ TEST_CASE("[MaskMetrics] 99 of 100 pixels do not exceed p99") {
 	CHECK(compute_mask_metrics(reference, make_row(values)).receiver.p99 == 0.5);
 }
 
-TEST_CASE("[MaskMetrics] wrong is the share of pixels whose error exceeds 0.2, of either sign") {
-	// Receivers: errors 0.2, 0.201, -1, 0; penumbra: -0.3 and -0.2.
+TEST_CASE("[MaskMetrics] wrong is the fraction of pixels with an error above 0.2 of either sign") {
+	// Errors outside of the penumbra: 0.2, 0.201, -1, 0; in it: -0.3, -0.2. Receivers are all six.
 	const MaskImage reference = make_row({ 0, 0, 1, 1, 0.5f, 0.2f, -1 });
 	const MaskImage result = make_row({ 0.2f, 0.201f, 0, 1, 0.2f, 0, -1 });
 	const MaskMetrics metrics = compute_mask_metrics(reference, result);
@@ -116,7 +116,7 @@ TEST_CASE("[MaskMetrics] other sizes, other receivers and values that are not fi
 	}
 }
 
-TEST_CASE("[MaskMetrics] the temporal error sees flicker and is blind to a constant error") {
+TEST_CASE("[MaskMetrics] the temporal error includes flicker but not a constant error") {
 	const std::vector<MaskImage> reference = { make_row({ 0.2f, 1, 1, -1 }),
 		make_row({ 0.4f, 1, 1, 1 }), make_row({ 0.6f, 1, -1, 1 }) };
 	std::vector<MaskImage> result = reference;

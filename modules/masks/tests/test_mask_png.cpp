@@ -65,13 +65,13 @@ TEST_CASE("[MaskPng] errors are white at 0, blue when too dark, red when too lig
 	const std::vector<uint8_t> expected = {
 		255,
 		255,
-		255, // none
+		255, // no error
 		0,
 		0,
 		255, // -0.25: full blue
 		0,
 		0,
-		255, // -1: no more than full
+		255, // -1: clamped to full blue
 		255,
 		128,
 		128, // +0.125: half red

@@ -20,14 +20,14 @@ std::vector<std::string> get_names(const MaskTiming &p_timing) {
 
 } // namespace
 
-TEST_CASE("[ErrorReport] the percentile of no value is 0, of one value that value") {
-	for (const double share : { 0.0, 0.5, 0.9, 1.0 }) {
-		CHECK(compute_percentile({}, share) == 0);
-		CHECK(compute_percentile({ 7.5 }, share) == 7.5);
+TEST_CASE("[MaskTiming] the percentile of no value is 0, of one value that value") {
+	for (const double fraction : { 0.0, 0.5, 0.9, 1.0 }) {
+		CHECK(compute_percentile({}, fraction) == 0);
+		CHECK(compute_percentile({ 7.5 }, fraction) == 7.5);
 	}
 }
 
-TEST_CASE("[ErrorReport] percentiles are interpolated between values in any order") {
+TEST_CASE("[MaskTiming] percentiles are interpolated between values in any order") {
 	CHECK(compute_percentile({ 3, 1 }, 0.5) == 2);
 	CHECK(compute_percentile({ 9, 1, 4 }, 0.5) == 4);
 	CHECK(compute_percentile({ 40, 10, 30, 20 }, 0.5) == 25);
@@ -38,7 +38,7 @@ TEST_CASE("[ErrorReport] percentiles are interpolated between values in any orde
 	CHECK(compute_percentile(eleven, 1) == 10);
 }
 
-TEST_CASE("[ErrorReport] a frame's cost has median and 90th percentile of both clocks") {
+TEST_CASE("[MaskTiming] a frame's cost has median and 90th percentile of GPU and wall time") {
 	const FrameCost cost = compute_frame_cost({ 1, 3, 2 }, { 10, 30 });
 	CHECK(cost.gpu_ms == 2);
 	CHECK(cost.gpu_ms_p90 == doctest::Approx(2.8));
@@ -47,7 +47,7 @@ TEST_CASE("[ErrorReport] a frame's cost has median and 90th percentile of both c
 	CHECK(compute_frame_cost({}, {}).wall_ms_p90 == 0);
 }
 
-TEST_CASE("[ErrorReport] without frames there are no passes and no cost") {
+TEST_CASE("[MaskTiming] without frames there are no passes and no cost") {
 	const MaskTiming timing = TimingSamples().compute();
 	CHECK(timing.frame_count == 0);
 	CHECK(timing.passes.empty());
@@ -55,7 +55,7 @@ TEST_CASE("[ErrorReport] without frames there are no passes and no cost") {
 	CHECK(timing.cost_ms == 0);
 }
 
-TEST_CASE("[ErrorReport] passes are ordered as in the first frame that has them") {
+TEST_CASE("[MaskTiming] passes are ordered as in the first frame that has them") {
 	TimingSamples samples;
 	samples.add_frame({ { "view 1", 1, 1 }, { "fins", 1, 1 } });
 	samples.add_frame({ { "fins", 1, 1 }, { "view 1", 1, 1 }, { "a late pass", 1, 1 } });
@@ -64,7 +64,7 @@ TEST_CASE("[ErrorReport] passes are ordered as in the first frame that has them"
 			std::vector<std::string>{ "view 1", "fins", "a late pass" });
 }
 
-TEST_CASE("[ErrorReport] each pass has the median of its frames, the total that of their sums") {
+TEST_CASE("[MaskTiming] each pass has the median of its frames, the total that of their sums") {
 	TimingSamples samples;
 	samples.add_frame({ { "depth", 1, 2 }, { "resolve", 9, 10 } });
 	samples.add_frame({ { "depth", 5, 6 }, { "resolve", 2, 3 } });
@@ -84,7 +84,7 @@ TEST_CASE("[ErrorReport] each pass has the median of its frames, the total that 
 	CHECK(timing.cost_ms == 7);
 }
 
-TEST_CASE("[ErrorReport] a pass on the host costs its wall time, one on the device its GPU time") {
+TEST_CASE("[MaskTiming] a pass on the host costs its wall time, one on the device its GPU time") {
 	TimingSamples samples;
 	samples.add_frame({ { "depth", 1, 50 }, { "trace", 0, 20, true } });
 	samples.add_frame({ { "depth", 3, 60 }, { "trace", 0, 30, true } });
@@ -98,7 +98,7 @@ TEST_CASE("[ErrorReport] a pass on the host costs its wall time, one on the devi
 	CHECK(timing.total.wall_ms == 80);
 }
 
-TEST_CASE("[ErrorReport] a pass that some frames lack is 0 in their sums, not in its own median") {
+TEST_CASE("[MaskTiming] a pass that some frames lack is 0 in their sums, not in its own median") {
 	TimingSamples samples;
 	samples.add_frame({ { "depth", 2, 2 } });
 	samples.add_frame({ { "depth", 2, 2 }, { "fins", 6, 8 } });
@@ -114,7 +114,7 @@ TEST_CASE("[ErrorReport] a pass that some frames lack is 0 in their sums, not in
 	CHECK(timing.cost_ms == 2);
 }
 
-TEST_CASE("[ErrorReport] the times in JSON have the documented keys in their order") {
+TEST_CASE("[MaskTiming] the times in JSON have the documented keys in their order") {
 	CHECK(to_json(FrameCost{ 0.5, 1.5, 2, 3 }).dump() ==
 			R"({"gpu_ms":0.5,"gpu_ms_p90":1.5,"wall_ms":2.0,"wall_ms_p90":3.0})");
 	const std::vector<PassMedians> passes = { { "depth", { 0.5, 0.75, 1, 1.5 }, false },
@@ -126,7 +126,7 @@ TEST_CASE("[ErrorReport] the times in JSON have the documented keys in their ord
 	CHECK(to_json(std::vector<PassMedians>()).dump() == "[]");
 }
 
-TEST_CASE("[ErrorReport] the median's error shrinks with frames and grows with their spread") {
+TEST_CASE("[MaskTiming] the median's error shrinks with frames and grows with their spread") {
 	const auto measure = [](std::vector<double> p_costs_ms) {
 		TimingSamples samples;
 		for (const double cost_ms : p_costs_ms) {
@@ -138,7 +138,7 @@ TEST_CASE("[ErrorReport] the median's error shrinks with frames and grows with t
 	CHECK(measure({ 5 }) == 1);
 	CHECK(measure({ 5, 5, 5 }) == 0);
 	const double five = measure({ 8, 9, 10, 11, 12 });
-	// Median distance 1, times 1.4826 * 5 / 4.2; of a median of 10, over the root of 5.
+	// The median is 10, the median absolute deviation 1; 5 / 4.2 is the factor for five values.
 	CHECK(five == doctest::Approx(1.2533 * 1.4826 * 5 / 4.2 / std::sqrt(5.0) / 10));
 	CHECK(measure({ 8, 8, 9, 9, 10, 10, 11, 11, 12, 12 }) < five);
 	CHECK(measure({ 6, 8, 10, 12, 14 }) > five);

@@ -8,13 +8,13 @@
 
 namespace gnomon {
 
-/// Traverses a tree as its users do, to compare it with its boxes.
+/// Runs queries on a Bvh over some boxes, for comparison with brute force.
 class BvhQueries {
 public:
 	explicit BvhQueries(const std::vector<Bounds> &p_boxes) : boxes(p_boxes), tree(p_boxes) {}
 
-	/// Returns the items whose box shares at least a point with p_box, in ascending order; none for
-	/// an empty box or one with NaN.
+	/// Returns the items whose box overlaps or touches p_box, in ascending order; none if p_box is
+	/// empty or has NaN.
 	std::vector<uint32_t> find_in_box(const Bounds &p_box) const {
 		if (p_box.is_empty()) {
 			return {};
@@ -26,8 +26,8 @@ public:
 					p_bounds.minimum.z <= p_box.maximum.z && p_box.minimum.z <= p_bounds.maximum.z;
 		});
 	}
-	/// Returns the items whose box is not wholly behind one of the planes, in ascending order. A
-	/// point q is in front of plane n if dot(n.xyz, q) + n.w >= 0.
+	/// Returns the items whose box is not completely behind one of the planes, in ascending order.
+	/// A point q is in front of plane n if dot(n.xyz, q) + n.w >= 0.
 	std::vector<uint32_t> find_in_planes(const std::vector<glm::dvec4> &p_planes) const {
 		return find([&](const Bounds &p_bounds) {
 			return std::all_of(p_planes.begin(), p_planes.end(),
@@ -36,9 +36,10 @@ public:
 	}
 
 private:
-	/// A sibling at each of the 64 levels below the root, and a node.
-	static constexpr size_t MAX_WAITING_COUNT = 65;
+	/// One sibling for each of the 64 levels below the root, and the current node.
+	static constexpr size_t MAX_STACK_SIZE = 65;
 
+	/// Returns whether a part of the box is in front of the plane.
 	static bool reaches_front(const Bounds &p_box, const glm::dvec4 &p_plane) {
 		double side = p_plane.w;
 		for (int axis = 0; axis < 3; ++axis) {
@@ -52,14 +53,14 @@ private:
 	template <typename Test> std::vector<uint32_t> find(const Test &p_test) const {
 		std::vector<uint32_t> found;
 		const std::vector<Bvh::Node> &nodes = tree.get_nodes();
-		std::vector<uint32_t> waiting;
+		std::vector<uint32_t> stack;
 		if (!nodes.empty()) {
-			waiting.push_back(0);
+			stack.push_back(0);
 		}
-		while (!waiting.empty()) {
-			REQUIRE(waiting.size() <= MAX_WAITING_COUNT);
-			const Bvh::Node &node = nodes[waiting.back()];
-			waiting.pop_back();
+		while (!stack.empty()) {
+			REQUIRE(stack.size() <= MAX_STACK_SIZE);
+			const Bvh::Node &node = nodes[stack.back()];
+			stack.pop_back();
 			if (!p_test(node.bounds)) {
 				continue;
 			}
@@ -70,8 +71,8 @@ private:
 				}
 			}
 			if (node.item_count == 0) {
-				waiting.push_back(node.first + 1);
-				waiting.push_back(node.first);
+				stack.push_back(node.first + 1);
+				stack.push_back(node.first);
 			}
 		}
 		std::sort(found.begin(), found.end());

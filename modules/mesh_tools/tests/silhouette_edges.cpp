@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-/// is_light_facing in silhouette_inc.glsl: the same operations in the same order.
+/// Mirrors is_light_facing in silhouette_inc.glsl: the same operations in the same order.
 bool is_light_facing(
 		const MeshTopology &p_topology, const glm::vec4 &p_light, const glm::uvec3 &p_ids) {
 	const int first = p_ids.y < p_ids.x && p_ids.y < p_ids.z ? 1
@@ -25,21 +25,21 @@ bool is_light_facing(
 } // namespace
 
 std::vector<uint32_t> find_silhouette_edges(
-		const MeshTopology &p_topology, const glm::vec4 &p_light_node) {
+		const MeshTopology &p_topology, const glm::vec4 &p_light_position_node) {
 	std::vector<uint32_t> found;
 	for (uint32_t i = 0; i < p_topology.edges.size(); ++i) {
 		const MeshEdge &edge = p_topology.edges[i];
 		bool is_silhouette = edge.face1 == NO_FACE;
 		if (!is_silhouette) {
 			const glm::uvec3 face0 = { edge.a, edge.b,
-				p_topology.find_opposite(edge.face0, edge.a, edge.b) };
+				p_topology.find_opposite_vertex(edge.face0, edge.a, edge.b) };
 			glm::uvec3 face1 = { edge.b, edge.a,
-				p_topology.find_opposite(edge.face1, edge.a, edge.b) };
+				p_topology.find_opposite_vertex(edge.face1, edge.a, edge.b) };
 			if (edge.is_inconsistent) {
 				std::swap(face1.x, face1.y);
 			}
-			is_silhouette = (is_light_facing(p_topology, p_light_node, face0) !=
-									is_light_facing(p_topology, p_light_node, face1)) !=
+			is_silhouette = (is_light_facing(p_topology, p_light_position_node, face0) !=
+									is_light_facing(p_topology, p_light_position_node, face1)) !=
 					edge.is_inconsistent;
 		}
 		if (is_silhouette) {

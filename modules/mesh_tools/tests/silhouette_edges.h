@@ -9,11 +9,12 @@
 
 namespace gnomon {
 
-/// The same edges as the shaders find, bit for bit: silhouette_inc.glsl in C++, float32 in the same
-/// order. Indices into MeshTopology::edges, ascending. Boundary edges always; edges of which one
-/// face is light-facing and one is not. In general position these are the edges of
-/// build_silhouette; where the light is in a face's plane up to rounding, they may differ.
+/// Finds exactly the silhouette edges that the shaders find: a C++ version of silhouette_inc.glsl
+/// with the same float32 operations in the same order. Returns ascending indices into
+/// MeshTopology::edges: all boundary edges, and the edges between a light-facing and a back-facing
+/// face. These are the edges of build_silhouette, except that they may differ where the light is in
+/// the plane of a face up to rounding.
 std::vector<uint32_t> find_silhouette_edges(
-		const MeshTopology &p_topology, const glm::vec4 &p_light_node);
+		const MeshTopology &p_topology, const glm::vec4 &p_light_position_node);
 
 } // namespace gnomon

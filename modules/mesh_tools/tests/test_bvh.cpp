@@ -45,7 +45,7 @@ std::vector<uint32_t> find_by_brute_force(const std::vector<Bounds> &p_boxes, co
 	return found;
 }
 
-/// All eight corners behind one plane: outside.
+/// Finds the boxes that do not have all eight corners behind the same plane.
 std::vector<uint32_t> find_by_brute_force(
 		const std::vector<Bounds> &p_boxes, const std::vector<glm::dvec4> &p_planes) {
 	std::vector<uint32_t> found;
@@ -70,7 +70,7 @@ std::vector<uint32_t> find_by_brute_force(
 
 } // namespace
 
-TEST_CASE("[Bvh] finds the boxes that overlap a box, as brute force does") {
+TEST_CASE("[Bvh] a box query finds the same boxes as brute force") {
 	for (const size_t count : { 1, 2, 5, 64, 1000 }) {
 		const std::vector<Bounds> boxes = make_boxes(static_cast<uint32_t>(count), count);
 		const BvhQueries bvh(boxes);
@@ -80,7 +80,7 @@ TEST_CASE("[Bvh] finds the boxes that overlap a box, as brute force does") {
 	}
 }
 
-TEST_CASE("[Bvh] finds the boxes that reach into a frustum, as brute force does") {
+TEST_CASE("[Bvh] a query by planes finds the same boxes as brute force") {
 	const std::vector<Bounds> boxes = make_boxes(3, 500);
 	const BvhQueries bvh(boxes);
 	std::mt19937 random(11);
@@ -96,7 +96,7 @@ TEST_CASE("[Bvh] finds the boxes that reach into a frustum, as brute force does"
 	}
 }
 
-TEST_CASE("[Bvh] boxes at one point, in a row of growing sizes, or without size are all found") {
+TEST_CASE("[Bvh] identical boxes, exponentially growing boxes and boxes of zero size are found") {
 	std::vector<Bounds> boxes(300, make_box(glm::dvec3(0), glm::dvec3(1)));
 	for (int i = 0; i < 300; ++i) {
 		boxes.push_back(make_box(glm::dvec3(0), glm::dvec3(std::pow(1.9, i) * 1e-40)));

@@ -13,7 +13,7 @@ uint32_t count_parts(const Mesh &p_mesh) {
 
 } // namespace
 
-TEST_CASE("[MeshTools] convex solids are counted, and nothing else is convex") {
+TEST_CASE("[MeshTools] count_convex_parts counts convex solids and returns 0 for any other mesh") {
 	const Mesh cube = test_meshes::make_cube();
 	CHECK(count_parts(cube) == 1);
 	CHECK(count_parts(test_meshes::make_sphere(3)) == 1);

@@ -10,14 +10,14 @@ using namespace gnomon::test_meshes;
 
 namespace {
 
-Mesh turn_inside_out(Mesh p_mesh) {
+Mesh flip_winding(Mesh p_mesh) {
 	for (size_t i = 0; i < p_mesh.indices.size(); i += 3) {
 		std::swap(p_mesh.indices[i], p_mesh.indices[i + 1]);
 	}
 	return p_mesh;
 }
 
-/// The definition, from edges alone.
+/// Checks the parts against their definition, which only uses the edges.
 void check_parts(const MeshTopology &p_topology) {
 	REQUIRE(p_topology.part_indices.size() == p_topology.get_face_count());
 	REQUIRE(p_topology.counts.part_count == p_topology.parts.size());
@@ -51,7 +51,7 @@ void check_parts(const MeshTopology &p_topology) {
 
 } // namespace
 
-TEST_CASE("[MeshParts] a box stays closed where the mesh also has an open quad") {
+TEST_CASE("[MeshParts] a box is a closed part of a mesh that also has an open quad") {
 	Mesh mesh = join(make_cube(), make_quad());
 	for (size_t i = mesh.positions_node.size() - 4; i < mesh.positions_node.size(); ++i) {
 		mesh.positions_node[i] += glm::vec3(9, 0, 0);
@@ -75,7 +75,7 @@ TEST_CASE("[MeshParts] two boxes that share an edge are two closed parts") {
 	CHECK(topology.counts.closed_part_count == 2);
 }
 
-TEST_CASE("[MeshParts] a box and its duplicate are closed") {
+TEST_CASE("[MeshParts] a box and its duplicate are closed parts") {
 	Mesh mesh = make_cube();
 	mesh.indices.insert(mesh.indices.end(), mesh.indices.begin(), mesh.indices.begin() + 36);
 	const MeshTopology topology = build_topology(mesh);
@@ -88,7 +88,7 @@ TEST_CASE("[MeshParts] a box and its duplicate are closed") {
 	CHECK(volume_m3 == doctest::Approx(16));
 }
 
-TEST_CASE("[MeshParts] one face of the wrong winding opens its own part only") {
+TEST_CASE("[MeshParts] a face with the wrong winding only makes its own part open") {
 	Mesh mesh = join(make_cube(), make_cube({ 5, 0, 0 }));
 	std::swap(mesh.indices[0], mesh.indices[1]);
 	const MeshTopology topology = build_topology(mesh);
@@ -98,7 +98,7 @@ TEST_CASE("[MeshParts] one face of the wrong winding opens its own part only") {
 	CHECK(topology.parts[1].is_closed);
 }
 
-TEST_CASE("[MeshParts] a boundary opens its own part only") {
+TEST_CASE("[MeshParts] a boundary only makes its own part open") {
 	Mesh mesh = join(make_cube({ -5, 0, 0 }), make_sphere(2));
 	mesh.indices.erase(mesh.indices.begin(), mesh.indices.begin() + 3);
 	const MeshTopology topology = build_topology(mesh);
@@ -108,16 +108,15 @@ TEST_CASE("[MeshParts] a boundary opens its own part only") {
 	CHECK(topology.parts[1].is_closed);
 }
 
-TEST_CASE("[MeshParts] parts that touch in a corner are two") {
+TEST_CASE("[MeshParts] boxes that touch at a corner are two parts") {
 	const MeshTopology topology = build_topology(join(make_cube(), make_cube({ 2, 2, 2 })));
 	check_parts(topology);
 	CHECK(topology.counts.closed_part_count == 2);
 }
 
-TEST_CASE("[MeshParts] each part has a volume of its own, negative where it is inside out") {
+TEST_CASE("[MeshParts] each part has its own volume, which is negative if it is inside out") {
 	const glm::vec3 far(1e4f, -1e4f, 1e4f); // far from the first part
-	const MeshTopology topology =
-			build_topology(join(make_cube(), turn_inside_out(make_cube(far))));
+	const MeshTopology topology = build_topology(join(make_cube(), flip_winding(make_cube(far))));
 	check_parts(topology);
 	CHECK_FALSE(topology.is_double_sided());
 	REQUIRE(topology.counts.part_count == 2);
@@ -125,7 +124,7 @@ TEST_CASE("[MeshParts] each part has a volume of its own, negative where it is i
 	CHECK(topology.parts[1].signed_volume_m3 == doctest::Approx(-8));
 }
 
-TEST_CASE("[MeshParts] of random soups follow from the edges, and an empty mesh has none") {
+TEST_CASE("[MeshParts] parts of random triangles match their definition; an empty mesh has none") {
 	for (uint32_t seed = 0; seed < 40; ++seed) {
 		CAPTURE(seed);
 		check_parts(build_topology(make_soup(seed, 5 + seed, 100)));

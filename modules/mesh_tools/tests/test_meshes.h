@@ -23,7 +23,7 @@ inline Mesh make(std::vector<glm::vec3> p_positions, std::vector<uint32_t> p_ind
 	return mesh;
 }
 
-/// 8 corners shared by 12 triangles, outward winding, side 2, centre at the origin.
+/// Returns a cube with side length 2: 8 corners shared by 12 triangles with outward winding.
 inline Mesh make_cube(const glm::vec3 &p_centre = glm::vec3(0.0f)) {
 	std::vector<glm::vec3> positions;
 	for (int i = 0; i < 8; ++i) {
@@ -34,7 +34,7 @@ inline Mesh make_cube(const glm::vec3 &p_centre = glm::vec3(0.0f)) {
 					2, 1, 3, 7, 1, 7, 5 });
 }
 
-/// Returns the same triangles, each with its own corners, as a glTF file with hard edges has them.
+/// Returns the same triangles, each with its own corners, as in a glTF file with hard edges.
 inline Mesh unweld(const Mesh &p_mesh) {
 	Mesh mesh = make({}, {});
 	for (const uint32_t index : p_mesh.indices) {
@@ -60,7 +60,8 @@ inline Mesh make_octahedron() {
 			{ 0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5 });
 }
 
-/// Octahedron split p_level times, unit radius: 8 * 4^level triangles.
+/// Returns a sphere of unit radius: an octahedron subdivided p_level times, with 8 * 4^p_level
+/// triangles.
 inline Mesh make_sphere(int p_level) {
 	Mesh mesh = make_octahedron();
 	for (int level = 0; level < p_level; ++level) {
@@ -89,7 +90,8 @@ inline Mesh make_sphere(int p_level) {
 	return mesh;
 }
 
-/// p_u x p_v quads on a torus; p_u = 200, p_v = 174 has as many triangles as the Stanford bunny.
+/// Returns a torus of p_u x p_v quads. p_u = 200 and p_v = 174 give about as many triangles as the
+/// Stanford bunny.
 inline Mesh make_torus(uint32_t p_u, uint32_t p_v) {
 	Mesh mesh = make({}, {});
 	for (uint32_t i = 0; i < p_u; ++i) {
@@ -114,7 +116,8 @@ inline Mesh make_quad() {
 	return make({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { 0, 1, 2, 0, 2, 3 });
 }
 
-/// A band with half a twist: one boundary, no consistent winding.
+/// Returns a Moebius strip, a band with half a twist: it has one boundary and no consistent
+/// winding.
 inline Mesh make_moebius(uint32_t p_count) {
 	Mesh mesh = make({}, {});
 	for (uint32_t i = 0; i < p_count; ++i) {
@@ -127,18 +130,18 @@ inline Mesh make_moebius(uint32_t p_count) {
 		const uint32_t a = 2 * i;
 		const uint32_t b = 2 * i + 1;
 		const bool is_last = i + 1 == p_count;
-		const uint32_t c = is_last ? 1 : 2 * i + 2; // the ends meet turned over
+		const uint32_t c = is_last ? 1 : 2 * i + 2; // the ends meet with a half twist
 		const uint32_t d = is_last ? 0 : 2 * i + 3;
 		mesh.indices.insert(mesh.indices.end(), { a, c, b, b, c, d });
 	}
 	return mesh;
 }
 
-/// Random triangles over few points: every defect at once.
+/// Returns random triangles over a few points, which have every kind of defect.
 inline Mesh make_soup(uint32_t p_seed, uint32_t p_point_count, uint32_t p_triangle_count) {
 	std::mt19937 random(p_seed);
-	std::uniform_int_distribution<int> coordinate(
-			-3, 3); // a grid, so that points and lines coincide
+	// On a grid, so that points and lines coincide.
+	std::uniform_int_distribution<int> coordinate(-3, 3);
 	Mesh mesh = make({}, {});
 	for (uint32_t i = 0; i < p_point_count; ++i) {
 		mesh.positions_node.emplace_back(

@@ -9,7 +9,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("A ray meets the near side of a box, and from within the far one") {
+TEST_CASE("[RayTree] a ray hits the near side of a box, or the far side if it starts inside") {
 	const RayTree tree(make_box_mesh("box", glm::vec3(1.0f, 2.0f, 3.0f)));
 	const std::optional<double> outside = tree.find_nearest({ 0.1, 0.2, 10.0 }, { 0.0, 0.0, -2.0 });
 	REQUIRE(outside);
@@ -17,16 +17,16 @@ TEST_CASE("A ray meets the near side of a box, and from within the far one") {
 	const std::optional<double> inside = tree.find_nearest({ 0.1, 0.2, 0.3 }, { 0.0, -1.0, 0.0 });
 	REQUIRE(inside);
 	CHECK(*inside == doctest::Approx(2.2));
-	// What is before p_begin does not count.
-	const std::optional<double> beyond =
+	// Hits before p_begin are ignored.
+	const std::optional<double> after_begin =
 			tree.find_nearest({ 0.1, 0.2, 10.0 }, { 0.0, 0.0, -1.0 }, 7.5);
-	REQUIRE(beyond);
-	CHECK(*beyond == doctest::Approx(13.0));
+	REQUIRE(after_begin);
+	CHECK(*after_begin == doctest::Approx(13.0));
 	CHECK(!tree.find_nearest({ 0.1, 0.2, 10.0 }, { 0.0, 0.0, 1.0 }));
 	CHECK(!tree.find_nearest({ 1.1, 0.2, 10.0 }, { 0.0, 0.0, -1.0 }));
 }
 
-TEST_CASE("A ray without a direction meets nothing") {
+TEST_CASE("[RayTree] an invalid ray and a ray to an empty mesh hit nothing") {
 	const RayTree tree(make_box_mesh("box", glm::vec3(1.0f)));
 	const double nan = std::numeric_limits<double>::quiet_NaN();
 	CHECK(!tree.find_nearest({ 0.0, 0.0, 5.0 }, { 0.0, 0.0, 0.0 }));
@@ -35,7 +35,7 @@ TEST_CASE("A ray without a direction meets nothing") {
 	CHECK(!RayTree(make_mesh("empty", {}, {}, {})).find_nearest({ 0, 0, 5 }, { 0, 0, -1 }));
 }
 
-TEST_CASE("The tree finds what a look at every triangle finds") {
+TEST_CASE("[RayTree] the nearest hit is the same as by brute force over all triangles") {
 	std::mt19937 random(7);
 	std::uniform_real_distribution<float> coordinate(-1.0f, 1.0f);
 	std::vector<glm::vec3> positions;

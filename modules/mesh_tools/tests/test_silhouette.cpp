@@ -15,12 +15,12 @@ namespace {
 
 using DirectedEdges = std::map<std::pair<uint32_t, uint32_t>, int>;
 
-/// The definition, from triangles alone: the boundary of the light-facing surface (closed part) or
-/// of the whole part with every triangle turned to face the light (double-sided). Opposite edges
-/// cancel.
+/// Computes the silhouette from its definition, which only uses triangles: the boundary of the
+/// light-facing surface (closed part), or of all triangles after those that are back-facing were
+/// flipped (double-sided part). Opposite edges cancel out.
 DirectedEdges find_silhouette_by_brute_force(
 		const MeshTopology &p_topology, const glm::dvec4 &p_light) {
-	const std::vector<uint8_t> is_facing = compute_facing(p_topology, p_light);
+	const std::vector<uint8_t> is_facing = compute_light_facing(p_topology, p_light);
 	DirectedEdges edges;
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
 		if (!p_topology.is_double_sided(face) && is_facing[face] == 0) {
@@ -39,7 +39,7 @@ DirectedEdges find_silhouette_by_brute_force(
 	return edges;
 }
 
-DirectedEdges sum_up(const Silhouette &p_silhouette) {
+DirectedEdges sum_weights(const Silhouette &p_silhouette) {
 	DirectedEdges edges;
 	for (const SilhouetteEdge &edge : p_silhouette.edges) {
 		const int weight = static_cast<int>(edge.weight);
@@ -75,7 +75,7 @@ std::vector<glm::dvec4> make_lights() {
 
 } // namespace
 
-TEST_CASE("[Silhouette] of a cube lit from above is the rim of its top, as the top winds") {
+TEST_CASE("[Silhouette] a cube lit from above has the outline of its top, in the top's winding") {
 	const MeshTopology topology = build_topology(make_cube());
 	const Silhouette silhouette = build_silhouette(topology, { 0, 0, 5, 1 });
 	CHECK(silhouette.edges.size() == 4);
@@ -89,7 +89,7 @@ TEST_CASE("[Silhouette] of a cube lit from above is the rim of its top, as the t
 	}
 }
 
-TEST_CASE("[Silhouette] agrees with the boundary of the lit surface, for every light and mesh") {
+TEST_CASE("[Silhouette] the edges are the boundary of the lit surface, for all lights and meshes") {
 	std::vector<Mesh> meshes = { make_cube(), make_sphere(3), make_torus(20, 12), make_quad(),
 		make_moebius(24), join(make_cube(), make_cube({ 2, 2, 0 })), Mesh() };
 	meshes.push_back(join(make_sphere(2), make_quad()));
@@ -104,7 +104,7 @@ TEST_CASE("[Silhouette] agrees with the boundary of the lit surface, for every l
 		for (const glm::dvec4 &light : make_lights()) {
 			CAPTURE(light.x);
 			const Silhouette silhouette = build_silhouette(topology, light);
-			CHECK(sum_up(silhouette) == find_silhouette_by_brute_force(topology, light));
+			CHECK(sum_weights(silhouette) == find_silhouette_by_brute_force(topology, light));
 			check_loops(silhouette);
 			for (const SilhouetteEdge &edge : silhouette.edges) {
 				const uint32_t face = topology.edges[edge.edge_index].face0;
@@ -114,16 +114,16 @@ TEST_CASE("[Silhouette] agrees with the boundary of the lit surface, for every l
 	}
 }
 
-TEST_CASE("[Silhouette] of a closed part is the same whether the mesh has an open part or not") {
+TEST_CASE("[Silhouette] an open part of a mesh does not change the silhouette of a closed part") {
 	Mesh quad = make_quad();
 	for (glm::vec3 &position : quad.positions_node) {
 		position += glm::vec3(9, 0, 0);
 	}
 	const MeshTopology sphere = build_topology(make_sphere(2));
-	const MeshTopology both = build_topology(join(make_sphere(2), quad));
+	const MeshTopology combined = build_topology(join(make_sphere(2), quad));
 	for (const glm::dvec4 &light : make_lights()) {
-		DirectedEdges expected = sum_up(build_silhouette(sphere, light));
-		DirectedEdges found = sum_up(build_silhouette(both, light));
+		DirectedEdges expected = sum_weights(build_silhouette(sphere, light));
+		DirectedEdges found = sum_weights(build_silhouette(combined, light));
 		const uint32_t first_of_quad = uint32_t(sphere.welded_positions_node.size());
 		std::erase_if(
 				found, [&](const auto &p_item) { return p_item.first.first >= first_of_quad; });
@@ -131,11 +131,11 @@ TEST_CASE("[Silhouette] of a closed part is the same whether the mesh has an ope
 	}
 }
 
-TEST_CASE("[Silhouette] facing agrees with the triple product of the corners") {
+TEST_CASE("[Silhouette] compute_light_facing agrees with the triple product of the corners") {
 	const Mesh mesh = make_torus(20, 12);
 	const MeshTopology topology = build_topology(mesh);
 	for (const glm::dvec4 &light : make_lights()) {
-		const std::vector<uint8_t> is_facing = compute_facing(topology, light);
+		const std::vector<uint8_t> is_facing = compute_light_facing(topology, light);
 		const double sign = light.w < 0 ? -1 : 1;
 		for (uint32_t face = 0; face < topology.get_face_count(); ++face) {
 			const glm::dvec3 a = mesh.positions_node[mesh.indices[3 * face]];
@@ -150,8 +150,7 @@ TEST_CASE("[Silhouette] facing agrees with the triple product of the corners") {
 	}
 }
 
-TEST_CASE(
-		"[Silhouette] a light in the plane of a face does not see it, and the loop stays closed") {
+TEST_CASE("[Silhouette] for a light in the plane of a face the edges are still a closed loop") {
 	const MeshTopology topology = build_topology(make_cube());
 	const Silhouette silhouette =
 			build_silhouette(topology, { 1, 0, 5, 1 }); // plane of the side +x
@@ -159,19 +158,19 @@ TEST_CASE(
 	check_loops(silhouette);
 }
 
-TEST_CASE("[Silhouette] a light inside a closed mesh has no silhouette") {
+TEST_CASE("[Silhouette] a light inside a sphere has no silhouette") {
 	CHECK(build_silhouette(build_topology(make_sphere(3)), { 0.1, 0.2, 0.1, 1 }).edges.empty());
 }
 
-TEST_CASE("[Silhouette] a quad shows its four edges to both of its sides, its fold twice") {
+TEST_CASE("[Silhouette] a quad has four edges from either side; the ridge of a roof has weight 2") {
 	const MeshTopology quad = build_topology(make_quad());
 	for (const double z : { 2.0, -2.0 }) {
 		const Silhouette silhouette = build_silhouette(quad, { 0.2, 0.3, z, 1 });
 		CHECK(silhouette.edges.size() == 4);
 		CHECK(silhouette.is_facing[0] == (z > 0 ? 1 : 0));
 	}
-	// Two leaves of a roof; a light in front of one and behind the other sees the ridge as an edge
-	// of two layers.
+	// A roof of two open triangles. For a light in front of the first and behind the second, the
+	// ridge is an edge of two layers.
 	const MeshTopology roof = build_topology(
 			make({ { 0, 0, 1 }, { 0, 1, 1 }, { 1, 0, 0 }, { -1, 0, 0 } }, { 0, 2, 1, 0, 1, 3 }));
 	const Silhouette silhouette = build_silhouette(roof, { 9, 0.3, 0, 1 });
@@ -182,9 +181,9 @@ TEST_CASE("[Silhouette] a quad shows its four edges to both of its sides, its fo
 	CHECK(double_count == 1);
 }
 
-TEST_CASE("[Silhouette] scale and mirrored transforms keep the set of edges") {
-	const MeshTopology one = build_topology(make_torus(20, 12));
-	const Silhouette expected = build_silhouette(one, { 3, 2, 4, 1 });
+TEST_CASE("[Silhouette] scaling the mesh and the light does not change the edges") {
+	const MeshTopology torus = build_topology(make_torus(20, 12));
+	const Silhouette expected = build_silhouette(torus, { 3, 2, 4, 1 });
 	for (const float scale : { 1.0f / 1024, 1024.0f }) {
 		Mesh mesh = make_torus(20, 12);
 		for (glm::vec3 &position : mesh.positions_node) {
@@ -192,11 +191,11 @@ TEST_CASE("[Silhouette] scale and mirrored transforms keep the set of edges") {
 		}
 		const Silhouette scaled =
 				build_silhouette(build_topology(mesh), { 3 * scale, 2 * scale, 4 * scale, 1 });
-		CHECK(sum_up(scaled) == sum_up(expected));
+		CHECK(sum_weights(scaled) == sum_weights(expected));
 	}
 }
 
-TEST_CASE("[Silhouette] a light that is not finite has none") {
+TEST_CASE("[Silhouette] a light that is not finite has no silhouette") {
 	const MeshTopology quad = build_topology(make_quad());
 	for (const double bad :
 			{ std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() }) {

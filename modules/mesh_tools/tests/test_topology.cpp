@@ -20,8 +20,8 @@ int compute_euler_number(const MeshTopology &p_topology) {
 			static_cast<int>(p_topology.get_face_count());
 }
 
-/// Each directed half edge of each face belongs to exactly one stored edge, in the right direction;
-/// the adjacency names the vertices of the same partners.
+/// Checks that each half edge of each face belongs to exactly one edge, in the right direction, and
+/// that counts, adjacency, normals and planes are valid.
 void check_invariants(const MeshTopology &p_topology) {
 	std::multiset<std::tuple<uint32_t, uint32_t, uint32_t>> expected;
 	for (uint32_t half = 0; half < p_topology.triangles.size(); ++half) {
@@ -93,7 +93,7 @@ TEST_CASE("[Topology] sphere and torus have the Euler numbers 2 and 0") {
 	CHECK(compute_euler_number(torus) == 0);
 }
 
-TEST_CASE("[Topology] a mesh turned inside out has a negative volume") {
+TEST_CASE("[Topology] a mesh that is inside out has a negative volume") {
 	Mesh mesh = make_cube();
 	for (size_t i = 0; i < mesh.indices.size(); i += 3) {
 		std::swap(mesh.indices[i], mesh.indices[i + 1]);
@@ -101,7 +101,7 @@ TEST_CASE("[Topology] a mesh turned inside out has a negative volume") {
 	CHECK(build_topology(mesh).signed_volume_m3 == doctest::Approx(-8));
 }
 
-TEST_CASE("[Topology] an open quad has four boundary edges whose neighbour is the face itself") {
+TEST_CASE("[Topology] a quad has four boundary edges, where the adjacent face is the face itself") {
 	const MeshTopology topology = build_topology(make_quad());
 	check_invariants(topology);
 	CHECK(topology.mesh_class == MeshClass::OPEN);
@@ -113,7 +113,7 @@ TEST_CASE("[Topology] an open quad has four boundary edges whose neighbour is th
 			std::vector<uint32_t>{ 0, 2, 1, 0, 2, 3 });
 }
 
-TEST_CASE("[Topology] -0 and 0 are one position, the next float is another") {
+TEST_CASE("[Topology] positions of -0 and 0 are welded, but not those of 0 and the next float") {
 	Mesh mesh = make_quad();
 	mesh = unweld(mesh);
 	mesh.positions_node[0] = glm::vec3(-0.0f, 0.0f, -0.0f);
@@ -122,7 +122,7 @@ TEST_CASE("[Topology] -0 and 0 are one position, the next float is another") {
 	CHECK(build_topology(mesh).welded_positions_node.size() == 5);
 }
 
-TEST_CASE("[Topology] of three faces on one edge two are paired and one becomes a boundary") {
+TEST_CASE("[Topology] of three faces at an edge, two are paired and one gets a boundary edge") {
 	const Mesh mesh = make({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 } },
 			{ 0, 1, 2, 1, 0, 3, 1, 0, 4 });
 	const MeshTopology topology = build_topology(mesh);
@@ -130,11 +130,11 @@ TEST_CASE("[Topology] of three faces on one edge two are paired and one becomes 
 	CHECK(topology.mesh_class == MeshClass::NON_MANIFOLD);
 	CHECK(topology.counts.non_manifold_edge_count == 1);
 	CHECK(topology.counts.inconsistent_edge_count == 0);
-	CHECK(topology.edges.size() == 8); // six rims, one pair, one left alone
+	CHECK(topology.edges.size() == 8); // six outer edges, one pair, one unpaired
 	CHECK(topology.counts.boundary_edge_count == 7);
 }
 
-TEST_CASE("[Topology] two cubes that touch along an edge come apart into two cubes") {
+TEST_CASE("[Topology] two cubes that touch along an edge are separated") {
 	const Mesh mesh = join(make_cube(), make_cube({ 2, 2, 0 }));
 	const MeshTopology topology = build_topology(mesh);
 	check_invariants(topology);
@@ -146,13 +146,13 @@ TEST_CASE("[Topology] two cubes that touch along an edge come apart into two cub
 	}
 }
 
-TEST_CASE("[Topology] cubes that touch in one corner are closed: their silhouettes are loops") {
+TEST_CASE("[Topology] a mesh of two cubes that touch at one corner is closed") {
 	const MeshTopology topology = build_topology(join(make_cube(), make_cube({ 2, 2, 2 })));
 	CHECK(topology.welded_positions_node.size() == 15);
 	CHECK(topology.mesh_class == MeshClass::CLOSED);
 }
 
-TEST_CASE("[Topology] a Moebius strip is non-manifold through one inconsistent edge") {
+TEST_CASE("[Topology] a Moebius strip is non-manifold because of one inconsistent edge") {
 	const MeshTopology topology = build_topology(make_moebius(24));
 	check_invariants(topology);
 	CHECK(topology.mesh_class == MeshClass::NON_MANIFOLD);
@@ -162,7 +162,7 @@ TEST_CASE("[Topology] a Moebius strip is non-manifold through one inconsistent e
 	CHECK(compute_euler_number(topology) == 0);
 }
 
-TEST_CASE("[Topology] duplicate faces are counted and paired into two equal surfaces") {
+TEST_CASE("[Topology] duplicate faces are counted, and paired into separate surfaces") {
 	Mesh mesh = make_cube();
 	mesh.indices.insert(mesh.indices.end(), mesh.indices.begin(), mesh.indices.begin() + 36);
 	const MeshTopology topology = build_topology(mesh);
@@ -200,8 +200,8 @@ TEST_CASE("[Topology] triangles with an edge of zero length are skipped and coun
 
 TEST_CASE("[Topology] a zero-area triangle keeps the mesh closed, has no plane and is never "
 		  "coplanar") {
-	// A T-junction closed by a triangle without area: the quad's edge 01 is split at its middle 4
-	// below, not above.
+	// A T-junction closed by a triangle without area: the edge 01 is split at its middle, vertex 4,
+	// for the triangles below it, but not for the one above.
 	const Mesh mesh = make({ { 0, 0, 0 }, { 2, 0, 0 }, { 1, 1, 0 }, { 1, -1, 0 }, { 1, 0, 0 } },
 			{ 0, 1, 2, 0, 3, 4, 4, 3, 1, 0, 4, 1 });
 	const MeshTopology topology = build_topology(mesh);
@@ -217,7 +217,7 @@ TEST_CASE("[Topology] a zero-area triangle keeps the mesh closed, has no plane a
 	}
 }
 
-TEST_CASE("[Topology] a T-junction without a filler is a gap: boundary edges on both sides") {
+TEST_CASE("[Topology] a T-junction without a filling triangle has boundary edges on both sides") {
 	const Mesh mesh = make({ { 0, 0, 0 }, { 2, 0, 0 }, { 1, 1, 0 }, { 1, -1, 0 }, { 1, 0, 0 } },
 			{ 0, 1, 2, 0, 3, 4, 4, 3, 1 });
 	const MeshTopology topology = build_topology(mesh);
@@ -227,7 +227,7 @@ TEST_CASE("[Topology] a T-junction without a filler is a gap: boundary edges on 
 	CHECK(topology.counts.zero_area_triangle_count == 0);
 }
 
-TEST_CASE("[Topology] slivers keep a unit normal, at every scale and far from the origin") {
+TEST_CASE("[Topology] slivers have a unit normal at every scale; a distant cube is closed") {
 	for (const float scale : { 1e-15f, 1e-3f, 1.0f, 1e3f, 1e15f }) {
 		const Mesh mesh = make(
 				{ glm::vec3(0), glm::vec3(1, 0, 0) * scale, glm::vec3(0.5f, 1e-6f, 0) * scale },
@@ -244,7 +244,7 @@ TEST_CASE("[Topology] slivers keep a unit normal, at every scale and far from th
 	CHECK(std::abs(cube.planes[0].offset_m - (far.z - 1)) < 0.01f);
 }
 
-TEST_CASE("[Topology] an empty mesh is closed and holds nothing") {
+TEST_CASE("[Topology] an empty mesh is closed and has no edges") {
 	for (const Mesh &mesh : { Mesh(), make({ { 0, 0, 0 }, { 1, 0, 0 } }, {}) }) {
 		const MeshTopology topology = build_topology(mesh);
 		CHECK(topology.mesh_class == MeshClass::CLOSED);
@@ -254,7 +254,7 @@ TEST_CASE("[Topology] an empty mesh is closed and holds nothing") {
 	}
 }
 
-TEST_CASE("[Topology] in random soups every directed half edge is used exactly once") {
+TEST_CASE("[Topology] for random triangles every half edge belongs to exactly one edge") {
 	for (uint32_t seed = 0; seed < 40; ++seed) {
 		CAPTURE(seed);
 		const MeshTopology topology = build_topology(make_soup(seed, 5 + seed, 100));
@@ -263,7 +263,7 @@ TEST_CASE("[Topology] in random soups every directed half edge is used exactly o
 	}
 }
 
-TEST_CASE("[Topology] the cache builds a mesh once, for any number of threads, and drops it") {
+TEST_CASE("[Topology] the cache builds a topology once for all threads and frees it later") {
 	auto mesh = std::make_shared<Mesh>(make_sphere(4));
 	mesh->id = 0xffff000000000001u;
 	std::vector<std::shared_ptr<const MeshTopology>> found(8);

@@ -2,13 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "receiver_scatter/cells_inc.glsl"
 
-// A cell of the disc of a scatter coefficient: its random point, that point's weight, and the rings.
+// Runs cells_inc.glsl: computes a random point of each cell of the disc, the point's weight, and the disc's
+// number of rings.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 cells[]; // s, ring, sector, number of sectors
 };
 layout(set = 0, binding = 1) writeonly buffer Output {
-	vec4 results[];
+	vec4 results[]; // x, y: point in pixels from the disc's centre; z: weight; w: number of rings
 };
 
 void main() {

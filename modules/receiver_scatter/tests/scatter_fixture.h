@@ -7,15 +7,18 @@
 
 namespace gnomon {
 
-inline std::shared_ptr<const Material> make_wax(float p_scatter, float p_distance_m) {
+/// Makes a translucent material. p_scatter: s; p_distance_m: the scatter distance, 0: not given.
+inline std::shared_ptr<const Material> make_translucent_material(
+		float p_scatter, float p_distance_m) {
 	auto material = std::make_shared<Material>();
 	material->scatter = p_scatter;
 	material->scatter_distance_m = p_distance_m;
 	return material;
 }
 
-/// A technique with sharp edges, so that all softness is the filter's.
-inline std::string find_technique() {
+/// Returns the id of a technique with sharp shadow edges, the default one, so that all blur comes
+/// from the filter.
+inline std::string get_sharp_technique() {
 	return ShadowRegistry::find_default()->id;
 }
 

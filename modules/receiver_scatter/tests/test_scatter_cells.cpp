@@ -12,8 +12,7 @@ constexpr double TWO_PI = 6.283185307179586;
 
 } // namespace
 
-TEST_CASE("[GPU][ReceiverScatter] the source's disc has as many rings as its radius has pixels, "
-		  "rounded up") {
+TEST_CASE("[GPU][ReceiverScatter] a disc has one ring per pixel of its radius, rounded up") {
 	KernelFixture fixture;
 	const std::vector<glm::vec4> input = { { 0.15f, 0, 0, 6 }, { 0.5f, 0, 0, 6 }, { 0.8f, 0, 0, 6 },
 		{ 1.0f, 0, 0, 6 }, { 0.01f, 0, 0, 6 }, { 0.51f, 0, 0, 6 } };
@@ -26,8 +25,7 @@ TEST_CASE("[GPU][ReceiverScatter] the source's disc has as many rings as its rad
 	}
 }
 
-TEST_CASE("[GPU][ReceiverScatter] each cell of the source's disc has one point, whose weight falls "
-		  "outward") {
+TEST_CASE("[GPU][ReceiverScatter] each disc cell has one point, whose weight falls outwards") {
 	KernelFixture fixture;
 	for (const float scatter : { 0.15f, 0.5f, 0.8f }) {
 		for (const int sector_count : { 6, 15 }) {
@@ -45,14 +43,15 @@ TEST_CASE("[GPU][ReceiverScatter] each cell of the source's disc has one point, 
 					fixture.run("scatter_cells.comp", input, input.size(), 1);
 			double along_sum = 0;
 			for (size_t i = 0; i < input.size(); ++i) {
+				// Position of the point in its cell: along the radius and around it, 0..1 each.
 				const double distance = std::hypot(results[i].x, results[i].y);
 				const double along = distance / radius_px * ring_count - input[i].y;
-				double turn = std::atan2(results[i].y, results[i].x) / TWO_PI;
-				turn += turn < 0 ? 1 : 0;
-				const double around = turn * sector_count - input[i].z;
+				double angle_fraction = std::atan2(results[i].y, results[i].x) / TWO_PI;
+				angle_fraction += angle_fraction < 0 ? 1 : 0;
+				const double around = angle_fraction * sector_count - input[i].z;
 				CHECK(along > -1e-3);
 				CHECK(along < 1.001);
-				// Near the middle and the first sector's beginning an angle rounds round.
+				// Near the centre and the start of the first sector, rounding may wrap the angle.
 				CHECK((distance < 1e-3 || (around > -1e-3 && around < 1.001)));
 				CHECK(results[i].z == doctest::Approx(std::exp(-3 * distance / radius_px)));
 				along_sum += along;

@@ -47,7 +47,7 @@ void add_copy(RenderGraph &r_graph, RGTexture p_source, RGTexture p_target) {
 			});
 }
 
-/// A layer's first texel, read on the CPU; keeps everything before it alive.
+/// Reads the first texel of a layer on the CPU. The passes that it depends on are not culled.
 void add_read(RenderGraph &r_graph, RGTexture p_texture, float &r_value, uint32_t p_layer = 0) {
 	const glm::uvec2 size_px = r_graph.get_desc(p_texture).size_px;
 	const RGBuffer buffer = r_graph.create_buffer({ "readback", 4ull * size_px.x * size_px.y,
@@ -117,11 +117,11 @@ void check_chain(const FeatureList &p_denied) {
 
 } // namespace
 
-TEST_CASE("[GPU][RenderGraph] textures of a chain share memory, and the pool keeps it") {
+TEST_CASE("[GPU][RenderGraph] textures of a chain share memory, and the pool reuses it") {
 	check_chain({});
 }
 
-TEST_CASE("[GPU][RenderGraph] without aliased memory alike textures of a chain are one") {
+TEST_CASE("[GPU][RenderGraph] without aliased memory, equal textures of a chain are shared") {
 	check_chain({ &DeviceFeatures::aliased_memory });
 }
 

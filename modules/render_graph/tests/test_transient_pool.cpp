@@ -24,13 +24,13 @@ TEST_CASE("[TransientPool] blocks that live one after the other share their memo
 	CHECK(blocks[0].offset_bytes == blocks[1].offset_bytes);
 }
 
-TEST_CASE("[TransientPool] blocks that live at the same time do not, and offsets are aligned") {
+TEST_CASE("[TransientPool] blocks that live at the same time do not overlap and are aligned") {
 	std::vector<PlacedBlock> blocks = { { 100, 64, 0, 2 }, { 100, 64, 2, 3 } };
 	CHECK(place_blocks(blocks) == 228);
 	CHECK(blocks[1].offset_bytes % 64 == 0);
 }
 
-TEST_CASE("[TransientPool] no two of 200 random sets of blocks overlap") {
+TEST_CASE("[TransientPool] in 200 random sets, no blocks overlap in time and memory") {
 	std::mt19937 random(7);
 	const auto draw = [&](uint32_t p_limit) { return static_cast<uint32_t>(random() % p_limit); };
 	for (int set = 0; set < 200; ++set) {
@@ -53,7 +53,7 @@ TEST_CASE("[TransientPool] no two of 200 random sets of blocks overlap") {
 	}
 }
 
-TEST_CASE("[TransientPool] buffers alike that live one after the other are one, others are not") {
+TEST_CASE("[TransientPool] equal buffers that live one after the other are shared, no others") {
 	const auto request = [](uint32_t p_first, uint32_t p_last, const BufferDesc &p_desc) {
 		TransientRequest made;
 		made.is_texture = false;
@@ -66,7 +66,7 @@ TEST_CASE("[TransientPool] buffers alike that live one after the other are one, 
 	const BufferDesc alike = { "another name", 64 };
 	const BufferDesc large = { "large", 128 };
 	const BufferDesc mapped = { "mapped", 64, BufferUsage::STORAGE, MemoryKind::READBACK };
-	// In the order of their making, which is not that of their use.
+	// In the order of creation, which differs from the order of use.
 	const std::vector<TransientRequest> requests = { request(4, 5, small), request(0, 2, alike),
 		request(2, 3, small), request(3, 6, small), request(6, 7, large), request(0, 1, mapped),
 		request(2, 3, mapped), TransientRequest() };
@@ -85,7 +85,7 @@ TEST_CASE("[TransientPool] buffers alike that live one after the other are one, 
 	CHECK(owners[6] == 6);
 }
 
-TEST_CASE("[TransientPool] textures alike are one where memory has no aliases, others are not") {
+TEST_CASE("[TransientPool] without aliased memory, equal textures are shared, others are not") {
 	const auto request = [](uint32_t p_first, uint32_t p_last, const TextureDesc &p_desc) {
 		TransientRequest made;
 		made.texture = p_desc;

@@ -5,7 +5,7 @@
 namespace gnomon {
 
 /// Returns why the light was skipped; empty if it was not.
-inline std::string find_reason(const RenderResult &p_result, const std::string &p_light) {
+inline std::string find_skip_reason(const RenderResult &p_result, const std::string &p_light) {
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
 		if (entry.light == p_light && entry.pass == "light" && !entry.runs) {
 			return entry.reason;
@@ -14,12 +14,13 @@ inline std::string find_reason(const RenderResult &p_result, const std::string &
 	return "";
 }
 
-/// A spot of 46 degrees to each side, and the ground and the box in view of a camera above them.
+/// A scene with a second light, a spot light whose cone reaches 46 degrees from its axis. The
+/// camera looks down at the ground and the box.
 struct TwoLights {
 	SmallScene scene;
 	Light3D &second;
 	TwoLights() : second(scene.add_light("Second", LightType::SPOT, { 1, 3, 0 }, { 0, 0, 0 })) {}
-	void turn(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
+	void aim_second_light(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 		second.parent_from_node = look_at(p_from, p_to);
 	}
 };

@@ -3,7 +3,7 @@
 #include "modules/renderer/renderer.h"
 #include "modules/shadows/tests/mask_fixture.h"
 
-// A device and a renderer under validation, for the tests of the renderer.
+// A device with validation layers and a renderer, for the tests of the renderer.
 
 namespace gnomon {
 

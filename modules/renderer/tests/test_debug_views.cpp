@@ -1,4 +1,4 @@
-// The views of their work that techniques show, checked for each one that is registered.
+// Checks the debug views of every registered technique.
 
 #include "modules/core/error.h"
 #include "modules/renderer/tests/render_fixture.h"
@@ -12,7 +12,7 @@ TEST_CASE("[GPU][Techniques] every debug view can be shown, and an unknown one i
 	RenderFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		SmallScene scene;
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		RenderRequest request;
 		request.scene = scene.snap();
 		request.size_px = glm::uvec2(32);
@@ -39,7 +39,7 @@ TEST_CASE("[GPU][Techniques] debug views of maps show near and far for every typ
 	size_t shown_count = 0;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		RenderRequest request;
 		request.scene = scene.snap();
 		request.size_px = glm::uvec2(64);
@@ -58,7 +58,7 @@ TEST_CASE("[GPU][Techniques] debug views of maps show near and far for every typ
 		}
 		std::sort(reds.begin(), reds.end());
 		reds.erase(std::unique(reds.begin(), reds.end()), reds.end());
-		CHECK(reds.size() >= 3); // nothing, the plate and the ground, flat to a directional light
+		CHECK(reds.size() >= 3); // background, box, ground (one depth each for a directional light)
 		CHECK(reds.back() - reds.front() > 64);
 		++shown_count;
 	});

@@ -1,5 +1,4 @@
-// What a frame does not need is not run: checked for every technique that is registered; none is
-// named here.
+// Checks that passes that a frame does not need are skipped, for every registered technique.
 
 #include "modules/renderer/tests/lean_fixture.h"
 
@@ -9,13 +8,14 @@ using namespace gnomon;
 
 namespace {
 
-/// Draws the image with the rules and without them, which must be equal; returns the former.
+/// Draws the image with skipping and without, and checks that both are equal. Returns the result
+/// with skipping.
 RenderResult render_both(RenderFixture &r_fixture, const SmallScene &p_scene) {
 	const RenderResult lean = r_fixture.render_image(p_scene);
 	const RenderResult whole = r_fixture.render_image(p_scene, "", false);
 	CHECK(lean.image == whole.image);
 	for (const FramePlanEntry &entry : whole.plan.get_entries()) {
-		CHECK_FALSE((entry.pass == "light" && !entry.runs)); // the rule is off
+		CHECK_FALSE((entry.pass == "light" && !entry.runs)); // nothing is skipped
 	}
 	return lean;
 }
@@ -35,19 +35,19 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is skipped, the i
 	const Case cases[] = {
 		{ "a cone that points away from all that is seen", NOT_IN_CONE,
 				[](TwoLights &r_lights) {
-					r_lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
+					r_lights.aim_second_light({ 1, 3, 0 }, { 1.2, 9, 0 });
 				} },
 		{ "a cone that lights a wall outside the view", NOT_IN_CONE,
 				[](TwoLights &r_lights) {
 					add_mesh(r_lights.scene.scene, "Wall", make_box_mesh("wall", { 1, 1, 1 }),
 							{ 0, 0, 40 });
-					r_lights.turn({ 0, 0, 30 }, { 0, 0, 40 });
+					r_lights.aim_second_light({ 0, 0, 30 }, { 0, 0, 40 });
 				} },
 		{ "a range that ends above everything, in the middle of the view", NOT_IN_RANGE,
 				[](TwoLights &r_lights) {
 					r_lights.second.type = LightType::OMNI;
 					r_lights.second.range_m = 0.5f;
-					r_lights.turn({ 0, 2.2, 0 }, { 0, 0, 0.1 });
+					r_lights.aim_second_light({ 0, 2.2, 0 }, { 0, 0, 0.1 });
 				} },
 		{ "any light, where the camera sees the sky alone", "the camera sees no surface",
 				[](TwoLights &r_lights) {
@@ -61,11 +61,11 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is skipped, the i
 				[](TwoLights &r_lights) {
 					r_lights.second.type = LightType::OMNI;
 					r_lights.second.range_m = 0.75f; // to the box's upper side at 1.3 m
-					r_lights.turn({ 0, 2.0, 0 }, { 0, 0, 0.1 });
+					r_lights.aim_second_light({ 0, 2.0, 0 }, { 0, 0, 0.1 });
 				} },
 		{ "one behind the camera that lights the view", "",
 				[](TwoLights &r_lights) {
-					r_lights.turn({ -4.8, 7.2, 6.8 }, { 0, 0, 0 });
+					r_lights.aim_second_light({ -4.8, 7.2, 6.8 }, { 0, 0, 0 });
 				} },
 	};
 	for (const Case &one : cases) {
@@ -73,16 +73,16 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is skipped, the i
 		TwoLights lights;
 		one.change(lights);
 		const RenderResult lean = render_both(fixture, lights.scene);
-		CHECK(find_reason(lean, "Second") == one.reason);
+		CHECK(find_skip_reason(lean, "Second") == one.reason);
 		const bool has_wall = std::string(one.what).find("a wall outside") != std::string::npos;
 		CHECK((lean.plan.is_skipped("", "1 instances") || !has_wall));
 	}
 }
 
-TEST_CASE("[GPU][Lean] the light whose debug view is requested is drawn wherever it shines") {
+TEST_CASE("[GPU][Lean] the light whose debug view is requested is not skipped") {
 	RenderFixture fixture;
 	TwoLights lights;
-	lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
+	lights.aim_second_light({ 1, 3, 0 }, { 1.2, 9, 0 });
 	RenderRequest request;
 	request.scene = lights.scene.snap();
 	request.size_px = glm::uvec2(32);
@@ -90,7 +90,7 @@ TEST_CASE("[GPU][Lean] the light whose debug view is requested is drawn wherever
 	request.debug_view = "mask";
 	request.debug_light = "Second";
 	const RenderResult result = fixture.renderer->render(request);
-	CHECK(find_reason(result, "Second") == "");
+	CHECK(find_skip_reason(result, "Second") == "");
 	CHECK(std::count(result.debug_views.begin(), result.debug_views.end(), "mask") == 1);
 }
 
@@ -111,7 +111,8 @@ TEST_CASE("[GPU][Lean] the mask of a light that lights nothing in view runs no t
 	}
 }
 
-TEST_CASE("[GPU][Lean] views without receivers never change a mask, while the camera turns") {
+TEST_CASE("[GPU][Lean] skipping light views without receivers does not change a mask while the "
+		  "camera turns") {
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		if (info.is_reference) {
 			continue; // it draws no views
@@ -130,7 +131,7 @@ TEST_CASE("[GPU][Lean] views without receivers never change a mask, while the ca
 				scene.light->properties[property.name] = int64_t(2);
 			}
 		}
-		// Walls about the light, so that each view has casters and receivers of its own.
+		// Walls around the light, so that each light view has its own casters and receivers.
 		for (const double side : { -1.0, 1.0 }) {
 			add_mesh(scene.scene, "Wall x", make_box_mesh("x", { 0.1f, 2, 2 }), { 2 * side, 1, 0 });
 			add_mesh(scene.scene, "Wall z", make_box_mesh("z", { 2, 2, 0.1f }), { 0, 1, 2 * side });
@@ -140,7 +141,7 @@ TEST_CASE("[GPU][Lean] views without receivers never change a mask, while the ca
 			scene.camera->parent_from_node =
 					look_at({ 0, 1.2, 0 }, glm::dvec3(0, 1.2, 0) + towards);
 			scene.camera->vertical_fov_rad = 0.7f;
-			scene.light->parent_from_node[3].x += 0.01 * towards.y; // some frames differ, some not
+			scene.light->parent_from_node[3].x += 0.01 * towards.y; // moves a little each frame
 			const RenderResult lean = turning.render_mask(scene, info.id, glm::uvec2(48));
 			const RenderResult all = whole.render_mask(scene, info.id, glm::uvec2(48), false);
 			CHECK(count_receivers(lean) > 500);
@@ -149,7 +150,7 @@ TEST_CASE("[GPU][Lean] views without receivers never change a mask, while the ca
 	}
 }
 
-TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds the maps cached") {
+TEST_CASE("[GPU][Lean] maps stay cached while the camera looks away for a short time") {
 	for (const ShadowTechniqueInfo *info :
 			{ ShadowRegistry::find_fallback(), ShadowRegistry::find_default() }) {
 		CAPTURE(info->id);
@@ -180,11 +181,11 @@ TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds 
 			get_reason();
 		}
 		scene.camera->parent_from_node = towards;
-		CHECK(get_reason() == "drawn"); // after long what was cached is given back
+		CHECK(get_reason() == "drawn"); // unused for too many frames
 	}
 }
 
-TEST_CASE("[GPU][TranslucentCasters] the image behind glass is the same with everything run") {
+TEST_CASE("[GPU][TranslucentCasters] skipping does not change the image behind glass") {
 	RenderFixture fixture;
 	SmallScene scene;
 	const std::string id = ShadowRegistry::find_default()->id;

@@ -1,5 +1,5 @@
-// What a frame does not need is not compiled and not cached: checked for every technique that is
-// registered; none is named here.
+// Checks that what a frame does not need is neither compiled nor cached, for every registered
+// technique.
 
 #include "modules/core/error.h"
 #include "modules/core/module_registry.h"
@@ -14,6 +14,8 @@ using namespace gnomon;
 
 namespace {
 
+/// Disables the enabled modules that are not in p_requested and may be disabled. Appends their
+/// names to r_off.
 void disable_all_but(const std::vector<std::string> &p_requested, std::vector<std::string> &r_off) {
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		if (module.can_disable && module.is_enabled &&
@@ -27,7 +29,7 @@ void disable_all_but(const std::vector<std::string> &p_requested, std::vector<st
 	}
 }
 
-/// The module that registers the technique: the one without which it is gone.
+/// Returns the module that registers the technique: if it is disabled, the technique is gone.
 std::string find_module(const std::string &p_technique) {
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		if (!module.can_disable || !module.is_enabled) {
@@ -43,14 +45,14 @@ std::string find_module(const std::string &p_technique) {
 	fail("no module registers ", p_technique);
 }
 
-struct Used {
+struct ResourceUse {
 	uint32_t pipeline_count = 0;
 	uint64_t bytes = 0;
 	std::vector<std::string> resources;
-	bool operator==(const Used &) const = default;
+	bool operator==(const ResourceUse &) const = default;
 };
 
-Used measure_use(RenderingDevice &r_device) {
+ResourceUse measure_use(RenderingDevice &r_device) {
 	r_device.wait_idle();
 	r_device.begin_commands(); // collects what was freed
 	r_device.submit_commands(RenderingDevice::SubmitMode::WAIT);
@@ -73,21 +75,21 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 	};
 	for (const std::string &id : ids) {
 		if (ShadowRegistry::get(id).is_reference) {
-			continue; // rays: nothing on the device
+			continue; // it traces rays on the CPU and uses no GPU resources
 		}
 		CAPTURE(id);
-		const Used among_others = measure(id);
+		const ResourceUse among_others = measure(id);
 		std::vector<std::string> off;
 		disable_all_but({ find_module(id) }, off);
 		CHECK_FALSE(off.empty());
-		const Used alone = measure(id);
+		const ResourceUse alone = measure(id);
 		for (const std::string &name : off) {
 			ModuleRegistry::set_enabled(name, true);
 		}
 		CHECK(among_others == alone);
 		CHECK(among_others.pipeline_count > 0);
 	}
-	// Two techniques at work are more: what is counted above does show the difference.
+	// Check the measurement itself: two techniques in use need more pipelines than one.
 	RenderFixture fixture(DeviceChoice::NEW);
 	TwoLights lights;
 	const auto count_pipelines = [&](const std::string &p_second) {
@@ -103,21 +105,21 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 						  : ShadowRegistry::find_default()->id) > one);
 }
 
-TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
+TEST_CASE("[GPU][Lean] closing a scene frees all of its memory") {
 	RenderFixture fixture(DeviceChoice::NEW);
-	const Used without_frames = measure_use(*fixture.device);
+	const ResourceUse without_frames = measure_use(*fixture.device);
 	const size_t topology_count = get_cached_topology_count();
 	SmallScene empty;
 	empty.scene.root->children.pop_back(); // the light
 	empty.ground->surfaces.clear();
 	empty.box->surfaces.clear();
 	const auto render_empty = [&] {
-		for (int frame = 0; frame < 64; ++frame) { // what is cached for a while goes too
+		for (int frame = 0; frame < 64; ++frame) { // temporary caches expire too
 			fixture.render_image(empty);
 		}
 		return measure_use(*fixture.device);
 	};
-	const Used before = render_empty();
+	const ResourceUse before = render_empty();
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		if (info.is_reference) {
 			continue;
@@ -130,23 +132,23 @@ TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 			fixture.render_mask(scene, info.id);
 			CHECK(fixture.device->get_memory_use().used_bytes > before.bytes);
 		}
-		Used after = render_empty();
+		ResourceUse after = render_empty();
 		CHECK(after.bytes == before.bytes);
 		CHECK(after.resources == before.resources);
 		CHECK(get_cached_topology_count() <= topology_count);
 	}
 	fixture.renderer.reset();
-	const Used without_renderer = measure_use(*fixture.device);
+	const ResourceUse without_renderer = measure_use(*fixture.device);
 	CHECK(without_renderer.bytes == without_frames.bytes);
 	CHECK(without_renderer.resources == without_frames.resources);
 }
 
-TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, and not at once") {
+TEST_CASE("[GPU][Lean] the maps of a light out of view are freed after a while, not at once") {
 	RenderFixture fixture(DeviceChoice::NEW);
 	TwoLights lights;
 	const std::string id = ShadowRegistry::find_default()->id;
-	const Used without = [&] {
-		lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
+	const ResourceUse without = [&] {
+		lights.aim_second_light({ 1, 3, 0 }, { 1.2, 9, 0 });
 		for (int frame = 0; frame < 64; ++frame) {
 			fixture.render_image(lights.scene, id);
 		}
@@ -159,12 +161,12 @@ TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, an
 		});
 	};
 	CHECK_FALSE(has_own());
-	lights.turn({ 1, 3, 0 }, { 0, 0, 0 });
+	lights.aim_second_light({ 1, 3, 0 }, { 0, 0, 0 });
 	fixture.render_image(lights.scene, id);
 	CHECK(has_own());
-	lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
+	lights.aim_second_light({ 1, 3, 0 }, { 1.2, 9, 0 });
 	fixture.render_image(lights.scene, id);
-	CHECK(has_own()); // it may come back
+	CHECK(has_own()); // the light may come back into view
 	for (int frame = 0; frame < 64; ++frame) {
 		fixture.render_image(lights.scene, id);
 	}
@@ -172,8 +174,8 @@ TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, an
 	CHECK(measure_use(*fixture.device).bytes == without.bytes);
 }
 
-TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible do and hold what 4 do") {
-	const auto measure = [](int p_hidden_count, Used &r_used) {
+TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible need the work and memory of 4") {
+	const auto measure = [](int p_hidden_count, ResourceUse &r_used) {
 		RenderFixture fixture(DeviceChoice::NEW);
 		SmallScene scene;
 		for (int index = 1; index < 4; ++index) {
@@ -185,15 +187,16 @@ TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible do and hold what 4 do")
 			const glm::dvec3 position(3.0 * (index % 16) - 24, 4.0, 8.0 + index / 16);
 			Light3D &light = scene.add_light(text("Hidden ", index), types[index % 2], position,
 					position + glm::dvec3(0, 1, 0.1));
-			light.range_m = index % 2 ? 2.0f : 0.0f; // a spot points away, an omni light ends
+			// Spots point away from the scene, omni lights have a short range.
+			light.range_m = index % 2 ? 2.0f : 0.0f;
 		}
 		fixture.render_image(scene);
 		const RenderResult result = fixture.render_image(scene);
 		r_used = measure_use(*fixture.device);
 		return result;
 	};
-	Used of_many;
-	Used of_few;
+	ResourceUse of_many;
+	ResourceUse of_few;
 	const RenderResult many = measure(252, of_many);
 	const RenderResult few = measure(0, of_few);
 	CHECK(many.image == few.image);
@@ -204,6 +207,6 @@ TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible do and hold what 4 do")
 	CHECK(of_many == of_few);
 	CHECK(few.commands.dispatches > 4);
 	CHECK(few.commands.draws > 0);
-	CHECK(find_reason(many, "Hidden 0") != "");
-	CHECK(find_reason(many, "Visible 3") == "");
+	CHECK(find_skip_reason(many, "Hidden 0") != "");
+	CHECK(find_skip_reason(many, "Visible 3") == "");
 }

@@ -30,10 +30,10 @@ double compute_mean(const RenderResult &p_result) {
 
 } // namespace
 
-TEST_CASE("[GPU][Renderer] a light makes the image brighter, and its shadow darker again") {
+TEST_CASE("[GPU][Renderer] a light's shadow makes the image darker") {
 	RenderFixture fixture;
 	SmallScene scene;
-	// Any technique will do; which there are depends on the build.
+	// Any technique works; the available ones depend on the build.
 	const std::string any = ShadowRegistry::get_all().at(0).id;
 	scene.light->properties["shadow_enabled"] = false;
 	const RenderResult without_shadow = fixture.render_image(scene, any);
@@ -69,7 +69,7 @@ TEST_CASE(
 		request.size_px *= factor;
 		request.antialiasing = 1;
 		const std::vector<uint8_t> larger = fixture.renderer->render(request).image;
-		double greatest = 0;
+		double max_error = 0;
 		for (uint32_t byte = 0; byte < found.size(); ++byte) {
 			if (byte % 4 == 3) {
 				continue;
@@ -82,10 +82,10 @@ TEST_CASE(
 					sum += decode(larger[4 * (texel.y * 24 * factor + texel.x) + byte % 4]);
 				}
 			}
-			greatest = std::max(
-					greatest, std::abs(encode(sum / (factor * factor)) - double(found[byte])));
+			max_error = std::max(
+					max_error, std::abs(encode(sum / (factor * factor)) - double(found[byte])));
 		}
-		CHECK(greatest <= 1.5);
+		CHECK(max_error <= 1.5);
 	}
 	request.antialiasing = 4;
 	request.mask_light = scene.light->name;
@@ -94,8 +94,8 @@ TEST_CASE(
 	CHECK(fixture.renderer->render(request).visibility.size() == 24 * 20);
 	request.mask_light = "";
 	request.wants_mask = false;
-	for (const uint32_t odd : { 0u, 5u }) {
-		request.antialiasing = odd;
+	for (const uint32_t invalid_factor : { 0u, 5u }) {
+		request.antialiasing = invalid_factor;
 		CHECK_THROWS_WITH_AS(
 				fixture.renderer->render(request), doctest::Contains("must be 1..4"), Error);
 	}
@@ -105,7 +105,8 @@ TEST_CASE(
 			fixture.renderer->render(request), doctest::Contains("with antialiasing 4"), Error);
 }
 
-TEST_CASE("[GPU][Renderer] a light whose range ends before the view is skipped, unseen") {
+TEST_CASE("[GPU][Renderer] skipping a light whose range ends before the view does not change the "
+		  "image") {
 	RenderFixture fixture;
 	SmallScene scene;
 	Light3D &far_light = scene.add_light("Far", LightType::OMNI, { 0, 2, 500 }, { 0, 0, 500 });
@@ -118,7 +119,8 @@ TEST_CASE("[GPU][Renderer] a light whose range ends before the view is skipped, 
 	CHECK(lean.timings.size() < whole.timings.size());
 }
 
-TEST_CASE("[GPU][Renderer] scenes without lights, with many, and without meshes in view") {
+TEST_CASE(
+		"[GPU][Renderer] scenes without lights, with many, and without meshes in view are drawn") {
 	RenderFixture fixture;
 	SmallScene scene;
 	for (int index = 0; index < 64; ++index) {
@@ -151,7 +153,7 @@ TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that 
 	request.scene = scene.snap();
 	request.mask_light = "Other";
 	CHECK_THROWS_AS(fixture.renderer->render(request), Error);
-	CHECK(fixture.render_image(scene).image.size() == 64 * 64 * 4); // and goes on
+	CHECK(fixture.render_image(scene).image.size() == 64 * 64 * 4); // the renderer still works
 }
 
 TEST_CASE("[GPU][Renderer] a light whose technique is missing takes the fallback and warns once") {
@@ -169,7 +171,7 @@ TEST_CASE("[GPU][Renderer] a light whose technique is missing takes the fallback
 	CHECK(scene.light->properties.count("from_another_build_quality") == 1);
 }
 
-TEST_CASE("[GPU][Renderer] technique modules can be switched off and on while frames are drawn") {
+TEST_CASE("[GPU][Renderer] technique modules can be switched off and on between frames") {
 	RenderFixture fixture;
 	SmallScene scene;
 	const RenderResult before = fixture.render_image(scene);
@@ -217,7 +219,7 @@ TEST_CASE("[GPU][Renderer] a value out of range is reported once and its default
 	}
 }
 
-TEST_CASE("[GPU][Renderer] memory is given back when the scene's meshes are gone") {
+TEST_CASE("[GPU][Renderer] memory is freed when the scene's meshes are gone") {
 	RenderFixture fixture;
 	uint64_t used_bytes = 0;
 	for (int round = 0; round < 3; ++round) {
@@ -231,7 +233,7 @@ TEST_CASE("[GPU][Renderer] memory is given back when the scene's meshes are gone
 	}
 }
 
-TEST_CASE("[GPU][Renderer] mirrored and single-sided meshes show their lit sides") {
+TEST_CASE("[GPU][Renderer] a mirrored single-sided box has the same mask as the box") {
 	RenderFixture fixture;
 	SmallScene scene;
 	const RenderResult plain = fixture.render_mask(scene, "");
@@ -242,7 +244,7 @@ TEST_CASE("[GPU][Renderer] mirrored and single-sided meshes show their lit sides
 	CHECK(compute_mask_difference(plain, mirrored) < 1e-3);
 }
 
-TEST_CASE("[GPU][Renderer] surfaces are on the meshes and face the camera") {
+TEST_CASE("[GPU][Renderer] surfaces are within the bounds of the meshes and face the camera") {
 	RenderFixture fixture;
 	SmallScene scene;
 	RenderRequest request;
@@ -262,8 +264,8 @@ TEST_CASE("[GPU][Renderer] surfaces are on the meshes and face the camera") {
 	size_t count = 0;
 	for (size_t index = 0; index < result.surfaces.size(); ++index) {
 		const SurfacePoint &point = result.surfaces[index];
-		CHECK((point.is_there || result.receiver[index] == 0.0f));
-		if (!point.is_there) {
+		CHECK((point.is_valid || result.receiver[index] == 0.0f));
+		if (!point.is_valid) {
 			continue;
 		}
 		++count;
@@ -295,7 +297,7 @@ TEST_CASE("[GPU][Renderer] a mask's standard error is that of its technique") {
 	CHECK(fixture.render_mask(scene, ShadowRegistry::find_default()->id).standard_error == 0.0f);
 }
 
-TEST_CASE("[GPU][Renderer] without geometry shaders an image differs at edges only") {
+TEST_CASE("[GPU][Renderer] without geometry shaders less than 2 % of an image differs") {
 	RenderFixture fixture;
 	RenderFixture limited("", { &DeviceFeatures::geometry_shader });
 	SmallScene scene;

@@ -1,5 +1,5 @@
-// What each feature of textures and materials leaves in the G-buffer, against the same computed
-// here.
+// Compares what each texture and material feature writes to the G-buffer with values that are
+// computed here on the CPU.
 #include "modules/render_graph/read_back.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/tests/render_fixture.h"
@@ -45,7 +45,7 @@ int wrap(int p_texel, int p_count, TextureWrap p_wrap) {
 	return index < p_count ? index : period - 1 - index;
 }
 
-/// What a sampler reads of the first level: 0..1, colours linear.
+/// Samples the first mip level as a GPU sampler does. Values are 0..1, sRGB colours are linearised.
 glm::dvec4 sample(const Texture &p_texture, glm::dvec2 p_uv, bool p_is_srgb) {
 	const Image &image = *p_texture.image;
 	p_uv = glm::dmat3x2(p_texture.transform) * glm::dvec3(p_uv, 1.0);
@@ -67,11 +67,11 @@ glm::dvec4 sample(const Texture &p_texture, glm::dvec2 p_uv, bool p_is_srgb) {
 		return fetch(int(std::floor(position.x)), int(std::floor(position.y)));
 	}
 	const glm::dvec2 low = glm::floor(position - 0.5);
-	const glm::dvec2 share = position - 0.5 - low;
+	const glm::dvec2 fraction = position - 0.5 - low;
 	const int x = int(low.x);
 	const int y = int(low.y);
-	return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), share.x),
-			glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), share.x), share.y);
+	return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), fraction.x),
+			glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), fraction.x), fraction.y);
 }
 
 struct Texels {
@@ -101,8 +101,8 @@ struct Texels {
 	}
 };
 
-/// A square that fills the image of a camera, with coordinates from p_low at the top left to
-/// p_high at the bottom right.
+/// A square that fills the image of a camera, with texture coordinates from `low` at the top left
+/// to `high` at the bottom right.
 struct Square {
 	Material material;
 	MeshAttributes attributes;
@@ -116,9 +116,9 @@ struct Square {
 	}
 
 	glm::dvec2 get_uv(uint32_t p_pixel) const {
-		const glm::dvec2 share =
+		const glm::dvec2 fraction =
 				(glm::dvec2(p_pixel % SIZE_PX, p_pixel / SIZE_PX) + 0.5) / double(SIZE_PX);
-		return glm::mix(low, high, share);
+		return glm::mix(low, high, fraction);
 	}
 
 	Texels draw(RenderFixture &r_fixture) const {
@@ -166,24 +166,25 @@ struct Square {
 	}
 };
 
-/// Of all pixels: in steps of 1/255 of the sRGB-encoded value.
+/// Returns the largest error of all pixels, in units of 1/255 of the sRGB-encoded value.
 template <typename Expect>
 double find_base_color_error(const Texels &p_texels, const Expect &p_expect) {
-	double greatest = 0;
+	double max_error = 0;
 	for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 		const glm::dvec4 expected = p_expect(pixel);
 		const glm::dvec4 drawn = p_texels.get_base_color(pixel);
 		for (int channel = 0; channel < 3; ++channel) {
-			greatest = std::max(
-					greatest, std::abs(drawn[channel] - linear_to_srgb(expected[channel])) * 255);
+			max_error = std::max(
+					max_error, std::abs(drawn[channel] - linear_to_srgb(expected[channel])) * 255);
 		}
 	}
-	return greatest;
+	return max_error;
 }
 
-/// Interpolated texels have weights of 8 bits in many devices, and this many values for a texel.
-const double LINEAR_STEPS = 1.51;
-const double NEAREST_STEPS = 0.51;
+/// Tolerances in units of 1/255. Many devices interpolate texels with 8-bit weights, so that linear
+/// filtering needs a larger one.
+const double LINEAR_TOLERANCE = 1.51;
+const double NEAREST_TOLERANCE = 0.51;
 
 } // namespace
 
@@ -206,7 +207,7 @@ TEST_CASE("[GPU][Textures] a base colour is repeated, mirrored or clamped, inter
 				texture.is_magnified_nearest = is_nearest;
 				CHECK(find_base_color_error(square.draw(fixture), [&](uint32_t p_pixel) {
 					return sample(texture, square.get_uv(p_pixel), true);
-				}) <= (is_nearest ? NEAREST_STEPS : LINEAR_STEPS));
+				}) <= (is_nearest ? NEAREST_TOLERANCE : LINEAR_TOLERANCE));
 			}
 		}
 	}
@@ -229,22 +230,24 @@ TEST_CASE("[GPU][Textures] factor and vertex colours multiply the base colour") 
 		}
 		return glm::dvec4(color, 1.0);
 	};
-	CHECK(find_base_color_error(square.draw(fixture), expect) <= LINEAR_STEPS);
+	CHECK(find_base_color_error(square.draw(fixture), expect) <= LINEAR_TOLERANCE);
 	square.material.base_color_texture.image.reset(); // vertex colours alone
 	CHECK(find_base_color_error(square.draw(fixture), expect) <= 1);
 }
 
-TEST_CASE("[GPU][Textures] coordinates are scaled, turned and moved, the second set where "
-		  "requested") {
+TEST_CASE("[GPU][Textures] texture coordinates are scaled, rotated and moved, and the second set "
+		  "is used if requested") {
 	RenderFixture fixture;
 	Square square;
 	Texture &texture = square.material.base_color_texture;
 	texture.image = make_noise({ 5, 4 });
 	texture.is_magnified_nearest = true;
-	const double turn = 0.6;
-	texture.transform = glm::mat3x2(glm::dvec2(std::cos(turn), -std::sin(turn)) * 1.5,
-			glm::dvec2(std::sin(turn), std::cos(turn)) * 0.7, glm::dvec2(0.3, -0.2));
-	uint32_t wrong_count = 0; // at the borders of texels rounding decides
+	const double rotation_rad = 0.6;
+	texture.transform =
+			glm::mat3x2(glm::dvec2(std::cos(rotation_rad), -std::sin(rotation_rad)) * 1.5,
+					glm::dvec2(std::sin(rotation_rad), std::cos(rotation_rad)) * 0.7,
+					glm::dvec2(0.3, -0.2));
+	uint32_t wrong_count = 0; // at texel borders, where rounding decides
 	const Texels texels = square.draw(fixture);
 	for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 		const glm::dvec4 expected = sample(texture, square.get_uv(pixel), true);
@@ -259,7 +262,7 @@ TEST_CASE("[GPU][Textures] coordinates are scaled, turned and moved, the second 
 	square.attributes.uvs[1] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } };
 	CHECK(find_base_color_error(square.draw(fixture), [&](uint32_t p_pixel) {
 		return sample(texture, square.get_uv(p_pixel), true);
-	}) <= NEAREST_STEPS);
+	}) <= NEAREST_TOLERANCE);
 }
 
 TEST_CASE("[GPU][Textures] roughness is green, metal blue, occlusion red, emission a colour") {
@@ -280,40 +283,42 @@ TEST_CASE("[GPU][Textures] roughness is green, metal blue, occlusion red, emissi
 	for (const ShadingModel model : { ShadingModel::METALLIC_ROUGHNESS, ShadingModel::PHONG }) {
 		material.shading_model = model;
 		const Texels texels = square.draw(fixture);
-		double greatest = 0;
+		double max_error = 0;
 		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 			const glm::dvec2 uv = square.get_uv(pixel);
 			const glm::dvec4 surface = sample(material.metallic_roughness_texture, uv, false);
 			const glm::dvec4 drawn = texels.get_half(texels.material, pixel);
 			const double roughness = model == ShadingModel::PHONG ? -1 - drawn.z : drawn.z;
-			greatest = std::max({ greatest, std::abs(roughness - 0.5 * surface.y),
+			max_error = std::max({ max_error, std::abs(roughness - 0.5 * surface.y),
 					std::abs(drawn.w - 0.75 * surface.z) });
 			const double occlusion =
 					1 + 0.5 * (sample(material.occlusion_texture, uv, false).x - 1);
-			greatest = std::max(greatest, std::abs(texels.get_base_color(pixel).w - occlusion));
+			max_error = std::max(max_error, std::abs(texels.get_base_color(pixel).w - occlusion));
 			const glm::dvec4 emissive = sample(material.emissive_texture, uv, true);
 			const glm::dvec4 emitted = texels.get_half(texels.emissive, pixel);
 			for (int channel = 0; channel < 3; ++channel) {
-				greatest = std::max(greatest,
+				max_error = std::max(max_error,
 						std::abs(
 								emitted[channel] / material.emissive[channel] - emissive[channel]));
 			}
 		}
-		CHECK(greatest <= 1 / 255.0);
+		CHECK(max_error <= 1 / 255.0);
 	}
 }
 
-TEST_CASE("[GPU][Textures] a normal map turns normals, with the mesh's tangents or made ones") {
+TEST_CASE("[GPU][Textures] a normal map perturbs normals, with the mesh's tangents or generated "
+		  "ones") {
 	RenderFixture fixture;
 	Square square;
 	square.material.normal_texture.image = make_noise({ 4, 4 });
 	square.material.normal_texture.is_magnified_nearest = true;
 	square.material.normal_scale = 0.5f;
 	square.material.is_double_sided = true;
-	const auto find_error = [&](const glm::dvec3 &p_along, double p_side) {
+	// Returns the largest distance of a drawn normal from the expected one.
+	const auto find_error = [&](const glm::dvec3 &p_tangent, double p_bitangent_sign) {
 		const Texels texels = square.draw(fixture);
-		const glm::dvec3 across = glm::cross(glm::dvec3(0, 0, 1), p_along) * p_side;
-		double greatest = 0;
+		const glm::dvec3 bitangent = glm::cross(glm::dvec3(0, 0, 1), p_tangent) * p_bitangent_sign;
+		double max_error = 0;
 		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 			glm::dvec2 uv = square.get_uv(pixel);
 			if (square.world_from_node[0].x < 0) {
@@ -321,23 +326,25 @@ TEST_CASE("[GPU][Textures] a normal map turns normals, with the mesh's tangents 
 			}
 			const glm::dvec3 map =
 					glm::dvec3(sample(square.material.normal_texture, uv, false)) * 2.0 - 1.0;
-			const glm::dvec3 expected = glm::normalize(
-					p_along * (map.x * 0.5) + across * (map.y * 0.5) + glm::dvec3(0, 0, map.z));
-			greatest = std::max(
-					greatest, glm::distance(expected, glm::dvec3(texels.get_normal(pixel))));
+			const glm::dvec3 expected = glm::normalize(p_tangent * (map.x * 0.5) +
+					bitangent * (map.y * 0.5) + glm::dvec3(0, 0, map.z));
+			max_error = std::max(
+					max_error, glm::distance(expected, glm::dvec3(texels.get_normal(pixel))));
 		}
-		return greatest;
+		return max_error;
 	};
-	const double STEPS = 2e-4;
-	CHECK(find_error({ 1, 0, 0 }, 1) <= STEPS); // x along u, y against v, which grows downwards
+	const double NORMAL_TOLERANCE = 2e-4;
+	CHECK(find_error({ 1, 0, 0 }, 1) <=
+			NORMAL_TOLERANCE); // x along u; y against v, which grows downwards
 	square.attributes.tangents.assign(4, glm::vec4(0, 1, 0, -1));
-	CHECK(find_error({ 0, 1, 0 }, -1) <= STEPS);
+	CHECK(find_error({ 0, 1, 0 }, -1) <= NORMAL_TOLERANCE);
 	square.attributes.tangents.clear();
-	square.world_from_node[0].x = -1; // mirrored: x along u still, which grows to the left
-	CHECK(find_error({ -1, 0, 0 }, -1) <= STEPS);
+	square.world_from_node[0].x = -1; // mirrored: x is still along u, which grows to the left
+	CHECK(find_error({ -1, 0, 0 }, -1) <= NORMAL_TOLERANCE);
 }
 
-TEST_CASE("[GPU][Textures] what is cut out is not drawn, what is whole keeps its alpha unseen") {
+TEST_CASE("[GPU][Textures] pixels below the alpha cutoff are not drawn, opaque materials ignore "
+		  "alpha") {
 	RenderFixture fixture;
 	Square square;
 	square.material.base_color_texture.image = make_noise({ 8, 8 });
@@ -351,18 +358,18 @@ TEST_CASE("[GPU][Textures] what is cut out is not drawn, what is whole keeps its
 		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 			const double alpha =
 					0.8 * sample(square.material.base_color_texture, square.get_uv(pixel), true).w;
-			const bool is_there = mode == AlphaMode::OPAQUE || alpha >= 0.4;
+			const bool is_expected = mode == AlphaMode::OPAQUE || alpha >= 0.4;
 			const bool is_seen = texels.get_depth(pixel) > 0;
 			seen_count += is_seen;
-			wrong_count += is_seen != is_there && std::abs(alpha - 0.4) > 1 / 255.0;
+			wrong_count += is_seen != is_expected && std::abs(alpha - 0.4) > 1 / 255.0;
 		}
 		CHECK(wrong_count == 0);
 		CHECK((seen_count == SIZE_PX * SIZE_PX) == (mode == AlphaMode::OPAQUE));
 	}
 }
 
-TEST_CASE("[Textures] each level of detail has the mean light of what it covers") {
-	// Black and white: the mean light is 0.5, which is 188 as sRGB, and as a number 128.
+TEST_CASE("[Textures] each mip level has the mean light of the texels that it covers") {
+	// Black and white: the mean light is 0.5, which is 188 in sRGB and 128 in linear encoding.
 	std::vector<uint8_t> texels;
 	for (uint32_t index = 0; index < 64; ++index) {
 		const uint8_t value = (index + index / 8) % 2 == 0 ? 0 : 255;
@@ -389,7 +396,7 @@ TEST_CASE("[Textures] each level of detail has the mean light of what it covers"
 		mean += odd->texels[index * 4] / 35.0;
 	}
 	CHECK(std::abs(levels[levels.size() - 4] - mean) <= 2);
-	// Colours that are not seen do not bleed into those that are.
+	// Colours of transparent texels do not bleed into opaque ones.
 	const auto leaf = make_image("leaf", { 2, 1 }, { 0, 255, 0, 255, 255, 0, 0, 0 });
 	levels = make_mip_levels(*leaf, true, level_count);
 	CHECK(levels[8] == 0);
@@ -397,11 +404,11 @@ TEST_CASE("[Textures] each level of detail has the mean light of what it covers"
 	CHECK(levels[11] == 128);
 }
 
-TEST_CASE("[GPU][Textures] a texture far away is its mean, or its first level where it has no "
-		  "other") {
+TEST_CASE("[GPU][Textures] a minified texture shows its mean, or texels of its first level without "
+		  "mip levels") {
 	RenderFixture fixture;
 	Square square;
-	square.high = { 256, 256 }; // 4 images a pixel
+	square.high = { 256, 256 }; // 4 repetitions per pixel along each axis
 	Texture &texture = square.material.base_color_texture;
 	texture.image = make_image("stripes", { 2, 1 }, { 0, 0, 0, 255, 255, 255, 255, 255 });
 	CHECK(find_base_color_error(square.draw(fixture), [](uint32_t) { return glm::dvec4(0.5); }) <=
@@ -415,26 +422,26 @@ TEST_CASE("[GPU][Textures] a texture far away is its mean, or its first level wh
 	}
 }
 
-TEST_CASE("[GPU][Textures] what no material shows any more is freed") {
+TEST_CASE("[GPU][Textures] textures of images that no longer exist are freed") {
 	RenderFixture fixture;
 	MaterialStore store(*fixture.device);
 	auto image = make_noise({ 16, 16 });
-	Material looks;
-	looks.base_color_texture.image = image;
-	looks.emissive_texture.image = image; // one texture for both
-	looks.occlusion_texture.image = image;
-	auto first = std::make_shared<const Material>(looks);
-	auto second = std::make_shared<const Material>(looks);
+	Material source_material;
+	source_material.base_color_texture.image = image;
+	source_material.emissive_texture.image = image; // one texture for both
+	source_material.occlusion_texture.image = image;
+	auto first = std::make_shared<const Material>(source_material);
+	auto second = std::make_shared<const Material>(source_material);
 	store.get(first);
 	const uint64_t with_one = fixture.device->get_memory_use().used_bytes;
 	store.get(second);
-	CHECK(store.get_texture_count() == 2); // sRGB, and numbers
+	CHECK(store.get_texture_count() == 2); // one as sRGB, one as linear values
 	CHECK(fixture.device->get_memory_use().used_bytes - with_one < 1024);
 	first.reset();
 	second.reset();
-	looks = Material();
+	source_material = Material();
 	store.collect_garbage();
-	CHECK(store.get_texture_count() == 2); // the image is still held
+	CHECK(store.get_texture_count() == 2); // the image is still referenced
 	image.reset();
 	store.collect_garbage();
 	CHECK(store.get_texture_count() == 0);

@@ -1,5 +1,5 @@
 #version 460
-// For the tests of the device: one binding of every kind that the device knows, in one shader.
+// For the tests of the device: one binding of each kind except storage buffers, which scale.comp has.
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 1) in;
 layout(set = 0, binding = 0) uniform Constants { uvec4 constants; };
 layout(set = 0, binding = 1) uniform usamplerBuffer texel_values;

@@ -33,7 +33,7 @@ struct CaughtLog {
 	}
 };
 
-/// A device under validation with short ways to move data.
+/// A device with validation layers, and helpers to create buffers and read results.
 struct DeviceFixture {
 	TemporaryCache cache;
 	std::unique_ptr<RenderingDevice> device;
@@ -67,7 +67,7 @@ struct DeviceFixture {
 		return values;
 	}
 
-	/// The content of a texture whose last access is given.
+	/// Reads a layer of a texture. p_before: its last access.
 	template <typename T>
 	std::vector<T> read_texture(TextureRID p_texture, Access p_before, uint32_t p_layer = 0) {
 		const TextureDesc desc = device->get_desc(p_texture);
@@ -85,7 +85,7 @@ struct DeviceFixture {
 	}
 };
 
-/// The message of the Error that the call throws, or empty.
+/// Returns the message of the Error that the call throws; empty if it throws none.
 template <typename Call> std::string catch_error(const Call &p_call) {
 	try {
 		p_call();

@@ -9,10 +9,10 @@ namespace gnomon {
 
 namespace {
 
-std::vector<std::unique_ptr<RenderingDevice>> waiting;
+std::vector<std::unique_ptr<RenderingDevice>> idle_devices;
 
-/// Nothing is left on it, and it still works.
-bool is_sound(RenderingDevice &r_device) {
+/// Returns whether the device still works and has no live resources.
+bool is_reusable(RenderingDevice &r_device) {
 	try {
 		r_device.abandon_commands();
 		r_device.wait_idle();
@@ -26,19 +26,19 @@ bool is_sound(RenderingDevice &r_device) {
 
 } // namespace
 
-void DeviceReturn::operator()(RenderingDevice *p_device) const {
+void TestDeviceDeleter::operator()(RenderingDevice *p_device) const {
 	std::unique_ptr<RenderingDevice> device(p_device);
-	if (device && is_shared && is_sound(*device)) {
-		waiting.push_back(std::move(device));
+	if (device && is_shared && is_reusable(*device)) {
+		idle_devices.push_back(std::move(device));
 	}
 }
 
 TestDevice create_test_device(
 		DeviceChoice p_choice, const std::string &p_device, const FeatureList &p_denied) {
 	const bool is_shared = p_choice == DeviceChoice::ANY && p_device.empty() && p_denied.empty();
-	if (is_shared && !waiting.empty()) {
-		std::unique_ptr<RenderingDevice> device = std::move(waiting.back());
-		waiting.pop_back();
+	if (is_shared && !idle_devices.empty()) {
+		std::unique_ptr<RenderingDevice> device = std::move(idle_devices.back());
+		idle_devices.pop_back();
 		return TestDevice(device.release(), { true });
 	}
 	DeviceOptions options;
@@ -49,7 +49,7 @@ TestDevice create_test_device(
 }
 
 void close_test_devices() {
-	waiting.clear();
+	idle_devices.clear();
 }
 
 } // namespace gnomon

@@ -22,8 +22,7 @@ PipelineRID get_scale_pipeline(RenderingDevice &r_device, uint32_t p_local_size 
 
 } // namespace
 
-TEST_CASE(
-		"[GPU][RenderingDevice] a compute pass reads what was uploaded and its result comes back") {
+TEST_CASE("[GPU][RenderingDevice] a compute pass reads uploaded data and its result can be read") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	std::vector<uint32_t> values(1000);
@@ -61,7 +60,8 @@ TEST_CASE(
 	CHECK(get_pipeline_count(device) == pipeline_count + 2);
 }
 
-TEST_CASE("[GPU][RenderingDevice] an upload made while commands are recorded is there for them") {
+TEST_CASE("[GPU][RenderingDevice] an upload made during recording is visible to the recorded "
+		  "commands") {
 	DeviceFixture fixture;
 	const OwnedBuffer readback = fixture.make_readback(16);
 	CommandList &commands = fixture.device->begin_commands();
@@ -72,7 +72,7 @@ TEST_CASE("[GPU][RenderingDevice] an upload made while commands are recorded is 
 	CHECK(fixture.read<uint32_t>(readback, 4) == std::vector<uint32_t>{ 1, 2, 3, 4 });
 }
 
-TEST_CASE("[GPU][RenderingDevice] an upload larger than the staging limit arrives whole") {
+TEST_CASE("[GPU][RenderingDevice] an upload larger than the staging limit arrives completely") {
 	DeviceFixture fixture;
 	std::vector<uint32_t> values(18u << 20); // 72 MiB, staged in two parts
 	for (uint32_t index = 0; index < values.size(); ++index) {
@@ -94,8 +94,7 @@ TEST_CASE("[GPU][RenderingDevice] an upload larger than the staging limit arrive
 	CHECK(get_validation_message_count() == 0);
 }
 
-TEST_CASE(
-		"[GPU][RenderingDevice] a resource freed before its upload ran takes the upload with it") {
+TEST_CASE("[GPU][RenderingDevice] freeing a resource before its upload ran cancels the upload") {
 	DeviceFixture fixture;
 	const uint64_t used_before = fixture.device->get_memory_use().used_bytes;
 	fixture.make_buffer("short-lived", std::vector<uint32_t>(1000));
@@ -104,12 +103,12 @@ TEST_CASE(
 	fixture.device->submit_commands(SubmitMode::WAIT);
 }
 
-TEST_CASE("[GPU][RenderingDevice] textures of every format keep their texels") {
+TEST_CASE("[GPU][RenderingDevice] textures of every format that can be copied keep their texels") {
 	DeviceFixture fixture;
 	for (int index = 0; index <= static_cast<int>(Format::D32_SFLOAT); ++index) {
 		const Format format = static_cast<Format>(index);
 		CAPTURE(get_format_name(format));
-		// 5 x 3 texels: rows of odd length. Halves and floats of small bytes are finite numbers.
+		// 5 x 3 texels: rows of odd length. Bytes below 60 give finite halves and floats.
 		std::vector<uint8_t> bytes(15 * get_texel_size_bytes(format));
 		for (size_t byte = 0; byte < bytes.size(); ++byte) {
 			bytes[byte] = static_cast<uint8_t>(byte % 60);
@@ -125,7 +124,7 @@ TEST_CASE("[GPU][RenderingDevice] textures of every format keep their texels") {
 	}
 }
 
-TEST_CASE("[GPU][RenderingDevice] every kind of binding reaches the shader") {
+TEST_CASE("[GPU][RenderingDevice] uniform, texel, texture and sampler bindings reach the shader") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer constants = fixture.make_buffer(
@@ -300,11 +299,11 @@ TEST_CASE("[GPU][RenderingDevice] fragments can be counted without any target") 
 	commands.copy_buffer(count.get(), readback.get(), 4);
 	device.submit_commands(SubmitMode::WAIT);
 	const uint32_t found = fixture.read<uint32_t>(readback, 1)[0];
-	CHECK(found >= 120); // half of 256 texels, the diagonal to one side
+	CHECK(found >= 120); // half of 256 texels, with or without the diagonal
 	CHECK(found <= 136);
 }
 
-TEST_CASE("[GPU][RenderingDevice] copies and clears give what they specify") {
+TEST_CASE("[GPU][RenderingDevice] cleared and copied textures have the cleared value") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const TextureDesc desc = { .name = "target",

@@ -7,7 +7,7 @@ using SubmitMode = RenderingDevice::SubmitMode;
 
 namespace {
 
-/// A buffer of one word, and what came back of it.
+/// A buffer of one word, and the words that were read back from it.
 struct ReadBackFixture : DeviceFixture {
 	OwnedBuffer source;
 	std::vector<uint32_t> words;
@@ -29,7 +29,7 @@ struct ReadBackFixture : DeviceFixture {
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] what is read back arrives once, when its submission has ended") {
+TEST_CASE("[GPU][RenderingDevice] a read-back arrives once, after its submission has finished") {
 	ReadBackFixture fixture(7);
 	fixture.record();
 	CHECK(fixture.words.empty());

@@ -29,6 +29,7 @@ TEST_CASE("[SpirvReflection] each kind of resource is recognised") {
 	}
 	CHECK(shader.local_size == glm::uvec3(8, 4, 1));
 	CHECK(shader.push_constant_bytes == 0);
+	CHECK(reflect("tests/scale.comp").bindings.at(0).kind == ResourceKind::STORAGE_BUFFER);
 }
 
 TEST_CASE("[SpirvReflection] the local size follows its specialization constant") {
@@ -37,7 +38,7 @@ TEST_CASE("[SpirvReflection] the local size follows its specialization constant"
 	CHECK(reflect("tests/scale.comp").push_constant_bytes == 8);
 }
 
-TEST_CASE("[SpirvReflection] what is declared and never touched is distinguished") {
+TEST_CASE("[SpirvReflection] a binding that is declared but not accessed is marked as unused") {
 	const ReflectedShader shader = reflect("tests/unused_binding.comp");
 	REQUIRE(shader.bindings.size() == 3);
 	for (const ReflectedBinding &binding : shader.bindings) {
@@ -45,7 +46,7 @@ TEST_CASE("[SpirvReflection] what is declared and never touched is distinguished
 	}
 }
 
-TEST_CASE("[SpirvReflection] words that are no SPIR-V are an error that names the shader") {
+TEST_CASE("[SpirvReflection] words that are not SPIR-V are an error that names the shader") {
 	const std::vector<uint32_t> words(16, 1);
 	CHECK_THROWS_WITH_AS(reflect_spirv("a.comp", words, {}),
 			"Shader \"a.comp\" holds no SPIR-V. Build it again.", Error);

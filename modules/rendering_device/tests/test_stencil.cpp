@@ -10,14 +10,14 @@ using SubmitMode = RenderingDevice::SubmitMode;
 namespace {
 
 const uint32_t SIDE_PX = 8;
-const float FAR = 0.75f; // of what is there before anything is counted; TRIANGLE is nearer
+const float CLEAR_DEPTH = 0.75f; // clear value; TRIANGLE is nearer, at 0.25
 
-/// Triangles that count into a stencil, then one that is drawn where the count is not 0.
+/// Draws triangles that count in a stencil buffer, then one where the count is not 0.
 struct StencilFixture : DeviceFixture {
 	OwnedTexture color, depth;
 	OwnedBuffer vertices;
 
-	StencilFixture() {
+	explicit StencilFixture(const FeatureList &p_denied = {}) : DeviceFixture({}, p_denied) {
 		color = OwnedTexture(*device,
 				device->create_texture({ .name = "color",
 						.size_px = glm::uvec2(SIDE_PX),
@@ -39,10 +39,11 @@ struct StencilFixture : DeviceFixture {
 		return desc;
 	}
 
-	/// Texels that are drawn after the triangle was counted so often with that pipeline, wound
-	/// both ways when requested.
+	/// Draws the triangle p_times with the counting pipeline, and if p_with_mirrored also p_times
+	/// with the opposite winding. Then draws it where the stencil is not 0 and returns the number
+	/// of texels. p_reference: stencil reference of the counting pipelines.
 	size_t count_drawn(const RasterPipelineDesc &p_counting, uint32_t p_times,
-			bool p_is_turned = false, uint32_t p_reference = 0) {
+			bool p_with_mirrored = false, uint32_t p_reference = 0) {
 		RasterPipelineDesc counting = p_counting;
 		counting.stencil.reference = p_reference;
 		const StencilFace not_zero = { CompareOp::NOT_EQUAL, StencilOp::KEEP, StencilOp::KEEP,
@@ -50,19 +51,19 @@ struct StencilFixture : DeviceFixture {
 		RasterPipelineDesc drawing = make_desc("drawing", { not_zero, not_zero });
 		const PipelineRID count_pipeline = device->get_raster_pipeline(counting);
 		counting.winding = Winding::MIRRORED;
-		const PipelineRID turned_pipeline = device->get_raster_pipeline(counting);
+		const PipelineRID mirrored_pipeline = device->get_raster_pipeline(counting);
 		const PipelineRID draw_pipeline = device->get_raster_pipeline(drawing);
 		CommandList &commands = device->begin_commands();
 		const Barrier before[] = { { .texture = color.get(), .after = Access::COLOR_WRITE },
 			{ .texture = depth.get(), .after = Access::DEPTH_WRITE } };
 		commands.barriers(before);
 		const ColorTarget color_target = { color.get() };
-		const DepthTarget depth_target = { .texture = depth.get(), .clear = FAR };
+		const DepthTarget depth_target = { .texture = depth.get(), .clear = CLEAR_DEPTH };
 		commands.begin_rendering({ &color_target, 1 }, &depth_target);
 		for (uint32_t time = 0; time < p_times; ++time) {
 			draw_triangle(commands, count_pipeline, vertices.get());
-			if (p_is_turned) {
-				draw_triangle(commands, turned_pipeline, vertices.get());
+			if (p_with_mirrored) {
+				draw_triangle(commands, mirrored_pipeline, vertices.get());
 			}
 		}
 		commands.end_rendering();
@@ -87,7 +88,7 @@ StencilTest make_passing(StencilOp p_front, StencilOp p_back) {
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] a stencil counts, wraps at 256 and is drawn by") {
+TEST_CASE("[GPU][RenderingDevice] a stencil counts, wraps at 256 and masks later draws") {
 	StencilFixture fixture;
 	const RasterPipelineDesc counting = fixture.make_desc(
 			"counting", make_passing(StencilOp::INCREMENT_WRAP, StencilOp::INCREMENT_WRAP));
@@ -99,7 +100,7 @@ TEST_CASE("[GPU][RenderingDevice] a stencil counts, wraps at 256 and is drawn by
 	CHECK(fixture.count_drawn(counting, 256) == 0);
 }
 
-TEST_CASE("[GPU][RenderingDevice] front and back count apart") {
+TEST_CASE("[GPU][RenderingDevice] front and back faces have their own stencil operations") {
 	StencilFixture fixture;
 	const RasterPipelineDesc both = fixture.make_desc("front up, back down",
 			make_passing(StencilOp::INCREMENT_WRAP, StencilOp::DECREMENT_WRAP));
@@ -107,7 +108,8 @@ TEST_CASE("[GPU][RenderingDevice] front and back count apart") {
 	CHECK(fixture.count_drawn(both, 3, true) == 0); // once each way
 }
 
-TEST_CASE("[GPU][RenderingDevice] the reference is what is written and compared with") {
+TEST_CASE("[GPU][RenderingDevice] the stencil reference is written by REPLACE and used in "
+		  "comparisons") {
 	StencilFixture fixture;
 	const RasterPipelineDesc writing =
 			fixture.make_desc("writing", make_passing(StencilOp::REPLACE, StencilOp::REPLACE));
@@ -120,7 +122,8 @@ TEST_CASE("[GPU][RenderingDevice] the reference is what is written and compared 
 	CHECK(fixture.count_drawn(comparing, 1, false, 1) == 0);
 }
 
-TEST_CASE("[GPU][RenderingDevice] what fails the depth test has an operation of its own") {
+TEST_CASE(
+		"[GPU][RenderingDevice] fragments that fail the depth test use the depth_fail operation") {
 	StencilFixture fixture;
 	StencilTest test;
 	test.front.depth_fail = test.back.depth_fail = StencilOp::INCREMENT_WRAP;
@@ -130,17 +133,23 @@ TEST_CASE("[GPU][RenderingDevice] what fails the depth test has an operation of 
 	CHECK(fixture.count_drawn(failing, 1) != 0);
 }
 
-TEST_CASE("[GPU][RenderingDevice] depth bounds cull what is elsewhere, or are refused") {
+TEST_CASE("[GPU][RenderingDevice] a pipeline with depth bounds draws within the default ones, and "
+		  "is refused if the device has none") {
 	StencilFixture fixture;
 	RasterPipelineDesc bounded = fixture.make_desc(
 			"bounded", make_passing(StencilOp::INCREMENT_WRAP, StencilOp::INCREMENT_WRAP));
 	bounded.has_depth_bounds = true;
 	if (fixture.device->get_features().depth_bounds) {
-		CHECK(fixture.count_drawn(bounded, 1) != 0); // 0 to 1
+		CHECK(fixture.count_drawn(bounded, 1) != 0); // the default bounds are 0 to 1
 	} else {
 		CHECK(contains(catch_error([&] { fixture.device->get_raster_pipeline(bounded); }),
 				"needs depth bounds"));
 	}
-	const DeviceFixture limited({}, { &DeviceFeatures::depth_bounds });
+	StencilFixture limited({ &DeviceFeatures::depth_bounds });
 	CHECK_FALSE(limited.device->get_features().depth_bounds);
+	RasterPipelineDesc refused = limited.make_desc(
+			"bounded", make_passing(StencilOp::INCREMENT_WRAP, StencilOp::INCREMENT_WRAP));
+	refused.has_depth_bounds = true;
+	CHECK(contains(catch_error([&] { limited.device->get_raster_pipeline(refused); }),
+			"needs depth bounds"));
 }

@@ -17,9 +17,9 @@ void release_injected_hang(RenderingDevice &r_device);
 std::vector<std::string> list_live_resources(RenderingDevice &r_device);
 uint32_t get_pipeline_count(RenderingDevice &r_device);
 
-/// While it lives, validation messages are collected here and neither counted nor logged. Only for
-/// tests that make an error on purpose, to see that the layers notice it. The innermost one
-/// collects.
+/// Collects validation messages during its lifetime; they are neither counted nor logged. Only for
+/// tests that cause an error on purpose, to check that the layers report it. If several exist, the
+/// one that was created last collects.
 class ExpectedValidationMessages {
 public:
 	ExpectedValidationMessages();

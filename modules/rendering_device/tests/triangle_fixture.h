@@ -2,11 +2,11 @@
 
 #include "modules/rendering_device/tests/device_fixture.h"
 
-// One triangle and what it is drawn into.
+// One triangle, and the targets that it is drawn into.
 
 namespace gnomon {
 
-/// Covers the lower left half of the view, at depth 0.25.
+/// Covers the upper left half of the image, at depth 0.25.
 inline const std::vector<float> TRIANGLE = { -1, -1, 0.25f, -1, 1, 0.25f, 1, -1, 0.25f };
 
 struct TriangleTargets {

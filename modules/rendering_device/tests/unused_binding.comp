@@ -1,5 +1,5 @@
 #version 460
-// For the tests of reflection and of replaced shaders: as scale.comp, with a binding that is declared and never used.
+// For the tests of reflection and of replaced shaders: like scale.comp, with a binding that is declared but not used.
 layout(local_size_x = 64, local_size_x_id = 0, local_size_y = 1, local_size_z = 1) in;
 layout(constant_id = 0) const uint LOCAL_SIZE = 64;
 layout(constant_id = 1) const uint FACTOR = 2;

@@ -16,7 +16,7 @@ GodotDevice &get_godot_device(RenderingDevice &r_device) {
 } // namespace
 
 void inject_fault(RenderingDevice &, const std::string &) {
-	fail("Nothing can be made to fail in a device of Godot.");
+	fail("Faults cannot be injected into a device of Godot.");
 }
 
 void release_injected_hang(RenderingDevice &) {}
@@ -31,7 +31,7 @@ uint32_t get_pipeline_count(RenderingDevice &r_device) {
 	return get_godot_device(r_device).get_pipeline_count();
 }
 
-// Godot logs its messages, where the test runner looks for them.
+// Godot logs validation messages; the test runner searches the log for them.
 ExpectedValidationMessages::ExpectedValidationMessages() = default;
 ExpectedValidationMessages::~ExpectedValidationMessages() = default;
 

@@ -28,7 +28,7 @@ TEST_CASE("[Access] a discarded texture waits for the earlier users of its memor
 	CHECK(dependency.source_access == VK_ACCESS_2_SHADER_WRITE_BIT);
 }
 
-TEST_CASE("[Access] what the interface calls a write is one in Vulkan") {
+TEST_CASE("[Access] is_write is true exactly for accesses with Vulkan write flags") {
 	for (int index = 0; index <= static_cast<int>(Access::PRESENT); ++index) {
 		CAPTURE(index);
 		const Access access = static_cast<Access>(index);

@@ -21,7 +21,7 @@ std::vector<PhysicalDevice> make_devices() {
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] the listed devices have names, and the first usable one is "
+TEST_CASE("[GPU][RenderingDevice] the listed devices have names, and a usable one of them is "
 		  "created") {
 	const std::vector<DeviceInfo> infos = find_rendering_devices();
 	REQUIRE_FALSE(infos.empty());
@@ -38,8 +38,7 @@ TEST_CASE("[GPU][RenderingDevice] the listed devices have names, and the first u
 	CHECK(fixture.device->get_features().timestamps);
 }
 
-TEST_CASE("[GPU][RenderingDevice] without a wish, a discrete device is better than an integrated "
-		  "one") {
+TEST_CASE("[GPU][RenderingDevice] by default the best type is chosen: discrete first, CPU last") {
 	std::vector<PhysicalDevice> devices = make_devices();
 	CHECK(choose_device(devices, "").info.index == 2);
 	devices[2].info.is_usable = false;
@@ -50,15 +49,15 @@ TEST_CASE("[GPU][RenderingDevice] without a wish, a discrete device is better th
 	CHECK(choose_device(devices, "").info.index == 0);
 }
 
-TEST_CASE("[GPU][RenderingDevice] a device is named by index or by part of its name in any case") {
+TEST_CASE("[GPU][RenderingDevice] a device is chosen by index or by part of its name in any case") {
 	const std::vector<PhysicalDevice> devices = make_devices();
 	CHECK(choose_device(devices, "3").info.index == 3);
 	CHECK(choose_device(devices, "INTEGRATED").info.index == 1);
 	CHECK(choose_device(devices, "maker").info.index == 0);
 }
 
-TEST_CASE("[GPU][RenderingDevice] an unknown or unusable device is an error that lists those there "
-		  "are") {
+TEST_CASE(
+		"[GPU][RenderingDevice] an unknown or unusable device is an error that lists the devices") {
 	std::vector<PhysicalDevice> devices = make_devices();
 	const std::string unknown = catch_error([&] { choose_device(devices, "radeon"); });
 	CHECK(contains(unknown, "\"radeon\""));
@@ -79,20 +78,20 @@ TEST_CASE(
 	CHECK(contains(error, "VK_GNOMON_imaginary"));
 }
 
-TEST_CASE("[GPU][RenderingDevice] a device denies the features that it is to lack") {
+TEST_CASE("[GPU][RenderingDevice] denied features are reported as absent") {
 	const DeviceFixture fixture({},
 			{ &DeviceFeatures::geometry_shader, &DeviceFeatures::aliased_memory,
-					&DeviceFeatures::depth_bounds, &DeviceFeatures::storage_texel_buffers,
+					&DeviceFeatures::depth_bounds, &DeviceFeatures::storage_and_texel_buffers,
 					&DeviceFeatures::conditional_rendering });
 	const DeviceFeatures &features = fixture.device->get_features();
 	CHECK_FALSE(features.geometry_shader);
 	CHECK_FALSE(features.aliased_memory);
 	CHECK_FALSE(features.depth_bounds);
-	CHECK_FALSE(features.storage_texel_buffers);
+	CHECK_FALSE(features.storage_and_texel_buffers);
 	CHECK_FALSE(features.conditional_rendering);
 }
 
-TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses their pipelines") {
+TEST_CASE("[GPU][RenderingDevice] without geometry shaders, pipelines with one are refused") {
 	DeviceFixture fixture({}, { &DeviceFeatures::geometry_shader });
 	CHECK_FALSE(fixture.device->get_features().geometry_shader);
 	const std::string error = catch_error([&] {
@@ -104,13 +103,14 @@ TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses th
 	CHECK(contains(error, "geometry"));
 }
 
-TEST_CASE("[GPU][RenderingDevice] without storage texel buffers a buffer is one or the other") {
-	DeviceFixture fixture({}, { &DeviceFeatures::storage_texel_buffers });
+TEST_CASE("[GPU][RenderingDevice] without storage texel buffers, a buffer cannot be STORAGE and "
+		  "TEXEL") {
+	DeviceFixture fixture({}, { &DeviceFeatures::storage_and_texel_buffers });
 	const std::vector<uint32_t> words(4);
 	fixture.make_buffer("storage", words, BufferUsage::STORAGE);
 	fixture.make_buffer("texels", words, BufferUsage::TEXEL);
 	const std::string error = catch_error(
 			[&] { fixture.make_buffer("both", words, BufferUsage::STORAGE | BufferUsage::TEXEL); });
 	CHECK(contains(error, "'both'"));
-	CHECK(contains(error, "storage_texel_buffers"));
+	CHECK(contains(error, "storage_and_texel_buffers"));
 }

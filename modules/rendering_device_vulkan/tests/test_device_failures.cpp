@@ -26,7 +26,7 @@ OwnedBuffer make_filled(RenderingDevice &r_device) {
 					.usage = BufferUsage::COPY_TARGET }));
 }
 
-/// The one file that ends with .bin, which the pipeline cache is.
+/// Returns the pipeline cache: the only file that ends with .bin.
 std::filesystem::path find_cache_file(const std::filesystem::path &p_folder) {
 	for (const auto &entry : std::filesystem::directory_iterator(p_folder)) {
 		if (entry.path().extension() == ".bin") {
@@ -65,7 +65,7 @@ TEST_CASE("[GPU][RenderingDevice] spans of a finished submission have their name
 	}
 }
 
-TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, in every call from then on") {
+TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, and so do later calls") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer buffer = make_filled(device);
@@ -83,7 +83,7 @@ TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, in every ca
 			error);
 }
 
-TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate error") {
+TEST_CASE("[GPU][RenderingDevice] the validation layers report a deliberate error") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const unsigned count_before = get_validation_message_count();
@@ -120,7 +120,7 @@ TEST_CASE("[GPU][RenderingDevice] pipelines are cached between runs") {
 	CHECK(good.size() >= 32); // at least the header, which is all that some drivers keep
 
 	CaughtLog log;
-	SUBCASE("an intact file is used without a word") {
+	SUBCASE("an intact file is used without a log message") {
 		make_one_pipeline(cache);
 		CHECK(log.lines.empty());
 	}
@@ -145,7 +145,7 @@ TEST_CASE("[GPU][RenderingDevice] pipelines are cached between runs") {
 		const std::vector<uint8_t> foreign(64, 7);
 		save_cache_entry(file.filename().string(), foreign);
 		make_one_pipeline(cache);
-		CHECK(log.count("another driver") == 1);
+		CHECK(log.count("not written by this driver") == 1);
 	}
 	CHECK(load_cache_entry(file.filename().string()).size() >= 32);
 	log.lines.clear();

@@ -10,8 +10,9 @@ using SubmitMode = RenderingDevice::SubmitMode;
 namespace {
 
 const uint64_t TARGET_BYTES = 64 * sizeof(float);
-const uint32_t ROUND_COUNT = 65535; // of each invocation: the most that software drivers run
-const uint32_t MOST_GROUPS = 65535; // of all devices; takes seconds on 128 cores
+const uint32_t ITERATION_COUNT =
+		65535; // loop iterations per invocation; software drivers stop there
+const uint32_t MAX_GROUP_COUNT = 65535; // every device allows this many; takes seconds on 128 cores
 
 OwnedBuffer make_target(RenderingDevice &r_device) {
 	return OwnedBuffer(r_device,
@@ -30,17 +31,17 @@ void record_work(RenderingDevice &r_device, CommandList &r_commands, const std::
 	r_commands.bind_pipeline(
 			r_device.get_compute_pipeline({ .name = "slow", .shader = "tests/slow.comp" }));
 	r_commands.bind_resources({ { 0, p_target } });
-	r_commands.push_constants(ROUND_COUNT);
+	r_commands.push_constants(ITERATION_COUNT);
 	r_commands.dispatch({ p_group_count, 1, 1 });
 	r_commands.end_span();
 }
 
-/// Work that is slow enough is known of CPUs; a fast GPU would be done with all of it at once.
+/// Only CPU devices are slow enough for these tests; a fast GPU would finish all the work at once.
 bool is_slow(const RenderingDevice &p_device) {
 	return p_device.get_info().type == "CPU";
 }
 
-/// Pipelines are compiled before the clock matters.
+/// Compiles the pipeline, so that the measured times do not include it.
 void warm_up(RenderingDevice &r_device, BufferRID p_target) {
 	record_work(r_device, r_device.begin_commands(), "warm up", p_target);
 	r_device.submit_commands(SubmitMode::WAIT);
@@ -50,19 +51,21 @@ double compute_seconds_since(std::chrono::steady_clock::time_point p_start) {
 	return std::chrono::duration<double>(std::chrono::steady_clock::now() - p_start).count();
 }
 
-/// An environment variable that is unset again.
-struct Variable {
+/// Sets an environment variable, and unsets it at the end of the scope.
+struct EnvironmentVariable {
 	const char *name;
-	Variable(const char *p_name, const char *p_value) : name(p_name) { ::setenv(name, p_value, 1); }
-	~Variable() { ::unsetenv(name); }
-	Variable(const Variable &) = delete;
-	Variable &operator=(const Variable &) = delete;
+	EnvironmentVariable(const char *p_name, const char *p_value) : name(p_name) {
+		::setenv(name, p_value, 1);
+	}
+	~EnvironmentVariable() { ::unsetenv(name); }
+	EnvironmentVariable(const EnvironmentVariable &) = delete;
+	EnvironmentVariable &operator=(const EnvironmentVariable &) = delete;
 };
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] a pass that takes longer than the limit is named, and the device "
-		  "given up") {
+TEST_CASE("[GPU][RenderingDevice] a pass that exceeds the timeout is named, and the device is "
+		  "treated as lost") {
 	DeviceFixture fixture({ .wait_limit_s = 1.0 });
 	RenderingDevice &device = *fixture.device;
 	if (!is_slow(device)) {
@@ -71,7 +74,7 @@ TEST_CASE("[GPU][RenderingDevice] a pass that takes longer than the limit is nam
 	const OwnedBuffer target = make_target(device);
 	warm_up(device, target.get());
 	std::string error;
-	for (uint32_t groups = 1; error.empty() && groups <= MOST_GROUPS; groups *= 3) {
+	for (uint32_t groups = 1; error.empty() && groups <= MAX_GROUP_COUNT; groups *= 3) {
 		CommandList &commands = device.begin_commands();
 		record_work(device, commands, "G-buffer", target.get());
 		record_work(device, commands, "Lamp: resolve", target.get(), groups);
@@ -84,7 +87,7 @@ TEST_CASE("[GPU][RenderingDevice] a pass that takes longer than the limit is nam
 	CHECK(catch_error([&] { device.wait_idle(); }) == error);
 }
 
-TEST_CASE("[GPU][RenderingDevice] passes that take longer than the limit together are waited for") {
+TEST_CASE("[GPU][RenderingDevice] passes that exceed the timeout only together do not time out") {
 	DeviceFixture fixture({ .wait_limit_s = 1.0 });
 	RenderingDevice &device = *fixture.device;
 	if (!is_slow(device)) {
@@ -92,16 +95,17 @@ TEST_CASE("[GPU][RenderingDevice] passes that take longer than the limit togethe
 	}
 	const OwnedBuffer target = make_target(device);
 	warm_up(device, target.get());
-	// Twice the work until it is enough: each pass takes a twentieth of the limit at most.
+	// Double the work until the passes together exceed the timeout. Then each takes at most about a
+	// twentieth of it.
 	double seconds = 0;
 	for (uint32_t groups = 1; seconds <= 1.0; groups *= 2) {
-		REQUIRE(groups <= MOST_GROUPS);
+		REQUIRE(groups <= MAX_GROUP_COUNT);
 		CommandList &commands = device.begin_commands();
 		for (uint32_t index = 0; index < 40; ++index) {
 			record_work(device, commands, text("pass ", index), target.get(), groups);
 		}
 		const auto start = std::chrono::steady_clock::now();
-		device.submit_commands(SubmitMode::WAIT); // throws where it is not waited for
+		device.submit_commands(SubmitMode::WAIT); // throws if it times out
 		seconds = compute_seconds_since(start);
 	}
 }
@@ -115,7 +119,7 @@ TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its
 	record_work(device, device.begin_commands(), "G-buffer", target.get());
 	inject_fault(device, "hang");
 	const auto start = std::chrono::steady_clock::now();
-	device.submit_commands(SubmitMode::QUEUE); // the next one that waits notices it
+	device.submit_commands(SubmitMode::QUEUE); // the next call that waits notices it
 	const std::string error = catch_error([&] { device.wait_idle(); });
 	CHECK(contains(error, "before pass 'G-buffer' began"));
 	CHECK(compute_seconds_since(start) >= 1.0);
@@ -125,9 +129,8 @@ TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its
 	CHECK_FALSE(has_device_hung());
 }
 
-TEST_CASE("[GPU][RenderingDevice] memory that runs out during a submission is reported once, then "
-		  "the "
-		  "device works on") {
+TEST_CASE("[GPU][RenderingDevice] running out of memory in a submission is reported once, then the "
+		  "device keeps working") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer target = make_target(device);
@@ -143,7 +146,7 @@ TEST_CASE("[GPU][RenderingDevice] memory that runs out during a submission is re
 
 TEST_CASE("[GPU][RenderingDevice] environment variables set limits, and bad ones are refused") {
 	SUBCASE("the memory budget") {
-		const Variable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
+		const EnvironmentVariable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
 		DeviceFixture fixture;
 		CHECK(fixture.device->get_memory_use().budget_bytes == 3 << 20);
 		const std::string error = catch_error([&] {
@@ -152,29 +155,28 @@ TEST_CASE("[GPU][RenderingDevice] environment variables set limits, and bad ones
 		});
 		CHECK(contains(error, "Out of device memory: buffer 'large' needs 4096 KiB"));
 	}
-	SUBCASE("what is chosen in the program comes first") {
-		const Variable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
+	SUBCASE("options of the program take precedence") {
+		const EnvironmentVariable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
 		DeviceFixture fixture({ .memory_budget_bytes = 5 << 20 });
 		CHECK(fixture.device->get_memory_use().budget_bytes == 5 << 20);
 	}
 	for (const char *name : { "GNOMON_MEMORY_BUDGET_MIB", "GNOMON_DEVICE_TIMEOUT_S" }) {
 		for (const char *value : { "-1", "many", "1e99", "nan", "5 s" }) {
-			const Variable variable(name, value);
+			const EnvironmentVariable variable(name, value);
 			const std::string error = catch_error([] { create_rendering_device({}); });
 			CHECK(contains(error, text(name, " is \"", value, "\", must be 0..")));
 		}
 	}
 	for (const char *value : { "fire", "hang@", "hang@12", "hang@pass", "hang@pass:", "hang@file:",
 				 "hang@frame:3", "fire@pass:resolve", "@pass:resolve" }) {
-		const Variable variable("GNOMON_INJECT_FAULT", value);
+		const EnvironmentVariable variable("GNOMON_INJECT_FAULT", value);
 		const std::string error = catch_error([] { create_rendering_device({}); });
 		CHECK(contains(error, text("GNOMON_INJECT_FAULT is \"", value, "\"")));
 	}
 }
 
-TEST_CASE(
-		"[GPU][RenderingDevice] a fault of the environment happens once, to the submission that is "
-		"named") {
+TEST_CASE("[GPU][RenderingDevice] a fault set in the environment happens once, in the submission "
+		  "that it names") {
 	const auto submit = [](DeviceFixture &r_fixture, std::initializer_list<const char *> p_passes) {
 		RenderingDevice &device = *r_fixture.device;
 		CommandList &commands = device.begin_commands();
@@ -185,12 +187,12 @@ TEST_CASE(
 		device.submit_commands(SubmitMode::WAIT);
 	};
 	SUBCASE("the first one") {
-		const Variable variable("GNOMON_INJECT_FAULT", "device_lost");
+		const EnvironmentVariable variable("GNOMON_INJECT_FAULT", "device_lost");
 		DeviceFixture fixture;
 		CHECK_THROWS_AS(submit(fixture, {}), DeviceLost);
 	}
 	SUBCASE("the first one with that pass, which the message names") {
-		const Variable variable("GNOMON_INJECT_FAULT", "device_lost@pass:resolve");
+		const EnvironmentVariable variable("GNOMON_INJECT_FAULT", "device_lost@pass:resolve");
 		DeviceFixture fixture;
 		submit(fixture, {});
 		submit(fixture, { "G-buffer" });
@@ -202,7 +204,7 @@ TEST_CASE(
 	SUBCASE("the first one after that file exists") {
 		const TemporaryFolder folder;
 		const std::filesystem::path file = folder.path / "a file";
-		const Variable variable(
+		const EnvironmentVariable variable(
 				"GNOMON_INJECT_FAULT", text("out_of_memory@file:", file.string()).c_str());
 		DeviceFixture fixture;
 		submit(fixture, { "G-buffer" });

@@ -9,26 +9,26 @@ using namespace gnomon;
 
 namespace {
 
-const VkPhysicalDeviceProperties MAKER = { .vendorID = 0x10005,
+const VkPhysicalDeviceProperties DEVICE_PROPERTIES = { .vendorID = 0x10005,
 	.deviceID = 7,
 	.pipelineCacheUUID = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 } };
 
-/// As the driver of MAKER writes it: a header of 32 bytes, then its own.
+/// Makes a cache as the driver of this device writes it: a header of 32 bytes, then other data.
 std::vector<uint8_t> make_cache() {
 	const uint8_t numbers[] = { 32, 0, 0, 0, 1, 0, 0, 0, 5, 0, 1, 0, 7, 0, 0, 0 };
 	std::vector<uint8_t> bytes(42, 0xAB);
 	std::copy(std::begin(numbers), std::end(numbers), bytes.begin());
-	std::copy(std::begin(MAKER.pipelineCacheUUID), std::end(MAKER.pipelineCacheUUID),
-			bytes.begin() + sizeof(numbers));
+	std::copy(std::begin(DEVICE_PROPERTIES.pipelineCacheUUID),
+			std::end(DEVICE_PROPERTIES.pipelineCacheUUID), bytes.begin() + sizeof(numbers));
 	return bytes;
 }
 
 } // namespace
 
-TEST_CASE("[PipelineCacheHeader] pipelines of the same driver are taken") {
+TEST_CASE("[PipelineCacheHeader] a cache of the same driver is accepted") {
 	const std::vector<uint8_t> cache = make_cache();
-	CHECK(is_pipeline_cache_of(cache, MAKER));
-	CHECK(is_pipeline_cache_of(std::span(cache).first(32), MAKER));
+	CHECK(is_pipeline_cache_of(cache, DEVICE_PROPERTIES));
+	CHECK(is_pipeline_cache_of(std::span(cache).first(32), DEVICE_PROPERTIES));
 }
 
 TEST_CASE("[PipelineCacheHeader] a header that differs in any byte or is cut short is refused") {
@@ -37,7 +37,7 @@ TEST_CASE("[PipelineCacheHeader] a header that differs in any byte or is cut sho
 		CAPTURE(index);
 		std::vector<uint8_t> changed = cache;
 		changed[index] ^= 0x80;
-		CHECK_FALSE(is_pipeline_cache_of(changed, MAKER));
-		CHECK_FALSE(is_pipeline_cache_of(std::span(cache).first(index), MAKER));
+		CHECK_FALSE(is_pipeline_cache_of(changed, DEVICE_PROPERTIES));
+		CHECK_FALSE(is_pipeline_cache_of(std::span(cache).first(index), DEVICE_PROPERTIES));
 	}
 }

@@ -6,7 +6,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[RangeAllocator] random allocations never overlap and all come back") {
+TEST_CASE("[RangeAllocator] random allocations do not overlap and can all be freed") {
 	constexpr uint64_t SIZE = 1 << 16;
 	struct Range {
 		uint64_t begin, size;
@@ -51,7 +51,7 @@ TEST_CASE("[RangeAllocator] random allocations never overlap and all come back")
 	CHECK(allocator.allocate(SIZE, 1) == 0);
 }
 
-TEST_CASE("[RangeAllocator] what does not fit is refused") {
+TEST_CASE("[RangeAllocator] a request that does not fit is refused") {
 	RangeAllocator allocator(100);
 	CHECK_FALSE(allocator.allocate(101, 1));
 	CHECK(allocator.allocate(1, 1) == 0);

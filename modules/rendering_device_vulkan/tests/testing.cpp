@@ -18,9 +18,9 @@ void inject_fault(RenderingDevice &r_device, const std::string &p_fault) {
 
 void release_injected_hang(RenderingDevice &r_device) {
 	VulkanDevice &device = get_vulkan_device(r_device);
-	const VkSemaphoreSignalInfo info = {
-		.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO, .semaphore = device.never, .value = 1
-	};
+	const VkSemaphoreSignalInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO,
+		.semaphore = device.hang_semaphore,
+		.value = 1 };
 	device.check(vkSignalSemaphore(device.device, &info), "vkSignalSemaphore");
 }
 

@@ -28,11 +28,12 @@ std::shared_ptr<const Image> make_alpha_image(
 double compute_area(const AlphaOutline &p_outline) {
 	int64_t twice = 0;
 	for (size_t i = 0; i < p_outline.triangles.size(); i += 3) {
-		const int64_t turn = compute_turn(p_outline.points[p_outline.triangles[i]],
-				p_outline.points[p_outline.triangles[i + 1]],
-				p_outline.points[p_outline.triangles[i + 2]]);
-		CHECK(turn >= 0);
-		twice += turn;
+		const int64_t signed_area =
+				compute_twice_signed_area(p_outline.points[p_outline.triangles[i]],
+						p_outline.points[p_outline.triangles[i + 1]],
+						p_outline.points[p_outline.triangles[i + 2]]);
+		CHECK(signed_area >= 0);
+		twice += signed_area;
 	}
 	return double(twice) / 2 / p_outline.size.x / p_outline.size.y;
 }
@@ -40,29 +41,29 @@ double compute_area(const AlphaOutline &p_outline) {
 /// Whether a point, in texels, is in one of the triangles.
 bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_point) {
 	const glm::dvec2 point = p_point * double(AlphaOutline::UNITS_PER_TEXEL);
-	const auto turn = [&](const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
+	const auto signed_area = [&](const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 		return (p_b.x - p_a.x) * (point.y - p_a.y) - (p_b.y - p_a.y) * (point.x - p_a.x);
 	};
 	for (size_t i = 0; i < p_outline.triangles.size(); i += 3) {
 		const glm::dvec2 a(p_outline.points[p_outline.triangles[i]]);
 		const glm::dvec2 b(p_outline.points[p_outline.triangles[i + 1]]);
 		const glm::dvec2 c(p_outline.points[p_outline.triangles[i + 2]]);
-		if (turn(a, b) >= 0 && turn(b, c) >= 0 && turn(c, a) >= 0) {
+		if (signed_area(a, b) >= 0 && signed_area(b, c) >= 0 && signed_area(c, a) >= 0) {
 			return true;
 		}
 	}
 	return false;
 }
 
-/// Checks random points: all that are not within about p_tolerance_px texels of the contour must
-/// be on its right side.
+/// Checks random points: the outline must contain those where the test passes, and no others,
+/// except within about p_tolerance_px texels of the contour.
 void check_points(const AlphaTest &p_test, const AlphaOutline &p_outline, double p_tolerance_px) {
 	std::minstd_rand random(5);
 	std::uniform_real_distribution<double> uniform(0, 1);
 	const glm::dvec2 size(p_test.image->size_px);
 	for (int i = 0; i < 4000; ++i) {
 		const glm::dvec2 point = glm::dvec2(uniform(random), uniform(random)) * size;
-		// The point and some around it agree: it is not near the contour.
+		// A point is near the contour if the test differs at a point around it.
 		const bool expected = sample_alpha(p_test, point / size) >= p_test.cutoff;
 		bool is_near = false;
 		for (int k = 0; k < 16; ++k) {
@@ -84,7 +85,7 @@ void check_points(const AlphaTest &p_test, const AlphaOutline &p_outline, double
 
 } // namespace
 
-TEST_CASE("[AlphaOutline] polygons with holes are filled exactly, or refused") {
+TEST_CASE("[AlphaOutline] polygons with holes are triangulated exactly, invalid ones not at all") {
 	const PolygonLoop square = { { 0, 0 }, { 100, 0 }, { 100, 100 }, { 0, 100 } };
 	const PolygonLoop hole = { { 20, 20 }, { 20, 40 }, { 40, 40 }, { 40, 20 } };
 	const PolygonLoop other_hole = { { 60, 20 }, { 50, 80 }, { 80, 70 }, { 70, 60 } };
@@ -101,7 +102,7 @@ TEST_CASE("[AlphaOutline] polygons with holes are filled exactly, or refused") {
 	CHECK(triangulate({}).empty());
 }
 
-TEST_CASE("[AlphaOutline] the contour of smooth masks is within a quarter of a texel") {
+TEST_CASE("[AlphaOutline] the outline of smooth masks is within half a texel") {
 	for (const int seed : { 1, 2, 3, 4, 5, 6, 7, 8 }) {
 		CAPTURE(seed);
 		std::minstd_rand random(static_cast<uint32_t>(seed));
@@ -131,7 +132,7 @@ TEST_CASE("[AlphaOutline] the contour of smooth masks is within a quarter of a t
 	}
 }
 
-TEST_CASE("[AlphaOutline] a disc has the area of a disc, and few edges") {
+TEST_CASE("[AlphaOutline] the outline of a disc has the disc's area and few edges") {
 	const double radius_px = 20;
 	const auto image = make_alpha_image(glm::uvec2(64), [&](const glm::uvec2 &p_texel) {
 		return 0.5 + (radius_px - glm::distance(glm::dvec2(p_texel) + 0.5, glm::dvec2(32))) * 0.5;
@@ -144,14 +145,13 @@ TEST_CASE("[AlphaOutline] a disc has the area of a disc, and few edges") {
 	CHECK(outline.edge_count >= 12);
 	CHECK(outline.edge_count <= 40);
 	test.cutoff = 0;
-	CHECK(make_alpha_outline(test, 20000).is_whole);
+	CHECK(make_alpha_outline(test, 20000).covers_tile);
 	CHECK(make_alpha_outline(test, 20000).edge_count == 4);
 	test.cutoff = 1.5f;
 	CHECK(make_alpha_outline(test, 20000).is_empty());
 }
 
-TEST_CASE(
-		"[AlphaOutline] noise of any wrapping is filled, and a nearest sampler gives its squares") {
+TEST_CASE("[AlphaOutline] noise is outlined with any wrap mode, and as squares if nearest") {
 	for (const uint32_t seed : { 1u, 2u, 3u }) {
 		std::minstd_rand random(seed);
 		const auto image = make_alpha_image(
@@ -169,7 +169,7 @@ TEST_CASE(
 		const AlphaOutline squares = make_alpha_outline(test, 20000);
 		CHECK(squares.block_size_px == 0);
 		check_points(test, squares, 0.05);
-		// More than the budget: as much is there, in squares.
+		// More edges than the budget: a half-tone of the same area.
 		const AlphaOutline half_tone = make_alpha_outline(test, 200);
 		CHECK(half_tone.block_size_px > 1);
 		CHECK(half_tone.edge_count <= 200);
@@ -177,7 +177,7 @@ TEST_CASE(
 	}
 }
 
-TEST_CASE("[AlphaOutline] a half-tone has few triangles where all is there") {
+TEST_CASE("[AlphaOutline] a half-tone has few triangles where blocks are fully covered") {
 	std::minstd_rand random(7);
 	for (const uint32_t budget : { 4u, 8u, 256u, 1000u }) {
 		CAPTURE(budget);
@@ -198,7 +198,7 @@ TEST_CASE("[AlphaOutline] a half-tone has few triangles where all is there") {
 	}
 }
 
-TEST_CASE("[AlphaOutline] straight borders of a large image are single lines") {
+TEST_CASE("[AlphaOutline] each straight border of a large image becomes one edge") {
 	const auto image = make_alpha_image(
 			{ 8192, 64 }, [](const glm::uvec2 &p_texel) { return p_texel.y / 8 % 2 ? 0.9 : 0.1; });
 	AlphaTest test;
@@ -210,7 +210,7 @@ TEST_CASE("[AlphaOutline] straight borders of a large image are single lines") {
 	CHECK(compute_area(outline) == doctest::Approx(0.5).epsilon(0.01));
 }
 
-TEST_CASE("[AlphaOutline] tiles that repeat meet at their borders") {
+TEST_CASE("[AlphaOutline] outlines of tiles that repeat match at the tile borders") {
 	const auto image = make_alpha_image({ 16, 12 }, [&](const glm::uvec2 &p_texel) {
 		return 0.5 + 0.5 * std::sin(p_texel.x * 0.9) * std::cos(p_texel.y * 0.8 + 1);
 	});

@@ -19,7 +19,7 @@ AnimationSampler make_sampler(Interpolation p_interpolation, std::vector<float> 
 	return { p_interpolation, std::move(p_times), p_components, std::move(p_values) };
 }
 
-/// A node of a file below the root.
+/// Adds a node with a file index below the root.
 Node3D &add_node(Scene &r_scene, std::unique_ptr<Node3D> p_node, int p_index) {
 	p_node->name = "Node " + std::to_string(p_index);
 	p_node->file_index = p_index;
@@ -63,7 +63,7 @@ TEST_CASE("animation: LINEAR interpolates vectors, and is clamped at both ends")
 	CHECK(sampler.sample(9, false) == std::vector<double>{ 8, -2, 4 });
 }
 
-TEST_CASE("animation: LINEAR rotations turn evenly, the shorter way, with any sign") {
+TEST_CASE("animation: LINEAR rotations have constant speed on the shorter arc, for any sign") {
 	const double angle = 2.0;
 	for (const double sign : { 1.0, -1.0 }) {
 		CAPTURE(sign);
@@ -71,18 +71,19 @@ TEST_CASE("animation: LINEAR rotations turn evenly, the shorter way, with any si
 				{ 0, 0, 0, 1, 0, float(sign * std::sin(angle / 2)), 0,
 						float(sign * std::cos(angle / 2)) });
 		for (const double t : { 0.1, 0.25, 0.5, 0.9 }) {
-			const std::vector<double> turn = sampler.sample(t, true);
-			// Values are floats; the half angle is t times as large.
-			CHECK(std::abs(turn[1]) == doctest::Approx(std::sin(t * angle / 2)).epsilon(1e-6));
-			CHECK(std::abs(turn[3]) == doctest::Approx(std::cos(t * angle / 2)).epsilon(1e-6));
-			CHECK(turn[1] * turn[3] > 0);
-			CHECK(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3] ==
+			const std::vector<double> rotation = sampler.sample(t, true);
+			// A quaternion has the half angle, t * angle / 2. Keys are floats.
+			CHECK(std::abs(rotation[1]) == doctest::Approx(std::sin(t * angle / 2)).epsilon(1e-6));
+			CHECK(std::abs(rotation[3]) == doctest::Approx(std::cos(t * angle / 2)).epsilon(1e-6));
+			CHECK(rotation[1] * rotation[3] > 0);
+			CHECK(rotation[0] * rotation[0] + rotation[1] * rotation[1] +
+							rotation[2] * rotation[2] + rotation[3] * rotation[3] ==
 					doctest::Approx(1).epsilon(ROUNDING));
 		}
 	}
 }
 
-TEST_CASE("animation: CUBICSPLINE is Hermite's, with tangents per second") {
+TEST_CASE("animation: CUBICSPLINE is a Hermite spline with tangents per second") {
 	// The cubic t^3 - 2 t + 1 from 1 s to 3 s, which Hermite's form reproduces.
 	const auto value = [](double p_t) { return p_t * p_t * p_t - 2 * p_t + 1; };
 	const auto slope = [](double p_t) { return 3 * p_t * p_t - 2; };
@@ -93,15 +94,15 @@ TEST_CASE("animation: CUBICSPLINE is Hermite's, with tangents per second") {
 	}
 	CHECK(sampler.sample(0, false)[0] == value(1));
 	CHECK(sampler.sample(4, false)[0] == value(3));
-	// Of a rotation the result is unit.
-	const AnimationSampler turn = make_sampler(Interpolation::CUBIC_SPLINE, { 0, 1 }, 4,
+	// An interpolated rotation is normalized.
+	const AnimationSampler rotation = make_sampler(Interpolation::CUBIC_SPLINE, { 0, 1 }, 4,
 			{ 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0 });
-	const std::vector<double> half = turn.sample(0.5, true);
+	const std::vector<double> half = rotation.sample(0.5, true);
 	CHECK(half[1] == doctest::Approx(std::sqrt(0.5)).epsilon(ROUNDING));
 	CHECK(half[3] == doctest::Approx(std::sqrt(0.5)).epsilon(ROUNDING));
 }
 
-TEST_CASE("animation: channels pose nodes and weights, and never change what is saved") {
+TEST_CASE("animation: channels pose nodes and weights, and do not change what is saved") {
 	Scene scene;
 	Node3D &node = add_node(scene, std::make_unique<Node3D>(), 3);
 	auto mesh_node = std::make_unique<MeshInstance3D>();
@@ -128,7 +129,7 @@ TEST_CASE("animation: channels pose nodes and weights, and never change what is 
 	SUBCASE("a copy of a node is at rest") {
 		CHECK_FALSE(node.copy()->posed_parent_from_node);
 	}
-	SUBCASE("the rest keeps the file's parts, others those that the user gave it") {
+	SUBCASE("components without a channel are the file's, or those that the user set") {
 		node.parent_from_node = glm::scale(
 				glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0, 1, 0)), glm::dvec3(-2, 1, 1));
 		pose_scene(scene, animation.get(), 0);
@@ -136,14 +137,14 @@ TEST_CASE("animation: channels pose nodes and weights, and never change what is 
 		CHECK(glm::length(axes[0]) == doctest::Approx(1)); // animated
 		CHECK(std::abs(axes[0].x) == doctest::Approx(std::cos(0.5)));
 	}
-	SUBCASE("without an animation all is where it belongs") {
+	SUBCASE("without an animation, nodes have their own transforms and weights") {
 		pose_scene(scene, nullptr, 1);
 		CHECK(node.get_parent_from_node() == glm::dmat4(1.0));
 		CHECK(instance.get_morph_weights() == instance.morph_weights);
 	}
 }
 
-TEST_CASE("animation: playing repeats, and backwards too") {
+TEST_CASE("animation: playback loops forwards and backwards") {
 	Scene scene;
 	Node3D &node = add_node(scene, std::make_unique<Node3D>(), 0);
 	AnimationPlayback playback;
@@ -165,7 +166,7 @@ TEST_CASE("animation: playing repeats, and backwards too") {
 	CHECK(get_x() == 0);
 }
 
-TEST_CASE("animation: a name that is not there lists those that are") {
+TEST_CASE("animation: an unknown name is an error that lists the existing ones") {
 	Scene scene;
 	CHECK(find_animation(scene, "") == nullptr);
 	scene.animations = { make_animation({}), make_animation({}) };

@@ -19,8 +19,10 @@ std::shared_ptr<const Material> make_disc_material() {
 	for (uint32_t y = 0; y < IMAGE_SIZE_PX; ++y) {
 		for (uint32_t x = 0; x < IMAGE_SIZE_PX; ++x) {
 			const glm::dvec2 position = (glm::dvec2(x, y) + 0.5) / double(IMAGE_SIZE_PX) - 0.5;
-			const double beyond = glm::length(position) - std::sqrt(0.5 / 3.141592653589793);
-			const double alpha = std::clamp(0.5 - beyond * IMAGE_SIZE_PX * 0.25, 0.0, 1.0);
+			const double distance_outside =
+					glm::length(position) - std::sqrt(0.5 / 3.141592653589793);
+			const double alpha =
+					std::clamp(0.5 - distance_outside * IMAGE_SIZE_PX * 0.25, 0.0, 1.0);
 			texels.insert(texels.end(), { 255, 255, 255, static_cast<uint8_t>(alpha * 255) });
 		}
 	}
@@ -31,7 +33,7 @@ std::shared_ptr<const Material> make_disc_material() {
 	return material;
 }
 
-/// A card of one square metre across z, that shows p_repeats x p_repeats tiles.
+/// A card of one square metre perpendicular to z, which shows p_repeats x p_repeats tiles.
 std::shared_ptr<const Mesh> make_card(float p_repeats) {
 	MeshAttributes attributes;
 	attributes.uvs[0] = { { 0, 0 }, { p_repeats, 0 }, { p_repeats, p_repeats }, { 0, p_repeats } };
@@ -61,7 +63,8 @@ SceneSnapshot make_scene(const std::shared_ptr<const Mesh> &p_card) {
 	return scene;
 }
 
-/// That shines down from four metres above the ground.
+/// Makes a light that shines down from four metres above the ground. p_size: its radius, or the
+/// tangent of half its angular size.
 LightSnapshot make_light(LightType p_type, float p_size) {
 	LightSnapshot light;
 	light.type = p_type;
@@ -77,7 +80,7 @@ TEST_CASE("[CutLevels] coarser outlines have fewer edges and as much area") {
 	const auto card = make_card(1);
 	const CutMesh cut = get_cut_mesh(card, make_disc_material());
 	REQUIRE(cut.levels);
-	CHECK(cut.levels->get_mesh(CutLevels::BASE) == cut.mesh);
+	CHECK(cut.levels->get_mesh(CutLevels::BASE_LEVEL) == cut.mesh);
 	uint32_t finer_count = 1u << 30;
 	for (uint32_t level = 0; level < CutLevels::TOLERANCES_PX.size(); ++level) {
 		CAPTURE(level);
@@ -91,9 +94,9 @@ TEST_CASE("[CutLevels] coarser outlines have fewer edges and as much area") {
 	CHECK(finer_count < 30);
 }
 
-TEST_CASE("[CutLevels] a wider penumbra gets a coarser outline; none the usual one") {
+TEST_CASE("[CutLevels] a wider penumbra gets a coarser level, a hard shadow the base level") {
 	const CutLevels &levels = *get_cut_mesh(make_card(1), make_disc_material()).levels;
-	CHECK(levels.choose_level(0) == CutLevels::BASE);
+	CHECK(levels.choose_level(0) == CutLevels::BASE_LEVEL);
 	CHECK(levels.choose_level(1e-9) == 0);
 	CHECK(levels.choose_level(1e9) == CutLevels::TOLERANCES_PX.size() - 1);
 	uint32_t before = 0;
@@ -103,12 +106,13 @@ TEST_CASE("[CutLevels] a wider penumbra gets a coarser outline; none the usual o
 		CHECK(CutLevels::TOLERANCES_PX[level] / IMAGE_SIZE_PX < radius / 20);
 		before = level;
 	}
-	// What repeats does not average out.
+	// Texels are a third as large with three repeats, so an equal choice would need a third of the
+	// half width; but the error of a texture that repeats does not average out.
 	const CutLevels &repeated = *get_cut_mesh(make_card(3), make_disc_material()).levels;
 	CHECK(repeated.choose_level(0.1) < levels.choose_level(0.3));
 }
 
-TEST_CASE("[CutLevels] a light gets the outlines that suit its widest penumbra") {
+TEST_CASE("[CutLevels] a larger light gets coarser outlines") {
 	const auto card = make_card(1);
 	const SceneSnapshot scene = make_scene(card);
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
@@ -116,30 +120,30 @@ TEST_CASE("[CutLevels] a light gets the outlines that suit its widest penumbra")
 		size_t finer_count = 1u << 30;
 		for (const float size : { 0.02f, 0.2f, 2.0f }) {
 			const auto selected = scene.select_casters(make_light(type, size));
-			const InstanceSnapshot &seen = (selected ? *selected : scene).instances[0];
-			CHECK(seen.mesh == card);
-			CHECK(seen.caster_mesh->indices.size() < finer_count);
-			finer_count = seen.caster_mesh->indices.size();
+			const InstanceSnapshot &instance = (selected ? *selected : scene).instances[0];
+			CHECK(instance.mesh == card);
+			CHECK(instance.caster_mesh->indices.size() < finer_count);
+			finer_count = instance.caster_mesh->indices.size();
 		}
 		CHECK_FALSE(scene.select_casters(make_light(type, 0)));
 	}
 }
 
-TEST_CASE("[CutLevels] the widest image of the disc is that on the way to the farthest receiver") {
+TEST_CASE("[CutLevels] the widest penumbra is that on the farthest receiver") {
 	Bounds caster;
 	caster.add(glm::dvec3(0, 0, 2));
 	Bounds bounds = caster;
 	bounds.add(glm::dvec3(-4, -4, 0));
 	bounds.add(glm::dvec3(4, 4, 3));
-	// Half of the way from the light to the ground.
-	CHECK(make_light(LightType::SPOT, 0.3f).compute_widest_image(caster, bounds) ==
+	// The caster is halfway between light and ground.
+	CHECK(make_light(LightType::SPOT, 0.3f).compute_max_penumbra_half_width(caster, bounds) ==
 			doctest::Approx(0.15));
-	CHECK(make_light(LightType::DIRECTIONAL, 0.1f).compute_widest_image(caster, bounds) ==
-			doctest::Approx(0.2));
-	CHECK(make_light(LightType::OMNI, 0).compute_widest_image(caster, bounds) == 0);
-	// A caster at the light's position, and one that nothing is behind.
+	CHECK(make_light(LightType::DIRECTIONAL, 0.1f)
+					.compute_max_penumbra_half_width(caster, bounds) == doctest::Approx(0.2));
+	CHECK(make_light(LightType::OMNI, 0).compute_max_penumbra_half_width(caster, bounds) == 0);
+	// A caster at the light's position, and one without a receiver behind it.
 	LightSnapshot light = make_light(LightType::OMNI, 0.3f);
 	light.position_world = glm::dvec3(0, 0, 2);
-	CHECK(light.compute_widest_image(caster, bounds) <= 0.3f);
-	CHECK(light.compute_widest_image(caster, caster) == 0);
+	CHECK(light.compute_max_penumbra_half_width(caster, bounds) <= 0.3f);
+	CHECK(light.compute_max_penumbra_half_width(caster, caster) == 0);
 }

@@ -32,7 +32,7 @@ Material make_material(std::shared_ptr<const Image> p_image) {
 	return material;
 }
 
-/// A grid of quads in the plane z = x / 2; coordinates grow by p_repeats over it.
+/// A grid of quads in the plane z = x / 2; texture coordinates grow by p_repeats over it.
 std::shared_ptr<const Mesh> make_grid(uint32_t p_count, double p_repeats, double p_offset = 0) {
 	std::vector<glm::vec3> positions;
 	MeshAttributes attributes;
@@ -60,14 +60,14 @@ double compute_area(const Mesh &p_mesh) {
 		const glm::dvec3 a = p_mesh.positions_node[p_mesh.indices[i]];
 		const glm::dvec3 b = p_mesh.positions_node[p_mesh.indices[i + 1]];
 		const glm::dvec3 c = p_mesh.positions_node[p_mesh.indices[i + 2]];
-		// With the sign that its source triangle's winding gives it.
+		// The sign is that of the triangle's winding.
 		area += glm::dot(glm::cross(b - a, c - a), glm::normalize(glm::dvec3(-0.5, 0, 1))) / 2;
 	}
 	return area;
 }
 
-/// Of the share of a surface's area that is there, by samples of the alpha itself.
-double sample_share(const Material &p_material, double p_repeats, double p_offset) {
+/// Returns the fraction of a surface's area where the alpha test passes, estimated by sampling.
+double sample_coverage(const Material &p_material, double p_repeats, double p_offset) {
 	const AlphaTest test = make_alpha_test(p_material);
 	int inside = 0;
 	const int COUNT = 700;
@@ -81,7 +81,8 @@ double sample_share(const Material &p_material, double p_repeats, double p_offse
 	return double(inside) / (COUNT * COUNT);
 }
 
-/// How often each edge is used, by its ends' positions; even edges of one plane cancel.
+/// Counts the edges without a face on the other side, by the positions of their ends: an edge's two
+/// directions cancel.
 uint32_t count_open_edges(const Mesh &p_mesh) {
 	const auto less = [](const std::array<float, 6> &p_a, const std::array<float, 6> &p_b) {
 		return p_a < p_b;
@@ -104,8 +105,7 @@ uint32_t count_open_edges(const Mesh &p_mesh) {
 
 } // namespace
 
-TEST_CASE("[CutMesh] of a mesh as much is there as its alpha defines, wrapped, mirrored and "
-		  "clamped") {
+TEST_CASE("[CutMesh] a cut mesh has the area where the alpha test passes, for each wrap mode") {
 	Material material = make_material(make_wave_image({ 24, 32 }, 0.7));
 	const double whole_area = compute_area(*make_grid(1, 1));
 	for (const TextureWrap wrap :
@@ -127,7 +127,8 @@ TEST_CASE("[CutMesh] of a mesh as much is there as its alpha defines, wrapped, m
 					REQUIRE(cut.mesh);
 					CHECK(cut.block_size_px == 0);
 					CHECK(compute_area(*cut.mesh) / whole_area ==
-							doctest::Approx(sample_share(material, repeats, offset)).epsilon(0.01));
+							doctest::Approx(sample_coverage(material, repeats, offset))
+									.epsilon(0.01));
 					CHECK(cut.mesh->source.mesh.lock() == grid);
 				}
 			}
@@ -135,15 +136,16 @@ TEST_CASE("[CutMesh] of a mesh as much is there as its alpha defines, wrapped, m
 	}
 }
 
-TEST_CASE("[CutMesh] triangles that meet make the same points: no edges but those of the holes") {
-	// The finer grid has the same holes: its edges cross them, and leave no edges of their own.
+TEST_CASE("[CutMesh] adjacent triangles make the same points: only holes have open edges") {
+	// A finer grid has the same holes, and its inner edges must not be open.
 	const Material material = make_material(make_wave_image({ 24, 24 }, 0.6));
 	const uint32_t coarse = count_open_edges(*cut_mesh(make_grid(1, 1), material).mesh);
 	for (const uint32_t count : { 2u, 5u, 16u }) {
 		CAPTURE(count);
 		const CutMesh cut = cut_mesh(make_grid(count, 1), material);
 		const uint32_t fine = count_open_edges(*cut.mesh);
-		// Each hole's edge may be cut by the grid's lines, twice a line at the most.
+		// The grid's lines, about 3 * count, may split the edges of holes, each line at most twice
+		// per texel that it crosses, of 24.
 		CHECK(fine >= coarse);
 		CHECK(fine <= coarse + 6 * count * 24);
 		CHECK(compute_area(*cut.mesh) ==
@@ -152,14 +154,14 @@ TEST_CASE("[CutMesh] triangles that meet make the same points: no edges but thos
 	}
 }
 
-TEST_CASE("[CutMesh] what is whole is the mesh itself, and what is nowhere is null") {
+TEST_CASE("[CutMesh] an uncut mesh is the source itself, and one without any area is null") {
 	const auto grid = make_grid(3, 1);
 	Material material;
 	CHECK(get_cut_mesh(grid, std::make_shared<const Material>(material)).mesh == grid);
 	CHECK(get_cut_mesh(grid, nullptr).mesh == grid);
 	material.alpha_mode = AlphaMode::BLEND;
 	CHECK(cut_mesh(grid, material).mesh == grid);
-	material.alpha = 0.4f; // below the half at which blended surfaces cast
+	material.alpha = 0.4f; // below 0.5, the cutoff of blended surfaces
 	CHECK(cut_mesh(grid, material).mesh == nullptr);
 	material.alpha_mode = AlphaMode::MASK;
 	material.alpha_cutoff = 0.4f;
@@ -170,24 +172,24 @@ TEST_CASE("[CutMesh] what is whole is the mesh itself, and what is nowhere is nu
 	CHECK(cut_mesh(grid, material).mesh == grid);
 	material.alpha_cutoff = 1.1f;
 	CHECK(cut_mesh(grid, material).mesh == nullptr);
-	material.transmission = 0.5f; // it lets light through, and is whole
+	material.transmission = 0.5f; // a mesh that transmits light is not cut
 	CHECK(get_cut_mesh(grid, std::make_shared<const Material>(material)).mesh == grid);
 }
 
-TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones end nothing") {
+TEST_CASE("[CutMesh] a mesh without coordinates shows one texel; extreme ones are safe") {
 	Material material = make_material(make_wave_image({ 8, 8 }, 0.7));
 	const auto plain =
 			make_mesh("plain", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 });
 	const AlphaTest test = make_alpha_test(material);
 	CHECK((cut_mesh(plain, material).mesh == plain) ==
 			(sample_alpha(test, glm::dvec2(0)) >= test.cutoff));
-	for (const float odd : { NAN, INFINITY, 1e30f, -1e30f, 1e-38f }) {
-		CAPTURE(odd);
-		const float alpha = sample_alpha(test, glm::dvec2(odd, 0.5));
+	for (const float extreme : { NAN, INFINITY, 1e30f, -1e30f, 1e-38f }) {
+		CAPTURE(extreme);
+		const float alpha = sample_alpha(test, glm::dvec2(extreme, 0.5));
 		CHECK(alpha >= 0.0f);
 		CHECK(alpha <= 1.0f);
 		MeshAttributes attributes;
-		attributes.uvs[0] = { { 0, 0 }, { odd, 0 }, { 0, odd } };
+		attributes.uvs[0] = { { 0, 0 }, { extreme, 0 }, { 0, extreme } };
 		cut_mesh(make_mesh("odd", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 },
 						 attributes),
 				material);
@@ -206,7 +208,7 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones en
 		}
 	}
 	material.base_color_texture.wrap_v = TextureWrap::REPEAT;
-	// More tiles than the mesh may have edges: squares represent many of them.
+	// More tiles than the mesh may have edges: each square represents many tiles.
 	const OutlineBudget small = { 1 << 10, 1 << 14 };
 	const CutMesh many = cut_mesh(make_grid(1, 400), material, small);
 	REQUIRE(many.mesh);
@@ -214,7 +216,7 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones en
 	CHECK(many.mesh->get_triangle_count() < 12u * small.edges_per_mesh);
 }
 
-TEST_CASE("[CutMesh] a coordinate that is far out of line makes few tiles") {
+TEST_CASE("[CutMesh] an outlier among the texture coordinates does not make many tiles") {
 	const Material material = make_material(make_wave_image({ 24, 24 }, 0.9));
 	for (const float far_u : { -1.02236e8f, 3e5f, -7e11f }) {
 		CAPTURE(far_u);
@@ -231,7 +233,7 @@ TEST_CASE("[CutMesh] a coordinate that is far out of line makes few tiles") {
 	}
 }
 
-TEST_CASE("[CutMesh] triangles that are thin in their coordinates stay within the mesh's budget") {
+TEST_CASE("[CutMesh] triangles that are thin in texture space stay within the mesh's budget") {
 	const Material material = make_material(make_wave_image({ 24, 24 }, 0.9));
 	const OutlineBudget small = { 1 << 10, 1 << 14 };
 	const auto cut_thin = [&](const std::vector<glm::vec2> &p_uvs) {
@@ -248,7 +250,7 @@ TEST_CASE("[CutMesh] triangles that are thin in their coordinates stay within th
 				 std::vector<glm::vec2>{ { 0, 0 }, { 4000, 4000 }, { 4000, 4000.001f } },
 				 std::vector<glm::vec2>{ { 0, 0 }, { 2e5f, 0 }, { 2e5f, 0.001f } },
 				 std::vector<glm::vec2>{ { 0, 0 }, { 1e35f, 0 }, { 0, 1e27f } },
-				 // So thin that rounding decides which side of it is which.
+				 // So thin that rounding decides the winding.
 				 std::vector<glm::vec2>{ { 0, 1e-44f }, { 40, -6e15f }, { 0, 7e-36f } },
 				 std::vector<glm::vec2>{ { 1e-44f, 0 }, { 1e-38f, 1e-43f }, { 0, 1e20f } },
 		 }) {
@@ -260,7 +262,7 @@ TEST_CASE("[CutMesh] triangles that are thin in their coordinates stay within th
 	}
 }
 
-TEST_CASE("[CutMesh] vertex alphas that are nearly alike cut alike") {
+TEST_CASE("[CutMesh] nearly equal vertex alphas give the same cut") {
 	const Material material = make_material(make_wave_image({ 24, 24 }, 0.6));
 	const auto cut_with = [&](float p_alpha) {
 		const auto grid = make_grid(1, 1);
@@ -274,13 +276,13 @@ TEST_CASE("[CutMesh] vertex alphas that are nearly alike cut alike") {
 	CHECK(cut_with(1.0f)->positions_node ==
 			cut_mesh(make_grid(1, 1), material).mesh->positions_node);
 	CHECK(compute_area(*cut_with(0.6f)) < compute_area(*cut_with(0.9f)));
-	// Of what is nowhere, however near it is.
+	// Alpha below the cutoff leaves nothing, however close to it.
 	CHECK(cut_with(0.499f) == nullptr);
 	CHECK(cut_with(NAN) == nullptr);
 	CHECK(cut_with(-1.0f) == nullptr);
 }
 
-TEST_CASE("[CutMesh] materials that cut alike share a mesh; others and changed ones do not") {
+TEST_CASE("[CutMesh] materials with the same alpha test use one cut mesh, others not") {
 	const auto grid = make_grid(2, 1);
 	Material material = make_material(make_wave_image({ 16, 16 }, 0.5));
 	const auto one = std::make_shared<const Material>(material);
@@ -295,7 +297,7 @@ TEST_CASE("[CutMesh] materials that cut alike share a mesh; others and changed o
 	CHECK(first.content_hash != 0);
 }
 
-TEST_CASE("[CutMesh] what no scene has any more is freed") {
+TEST_CASE("[CutMesh] unused cut meshes are freed") {
 	drop_unused_cut_meshes();
 	const size_t before = get_cut_mesh_count();
 	auto grid = make_grid(2, 1);
@@ -335,14 +337,14 @@ TEST_CASE("[CutMesh] random masks on random triangles keep their area") {
 		Material material = make_material(make_image("noise", size_px, texels));
 		material.base_color_texture.is_magnified_nearest = i % 3 == 0;
 		material.base_color_texture.wrap_u = i % 2 ? TextureWrap::REPEAT : TextureWrap::MIRROR;
-		// Coordinates on texels' borders and corners are the hard ones.
+		// Coordinates on the borders and corners of texels are the hardest.
 		const double repeats = i % 5 == 0 ? 1.0 : i % 5 == 1 ? 2.0 : 3 * uniform(random);
 		const double offset = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 0.5 : uniform(random);
 		const CutMesh cut = cut_mesh(make_grid(1 + i % 4, repeats, offset), material);
-		const double share =
+		const double coverage =
 				cut.mesh ? compute_area(*cut.mesh) / compute_area(*make_grid(1, 1)) : 0.0;
-		// A line approximates a hyperbola, which shows in masks that change from texel to texel.
+		// Lines approximate hyperbolas, which matters if alpha changes from texel to texel.
 		const double tolerance = material.base_color_texture.is_magnified_nearest ? 0.02 : 0.08;
-		CHECK(std::abs(share - sample_share(material, repeats, offset)) < tolerance);
+		CHECK(std::abs(coverage - sample_coverage(material, repeats, offset)) < tolerance);
 	}
 }

@@ -5,7 +5,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[LightSetting] property=value names no light, light.NAME.property=value one") {
+TEST_CASE("[LightSetting] property=value names no light, light.NAME.property=value does") {
 	const LightSetting own = parse_light_setting("light_size=0.4");
 	CHECK(own.light_name.empty());
 	CHECK(own.property == "light_size");
@@ -17,7 +17,7 @@ TEST_CASE("[LightSetting] property=value names no light, light.NAME.property=val
 	CHECK(parse_light_setting("words=").value.empty());
 }
 
-TEST_CASE("[LightSetting] text without an equals sign or without a light's name is wrong usage") {
+TEST_CASE("[LightSetting] text without an equals sign or a light's name is a UsageError") {
 	for (const char *text : { "", "light_size", "light.size=1", "light..size=1", "light.=1" }) {
 		CAPTURE(text);
 		CHECK_THROWS_AS(parse_light_setting(text), UsageError);

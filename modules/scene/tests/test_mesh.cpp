@@ -14,14 +14,14 @@ const std::vector<glm::vec3> TRIANGLE = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } 
 
 } // namespace
 
-TEST_CASE("[Mesh] missing normals are those of the faces, weighted by area") {
+TEST_CASE("[Mesh] missing normals are area-weighted means of the faces' normals") {
 	const auto mesh = make_mesh("a", TRIANGLE, {}, { 0, 1, 2 });
 	REQUIRE(mesh->normals_node.size() == 3);
 	CHECK(mesh->normals_node[1] == glm::vec3(0, 0, 1));
 	CHECK(mesh->get_triangle_count() == 1);
 	CHECK(mesh->bounds_node.maximum == glm::dvec3(1, 1, 0));
 
-	// One corner of a large face towards +z and a small one towards +y.
+	// Vertex 0 is a corner of a large face towards +z and of a small one towards +y.
 	const auto two =
 			make_mesh("b", { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 1 }, { 1, 0, 0 } }, {},
 					{ 0, 1, 2, 0, 3, 4 });
@@ -36,6 +36,8 @@ TEST_CASE("[Mesh] unusable normals are replaced, long ones made unit, good ones 
 	CHECK(mesh->normals_node[0] == glm::vec3(0, 0, 1));
 	CHECK(mesh->normals_node[1] == glm::vec3(0, 1, 0));
 	CHECK(mesh->normals_node[2] == glm::vec3(0, 0, 1));
+	const std::vector<glm::vec3> units(3, glm::vec3(0, 0.6f, 0.8f));
+	CHECK(make_mesh("b", TRIANGLE, units, { 0, 1, 2 })->normals_node == units);
 }
 
 TEST_CASE("[Mesh] a vertex without area still has a unit normal") {

@@ -17,7 +17,7 @@ namespace {
 
 const float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
-/// A strip of quads along x whose vertices follow two joints, the more the second the farther out.
+/// A strip of quads along x. Weights blend from joint 0 at its start to joint 1 at its end.
 std::shared_ptr<const Mesh> make_strip(uint32_t p_influences = 4, size_t p_targets = 0) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -29,8 +29,8 @@ std::shared_ptr<const Mesh> make_strip(uint32_t p_influences = 4, size_t p_targe
 			positions.emplace_back(0.25f * column, 0, 0.5f * row);
 			for (uint32_t i = 0; i < p_influences; ++i) {
 				rig.joints.push_back(i % 2);
-				const float share = float(column) / (COLUMNS - 1);
-				rig.weights.push_back(i == 0 ? 1 - share : i == 1 ? share : 0);
+				const float fraction = float(column) / (COLUMNS - 1);
+				rig.weights.push_back(i == 0 ? 1 - fraction : i == 1 ? fraction : 0);
 			}
 		}
 	}
@@ -67,7 +67,7 @@ std::string get_rig_error(MeshRig p_rig, size_t p_vertices) {
 
 } // namespace
 
-TEST_CASE("mesh rig: weights sum up to 1, and what cannot be used is named") {
+TEST_CASE("mesh rig: weights are normalized, and an error names an invalid value") {
 	MeshRig rig;
 	rig.influence_count = 4;
 	rig.joints = { 0, 1, 2, 3, 7, 0, 0, 0 };
@@ -92,7 +92,7 @@ TEST_CASE("mesh rig: weights sum up to 1, and what cannot be used is named") {
 			std::string::npos);
 }
 
-TEST_CASE("mesh pose: vertices are where the joints' weighted sum takes them") {
+TEST_CASE("mesh pose: the weighted sum of the joints transforms vertices") {
 	for (const uint32_t influences : { 4u, 8u }) {
 		const auto mesh = make_strip(influences, 2);
 		const std::vector<glm::dmat4> joints = make_bend(0.7);
@@ -102,9 +102,9 @@ TEST_CASE("mesh pose: vertices are where the joints' weighted sum takes them") {
 			const glm::dvec3 rest = mesh->positions_node[vertex];
 			// Both targets raise y by x, the second twice as much.
 			const glm::dvec4 morphed(rest.x, rest.x * (0.5 - 2 * 0.25), rest.z, 1);
-			const double share = double(vertex / 2) / 8;
+			const double fraction = double(vertex / 2) / 8;
 			const glm::dvec4 expected =
-					(1 - share) * (joints[0] * morphed) + share * (joints[1] * morphed);
+					(1 - fraction) * (joints[0] * morphed) + fraction * (joints[1] * morphed);
 			CHECK(glm::distance(glm::dvec3(vertices.positions[vertex]), glm::dvec3(expected)) <
 					1e-6);
 			CHECK(glm::length(vertices.normals[vertex]) == doctest::Approx(1));
@@ -112,7 +112,7 @@ TEST_CASE("mesh pose: vertices are where the joints' weighted sum takes them") {
 	}
 }
 
-TEST_CASE("mesh pose: bounds enclose all vertices, of random poses too") {
+TEST_CASE("mesh pose: bounds enclose all vertices of random poses") {
 	const auto mesh = make_strip(4, 3);
 	std::mt19937 generator(7);
 	std::uniform_real_distribution<double> number(-1, 1);
@@ -127,7 +127,7 @@ TEST_CASE("mesh pose: bounds enclose all vertices, of random poses too") {
 		for (int i = 0; i < 3; ++i) {
 			weights.push_back(float(2 * number(generator)));
 		}
-		const Bounds bounds = bound_deformed_vertices(*mesh, joints, weights);
+		const Bounds bounds = compute_deformed_bounds(*mesh, joints, weights);
 		const double rounding = 1e-5;
 		for (const glm::vec3 &position : deform_vertices(*mesh, joints, weights).positions) {
 			CHECK(bounds.compute_distance(glm::dvec3(position)) <= rounding);
@@ -135,7 +135,7 @@ TEST_CASE("mesh pose: bounds enclose all vertices, of random poses too") {
 	}
 }
 
-TEST_CASE("mesh pose: a slot keeps a pose that rests, and its meshes") {
+TEST_CASE("mesh pose: a slot reuses an unchanged pose, and its meshes") {
 	const auto mesh = make_strip();
 	PoseSlot slot(mesh);
 	const auto one = slot.make_pose(make_bend(0.5), {}, "Node");
@@ -158,7 +158,7 @@ TEST_CASE("mesh pose: a slot keeps a pose that rests, and its meshes") {
 	CHECK(slot.get_deformed(mesh) != deformed);
 }
 
-TEST_CASE("mesh pose: poses that no float holds name the object") {
+TEST_CASE("mesh pose: poses outside the range of floats are errors that name the object") {
 	const auto mesh = make_strip();
 	for (const double scale : { 1e300, double(NOT_A_NUMBER), -1e19 }) {
 		std::string message;
@@ -173,7 +173,7 @@ TEST_CASE("mesh pose: poses that no float holds name the object") {
 				message.find("Node \"Body\": the transform of joint 1 of its skin is not finite") ==
 						0));
 	}
-	// Joints that press a mesh to a point are allowed.
+	// Joints that collapse a mesh to a point are allowed.
 	const glm::dmat4 flat = glm::scale(glm::dmat4(1.0), glm::dvec3(0));
 	const MeshPose pose(mesh, { flat, flat }, {}, "Node");
 	for (const glm::vec3 &normal : pose.get_mesh(mesh)->normals_node) {
@@ -181,7 +181,7 @@ TEST_CASE("mesh pose: poses that no float holds name the object") {
 	}
 }
 
-TEST_CASE("mesh pose: what is cut out follows its triangles") {
+TEST_CASE("mesh pose: a cut mesh follows the triangles of its source") {
 	Material material;
 	material.alpha_mode = AlphaMode::MASK;
 	std::vector<uint8_t> texels;
@@ -208,17 +208,17 @@ TEST_CASE("mesh pose: what is cut out follows its triangles") {
 	const auto same = rest.get_mesh(cut);
 	const MeshPose bent(mesh, make_bend(1.0), {}, "Node");
 	const auto moved = bent.get_mesh(cut);
-	const auto whole = bent.get_mesh(mesh);
+	const auto uncut = bent.get_mesh(mesh);
 	for (size_t triangle = 0; triangle < cut->get_triangle_count(); ++triangle) {
-		const uint32_t *source = &whole->indices[3 * cut->source.triangles[triangle]];
-		const glm::dvec3 a = whole->positions_node[source[0]];
+		const uint32_t *source = &uncut->indices[3 * cut->source.triangles[triangle]];
+		const glm::dvec3 a = uncut->positions_node[source[0]];
 		const glm::dvec3 normal =
-				glm::normalize(glm::cross(glm::dvec3(whole->positions_node[source[1]]) - a,
-						glm::dvec3(whole->positions_node[source[2]]) - a));
+				glm::normalize(glm::cross(glm::dvec3(uncut->positions_node[source[1]]) - a,
+						glm::dvec3(uncut->positions_node[source[2]]) - a));
 		for (size_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
 			const uint32_t vertex = cut->indices[corner];
 			CHECK(glm::distance(same->positions_node[vertex], cut->positions_node[vertex]) < 1e-6f);
-			// In the plane of its triangle as it is now.
+			// In the plane of the posed source triangle.
 			CHECK(std::abs(glm::dot(glm::dvec3(moved->positions_node[vertex]) - a, normal)) < 1e-6);
 		}
 	}
@@ -254,7 +254,7 @@ TEST_CASE("skin: a mesh is where its joints are, wherever its node is") {
 	const auto same = build_snapshot(scene, camera);
 	CHECK(same->instances[0].pose == before->instances[0].pose);
 	CHECK(node.compute_bounds().minimum.x == doctest::Approx(1e6));
-	SUBCASE("moved whole, it keeps its pose") {
+	SUBCASE("if the frame moves, the pose is reused") {
 		frame->parent_from_node[3].y = 5;
 		const auto moved = build_snapshot(scene, camera);
 		CHECK(moved->instances[0].pose == before->instances[0].pose);
@@ -262,7 +262,7 @@ TEST_CASE("skin: a mesh is where its joints are, wherever its node is") {
 		CHECK(moved->instances[0].bounds_world.minimum.y == doctest::Approx(5));
 		CHECK(moved->instances[0].compute_hash(1) != before->instances[0].compute_hash(1));
 	}
-	SUBCASE("bent, it has another pose and the same meshes") {
+	SUBCASE("if a joint rotates, the pose changes and the meshes are reused") {
 		joint1->posed_parent_from_node =
 				glm::rotate(joint1->parent_from_node, 0.5, glm::dvec3(0, 0, 1));
 		const auto bent = build_snapshot(scene, camera);
@@ -271,11 +271,14 @@ TEST_CASE("skin: a mesh is where its joints are, wherever its node is") {
 		CHECK(bent->instances[0].compute_hash(1) != before->instances[0].compute_hash(1));
 		CHECK(bent->instances[0].bounds_world.maximum.y > 0.3);
 	}
-	SUBCASE("a joint that was deleted leaves the others where they are") {
+	SUBCASE("the vertices of a deleted joint stay at rest") {
 		joint0->remove_child(*joint1);
-		CHECK(build_snapshot(scene, camera)->instances.size() == 1);
+		const auto left = build_snapshot(scene, camera);
+		REQUIRE(left->instances.size() == 1);
+		CHECK(left->instances[0].bounds_world.minimum.x == doctest::Approx(1e6));
+		CHECK(left->instances[0].bounds_world.maximum.x == doctest::Approx(1e6 + 2));
 	}
-	SUBCASE("a frame without an inverse is the world") {
+	SUBCASE("the world replaces a frame without an inverse") {
 		frame->parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0));
 		CHECK(build_snapshot(scene, camera)->instances[0].world_from_node == glm::dmat4(1.0));
 	}

@@ -13,7 +13,7 @@ bool has(const Node3D &p_node, const char *p_name) {
 	return list_node_properties(p_node).find(p_name) != nullptr;
 }
 
-void add_note(const Node3D &p_node, PropertyList &r_list) {
+void add_test_property(const Node3D &p_node, PropertyList &r_list) {
 	if (dynamic_cast<const Light3D *>(&p_node) != nullptr) {
 		r_list.add({ "note_size", PropertyType::FLOAT, 2.0, "0,4,1", "Only of this test." });
 	}
@@ -21,7 +21,7 @@ void add_note(const Node3D &p_node, PropertyList &r_list) {
 
 } // namespace
 
-TEST_CASE("[NodeProperties] every property of every class can be read, set and put back") {
+TEST_CASE("[NodeProperties] every property of every class can be read, set and reset") {
 	const std::unique_ptr<Node3D> nodes[] = { std::make_unique<Node3D>(),
 		std::make_unique<MeshInstance3D>(), std::make_unique<Light3D>(),
 		std::make_unique<Camera3D>() };
@@ -43,7 +43,7 @@ TEST_CASE("[NodeProperties] every property of every class can be read, set and p
 	}
 }
 
-TEST_CASE("[NodeProperties] a transform is set in parts, mirrored ones too") {
+TEST_CASE("[NodeProperties] position, rotation and scale are set separately, mirrored ones too") {
 	for (const double mirror : { 1.0, -1.0 }) {
 		Node3D node;
 		set_node_property(node, "position", glm::dvec3(1, 2, 3));
@@ -61,15 +61,15 @@ TEST_CASE("[NodeProperties] a transform is set in parts, mirrored ones too") {
 	}
 }
 
-TEST_CASE("[NodeProperties] a flat transform keeps its turn, and a moved one its shear") {
+TEST_CASE("[NodeProperties] a flat transform keeps its rotation, and a moved one its shear") {
 	Node3D node;
 	set_node_property(node, "rotation", glm::dvec3(20, -130, 45));
 	for (const glm::dvec3 &flat :
 			{ glm::dvec3(0, 3, 4), glm::dvec3(2, 0, 4), glm::dvec3(2, 3, 0) }) {
 		set_node_property(node, "scale", flat);
 		set_node_property(node, "scale", glm::dvec3(2, 3, 4));
-		const auto turned = std::get<glm::dvec3>(get_node_property(node, "rotation"));
-		CHECK(glm::length(turned - glm::dvec3(20, -130, 45)) < 1e-8);
+		const auto rotation = std::get<glm::dvec3>(get_node_property(node, "rotation"));
+		CHECK(glm::length(rotation - glm::dvec3(20, -130, 45)) < 1e-8);
 	}
 	set_node_property(node, "scale", glm::dvec3(0.0));
 	CHECK(std::isfinite(std::get<glm::dvec3>(get_node_property(node, "rotation")).x));
@@ -80,8 +80,7 @@ TEST_CASE("[NodeProperties] a flat transform keeps its turn, and a moved one its
 	CHECK(node.parent_from_node[1] == sheared[1]);
 }
 
-TEST_CASE(
-		"[NodeProperties] a stored value of another type reads as what it means, or the default") {
+TEST_CASE("[NodeProperties] a stored value of another type is converted, or reads as the default") {
 	Light3D light;
 	light.properties["light_size"] = int64_t(2);
 	CHECK(std::get<double>(get_node_property(light, "light_size")) == 2.0);
@@ -89,7 +88,7 @@ TEST_CASE(
 	CHECK(std::get<double>(get_node_property(light, "light_size")) == 0.1);
 }
 
-TEST_CASE("[NodeProperties] what means nothing to a light is not there") {
+TEST_CASE("[NodeProperties] properties without effect on a type of light are not listed") {
 	Light3D light;
 	set_node_property(light, "type", std::string("directional"));
 	CHECK(light.type == LightType::DIRECTIONAL);
@@ -119,20 +118,20 @@ TEST_CASE("[NodeProperties] a refused value and an unknown name are errors that 
 	CHECK_THROWS_AS(set_node_property(light, "position", glm::dvec3(NAN, 0, 0)), Error);
 }
 
-TEST_CASE("[NodeProperties] other modules add properties, which the node keeps by name") {
+TEST_CASE("[NodeProperties] other modules add properties, which the node stores by name") {
 	Light3D light;
 	CHECK_FALSE(has(light, "note_size"));
-	add_node_property_source(&add_note);
+	add_node_property_source(&add_test_property);
 	CHECK(has(light, "note_size"));
 	CHECK_FALSE(has(Camera3D(), "note_size"));
 	CHECK(std::get<double>(get_node_property(light, "note_size")) == 2.0);
 	set_node_property(light, "note_size", 3.0);
 	CHECK(is_node_property_set(light, "note_size"));
-	remove_node_property_source(&add_note);
+	remove_node_property_source(&add_test_property);
 	CHECK(light.properties.contains("note_size"));
 }
 
-TEST_CASE("[NodeProperties] a mesh lists its position, and a light its size") {
+TEST_CASE("[NodeProperties] a mesh has world bounds, and a light has gizmos of its size") {
 	MeshInstance3D instance;
 	CHECK(instance.compute_bounds().is_empty());
 	instance.surfaces.push_back({ make_box_mesh("box", glm::vec3(1, 2, 3)), nullptr });
@@ -148,7 +147,7 @@ TEST_CASE("[NodeProperties] a mesh lists its position, and a light its size") {
 		REQUIRE_FALSE(gizmos.empty());
 		CHECK(gizmos[0].radius_m == doctest::Approx(type == LightType::DIRECTIONAL ? 1.0 : 0.25));
 		CHECK(gizmos[0].value == std::get<double>(get_node_property(light, gizmos[0].property)));
-		// A metre more of the gizmo is so much more of the property.
+		// value_per_m is the change of the property per metre of the gizmo's radius.
 		const double more = gizmos[0].value + 1e-6 * gizmos[0].value_per_m;
 		set_node_property(light, gizmos[0].property, std::min(more, 90.0));
 		gizmos.clear();
@@ -201,9 +200,9 @@ TEST_CASE("[NodeProperties] a mesh's material is changed for its node alone, and
 	CHECK(left.surfaces[0].material->attenuation_color == glm::vec3(0.5f, 0.25f, 1));
 	CHECK(left.surfaces[0].material->name == "Wax");
 	CHECK(left.surfaces[0].material->file_index == 3);
-	CHECK(left.surfaces[1].material == left.surfaces[0].material); // what was shared stays so
+	CHECK(left.surfaces[1].material == left.surfaces[0].material); // still one material
 	CHECK(left.surfaces[2].material->scatter == 0.75f);
-	// The same value again makes no other material.
+	// Setting the same value again makes no new material.
 	const auto same = left.surfaces[0].material;
 	set_node_property(left, "scatter", 0.75);
 	CHECK(left.surfaces[0].material == same);

@@ -16,7 +16,7 @@ template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
 
 } // namespace
 
-TEST_CASE("[Node3D] the transform to the world applies the parents' outermost first") {
+TEST_CASE("[Node3D] the world transform is the product of the parents' and the node's own") {
 	Scene scene;
 	Node3D *arm = add<Node3D>(*scene.root, "Arm");
 	Light3D *lamp = add<Light3D>(*arm, "Lamp");
@@ -36,7 +36,7 @@ TEST_CASE("[Scene] nodes are found by class in tree order, and by name") {
 	CHECK(&scene.find_node<Light3D>("B", "light") == second);
 }
 
-TEST_CASE("[Scene] an unknown name is an error that lists the names there are") {
+TEST_CASE("[Scene] an unknown name is an error that lists the existing ones") {
 	Scene scene;
 	scene.path = "desk.gltf";
 	CHECK_THROWS_WITH_AS(scene.find_node<Light3D>("Lamp", "light"),
@@ -48,7 +48,7 @@ TEST_CASE("[Scene] an unknown name is an error that lists the names there are") 
 			"Scene \"desk.gltf\" has no light \"Lamp\". Name one of these: \"A\", \"B\".", Error);
 }
 
-TEST_CASE("[Light3D] every property is described, and r and t may be derived from the size") {
+TEST_CASE("[Light3D] every property has a tooltip, and penumbra widths may be -1") {
 	const PropertyList &list = Light3D::get_property_list();
 	for (const char *name : { "light_size", "light_angular_distance", "shadow_enabled",
 				 "shadow_technique", "penumbra_outer_width", "penumbra_inner_width" }) {

@@ -17,7 +17,7 @@ template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
 	return static_cast<T *>(p_parent.add_child(std::move(node)));
 }
 
-/// A camera, a light and one triangle of the box (0,0,0)..(1,1,0).
+/// A camera, a light and one triangle, whose bounds are (0, 0, 0)..(1, 1, 0).
 struct SmallScene {
 	Scene scene;
 	Camera3D *camera = add<Camera3D>(*scene.root, "Camera");
@@ -33,7 +33,7 @@ struct SmallScene {
 
 } // namespace
 
-TEST_CASE("[SceneSnapshot] r and t of -1 become the light's size, others stay") {
+TEST_CASE("[SceneSnapshot] penumbra widths that are not set become the light's size, others stay") {
 	SmallScene small;
 	small.light->properties = { { "light_size", 0.4 }, { "penumbra_inner_width", 0.25 },
 		{ "x_taps", int64_t(8) } };
@@ -47,14 +47,14 @@ TEST_CASE("[SceneSnapshot] r and t of -1 become the light's size, others stay") 
 	CHECK_FALSE(light.is_inner_width_derived);
 }
 
-TEST_CASE("[SceneSnapshot] a directional light's disc is the tangent of half its diameter") {
+TEST_CASE("[SceneSnapshot] a directional light's disc radius is the tangent of half its angle") {
 	SmallScene small;
 	small.light->type = LightType::DIRECTIONAL;
 	small.light->properties = { { "light_angular_distance", 90.0 } };
 	CHECK(small.build()->lights[0].get_disc_radius() == doctest::Approx(std::tan(M_PI / 4)));
 }
 
-TEST_CASE("[SceneSnapshot] derived widths of a directional light grow with the scene, not R") {
+TEST_CASE("[SceneSnapshot] derived widths of a directional light scale with the scene size") {
 	for (double size_m : { 4.0, 4000.0 }) {
 		SmallScene small;
 		small.scene.scene_size_m = size_m;
@@ -68,7 +68,7 @@ TEST_CASE("[SceneSnapshot] derived widths of a directional light grow with the s
 	}
 }
 
-TEST_CASE("[SceneSnapshot] a value that no file could hold is an error naming the light") {
+TEST_CASE("[SceneSnapshot] a value out of range is an error that names the light") {
 	SmallScene small;
 	small.light->properties = { { "light_size", -1.0 } };
 	CHECK_THROWS_WITH_AS(
@@ -79,19 +79,19 @@ TEST_CASE("[SceneSnapshot] a value that no file could hold is an error naming th
 
 TEST_CASE("[SceneSnapshot] a light's orientation ignores scale and mirroring") {
 	SmallScene small;
-	const glm::dmat4 turned =
+	const glm::dmat4 rotation =
 			glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
-	small.light->parent_from_node = turned * glm::scale(glm::dmat4(1.0), glm::dvec3(-2, 3, 1e-5));
+	small.light->parent_from_node = rotation * glm::scale(glm::dmat4(1.0), glm::dvec3(-2, 3, 1e-5));
 	const LightSnapshot light = small.build()->lights[0];
 	const glm::dmat3 identity = glm::transpose(light.world_from_light) * light.world_from_light;
 	for (int axis = 0; axis < 3; ++axis) {
 		CHECK(glm::length(identity[axis] - glm::dmat3(1.0)[axis]) < 1e-12);
 	}
 	CHECK(glm::determinant(light.world_from_light) == doctest::Approx(1.0));
-	CHECK(glm::length(light.get_direction_world() + glm::dvec3(turned[2])) < 1e-12);
+	CHECK(glm::length(light.get_direction_world() + glm::dvec3(rotation[2])) < 1e-12);
 }
 
-TEST_CASE("[SceneSnapshot] transforms without orientation or not finite name their node") {
+TEST_CASE("[SceneSnapshot] invalid transforms are errors that name their node") {
 	SmallScene small;
 	small.light->parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0, 1, 1));
 	CHECK_THROWS_WITH_AS(small.build(), doctest::Contains("Light \"Lamp\""), Error);
@@ -107,7 +107,7 @@ TEST_CASE("[SceneSnapshot] transforms without orientation or not finite name the
 	CHECK_THROWS_WITH_AS(small.build(), doctest::Contains("Camera \"Camera\""), Error);
 }
 
-TEST_CASE("[SceneSnapshot] the scene's size is its own, else the casters' diagonal, never 0") {
+TEST_CASE("[SceneSnapshot] the scene size is the set one, else the casters' diagonal, never 0") {
 	SmallScene small;
 	CHECK(small.build()->scene_size_m == doctest::Approx(std::sqrt(2.0)));
 	small.scene.scene_size_m = 4;
@@ -117,7 +117,7 @@ TEST_CASE("[SceneSnapshot] the scene's size is its own, else the casters' diagon
 	CHECK(small.build()->scene_size_m == 1e-9);
 }
 
-TEST_CASE("[SceneSnapshot] bounds hold the turned corners and camera space keeps precision") {
+TEST_CASE("[SceneSnapshot] bounds enclose rotated corners, camera-relative space keeps precision") {
 	SmallScene small;
 	const glm::dvec3 far_away(1e9, 0, 0);
 	small.instance->parent_from_node = glm::rotate(
@@ -126,14 +126,14 @@ TEST_CASE("[SceneSnapshot] bounds hold the turned corners and camera space keeps
 			glm::translate(glm::dmat4(1.0), far_away + glm::dvec3(0.125, 0, 0));
 	const auto snapshot = small.build();
 	const InstanceSnapshot &instance = snapshot->instances.at(0);
-	CHECK(instance.material);
+	CHECK(instance.material); // the default one, as the surface has none
 	CHECK(instance.bounds_world.minimum.x == doctest::Approx(1e9 - 1).epsilon(1e-15));
 	CHECK(instance.bounds_world.maximum.y == doctest::Approx(1.0));
 	CHECK(snapshot->get_camera_relative_from_node(instance)[3].x == -0.125f);
 	CHECK(snapshot->to_camera_relative(far_away).x == -0.125f);
 }
 
-TEST_CASE("[SceneSnapshot] a mirroring transform is known as one") {
+TEST_CASE("[SceneSnapshot] a mirroring transform is detected") {
 	InstanceSnapshot instance;
 	CHECK_FALSE(instance.is_mirrored());
 	instance.world_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));

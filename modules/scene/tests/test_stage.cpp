@@ -20,6 +20,8 @@ template <typename T> T &add(Scene &r_scene, const std::string &p_name) {
 	return static_cast<T &>(*r_scene.root->add_child(std::move(node)));
 }
 
+/// Makes a scene of one box of 2 x 4 x 1 m, scaled, without camera and light. The box has the name
+/// that the staged light would get.
 std::unique_ptr<Scene> make_model(
 		double p_scale = 1.0, const glm::dvec3 &p_position = glm::dvec3(0.0)) {
 	auto scene = std::make_unique<Scene>();
@@ -31,24 +33,27 @@ std::unique_ptr<Scene> make_model(
 	return scene;
 }
 
-/// Before the camera: x right, y up, -z its direction.
-glm::dvec3 find_seen(const SceneSnapshot &p_snapshot, const glm::dvec3 &p_point) {
+/// Transforms a point to the camera's space: x right, y up, looking along -z.
+glm::dvec3 transform_to_camera(const SceneSnapshot &p_snapshot, const glm::dvec3 &p_point) {
 	return glm::transpose(p_snapshot.camera.world_from_camera) *
 			(p_point - p_snapshot.camera.position_world);
 }
 
-/// In a square image.
-void check_is_seen(const glm::dvec3 &p_seen, const Camera3D &p_camera) {
-	const double reach = -p_seen.z * std::tan(p_camera.vertical_fov_rad / 2);
-	CHECK(std::abs(p_seen.x) < reach);
-	CHECK(std::abs(p_seen.y) < reach);
+/// Checks that a point in the camera's space is visible in a square image.
+void check_is_visible(const glm::dvec3 &p_point_camera, const Camera3D &p_camera) {
+	const double reach = -p_point_camera.z * std::tan(p_camera.vertical_fov_rad / 2);
+	CHECK(std::abs(p_point_camera.x) < reach);
+	CHECK(std::abs(p_point_camera.y) < reach);
 }
 
-void check_shadow_is_seen(const SceneSnapshot &p_snapshot, const Camera3D &p_camera,
+/// Checks that the shadow of a point on the ground is visible.
+void check_shadow_is_visible(const SceneSnapshot &p_snapshot, const Camera3D &p_camera,
 		const glm::dvec3 &p_caster, double p_ground_y) {
 	const glm::dvec3 light = p_snapshot.lights[0].position_world;
 	const glm::dvec3 ray = p_caster - light;
-	check_is_seen(find_seen(p_snapshot, light + ray * ((p_ground_y - light.y) / ray.y)), p_camera);
+	check_is_visible(
+			transform_to_camera(p_snapshot, light + ray * ((p_ground_y - light.y) / ray.y)),
+			p_camera);
 }
 
 } // namespace
@@ -72,25 +77,25 @@ TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and 
 		CHECK(snapshot->lights[0].light_size_m == doctest::Approx(std::min(0.1 * size_m, 10000.0)));
 		for (const InstanceSnapshot &instance : snapshot->instances) {
 			if (!instance.casts_shadow) {
-				// Below the model, by a little.
+				// The ground is just below the model.
 				CHECK(instance.bounds_world.maximum.y < scale * (3 - 2));
 				CHECK(instance.bounds_world.maximum.y > scale * (3 - 2) - 0.01 * size_m);
 				continue;
 			}
 			for (int corner = 0; corner < 8; ++corner) {
-				const glm::dvec3 seen =
-						find_seen(*snapshot, instance.bounds_world.get_corner(corner));
-				check_is_seen(seen, camera);
-				CHECK(-seen.z > camera.near_m);
-				check_shadow_is_seen(*snapshot, camera, instance.bounds_world.get_corner(corner),
+				const glm::dvec3 point_camera =
+						transform_to_camera(*snapshot, instance.bounds_world.get_corner(corner));
+				check_is_visible(point_camera, camera);
+				CHECK(-point_camera.z > camera.near_m);
+				check_shadow_is_visible(*snapshot, camera, instance.bounds_world.get_corner(corner),
 						scale * (3 - 2));
-				// Within the light's cone, and far from the light.
+				// Within the light's cone, and at least 1.5 diagonals of the model from the light.
 				const glm::dvec3 to_corner = instance.bounds_world.get_corner(corner) -
 						snapshot->lights[0].position_world;
 				CHECK(glm::dot(glm::normalize(to_corner),
 							  snapshot->lights[0].get_direction_world()) >
 						std::cos(light.inner_cone_rad));
-				CHECK(glm::length(to_corner) > 5 * 0.3 * size_m);
+				CHECK(glm::length(to_corner) > 1.5 * size_m);
 			}
 		}
 	}
@@ -110,7 +115,7 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 		const Camera3D &camera = *scene.find_nodes<Camera3D>()[0];
 		const auto snapshot = build_snapshot(scene, camera);
 		const glm::dvec3 light = snapshot->lights[0].position_world;
-		glm::dvec2 least(1), greatest(-1);
+		glm::dvec2 lower(1), upper(-1);
 		for (int corner = 0; corner < 16; ++corner) {
 			glm::dvec3 point = (corner & 1 ? 1.0 : -1.0) * glm::dvec3(half.x, 0, 0) +
 					(corner & 2 ? 1.0 : -1.0) * glm::dvec3(0, half.y, 0) +
@@ -119,23 +124,23 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 				const glm::dvec3 ray = point - light;
 				point = light + ray * ((-half.y - light.y) / ray.y);
 			}
-			const glm::dvec3 seen = find_seen(*snapshot, point);
-			const glm::dvec2 position = glm::dvec2(seen) /
-					(-seen.z * std::tan(camera.vertical_fov_rad / 2)) /
+			const glm::dvec3 point_camera = transform_to_camera(*snapshot, point);
+			const glm::dvec2 position = glm::dvec2(point_camera) /
+					(-point_camera.z * std::tan(camera.vertical_fov_rad / 2)) /
 					glm::dvec2(std::min(aspect, 1.0), 1.0);
-			least = glm::min(least, position);
-			greatest = glm::max(greatest, position);
+			lower = glm::min(lower, position);
+			upper = glm::max(upper, position);
 		}
-		const glm::dvec2 extent = greatest - least; // of 2
+		const glm::dvec2 extent = upper - lower; // 2: the whole image
 		CHECK(std::max(extent.x, extent.y) > 1.7);
 		CHECK(std::max(extent.x, extent.y) < 1.9);
-		// In the middle, but for what perspective moves.
-		CHECK(std::abs(least.x + greatest.x) < 0.3);
-		CHECK(std::abs(least.y + greatest.y) < 0.3);
+		// Centred, except for the asymmetry of perspective.
+		CHECK(std::abs(lower.x + upper.x) < 0.3);
+		CHECK(std::abs(lower.y + upper.y) < 0.3);
 	}
 }
 
-TEST_CASE("[Stage] what a file has is not added, unless all is requested") {
+TEST_CASE("[Stage] AUTO adds only what a file lacks, ON adds everything") {
 	const auto scene = make_model();
 	add<Camera3D>(*scene, "Eye");
 	add<Light3D>(*scene, "Lamp");
@@ -156,7 +161,7 @@ TEST_CASE("[Stage] what a file has is not added, unless all is requested") {
 	CHECK(stage_scene(nothing, StageMode::ON) == "");
 }
 
-TEST_CASE("[Stage] staged is a property of such nodes alone, and can be taken off") {
+TEST_CASE("[Stage] only staged nodes have the property staged, which can be cleared") {
 	const auto scene = make_model();
 	stage_scene(*scene, StageMode::AUTO);
 	Node3D &light = *scene->find_nodes<Light3D>()[0];

@@ -21,7 +21,7 @@ const std::string_view KERNEL = "#version 460\n"
 								"layout(set = 0, binding = 0) buffer Output { uint answer; };\n"
 								"void main() { answer = get_answer(); }\n";
 
-/// A folder of shaders as the sources' is.
+/// A temporary folder of shader sources with one include file.
 struct ShaderFolder : TemporaryFolder {
 	int written_count = 0;
 
@@ -29,13 +29,13 @@ struct ShaderFolder : TemporaryFolder {
 	void write(const std::string &p_name, std::string_view p_text) {
 		fs::create_directories((path / p_name).parent_path());
 		save_file_atomically(path / p_name, p_text);
-		// Later than before on any clock.
+		// Each write gets a later time, even if the clock of the file system is coarse.
 		fs::last_write_time(path / p_name,
 				fs::file_time_type::clock::now() + std::chrono::seconds(++written_count));
 	}
 };
 
-/// Of this build, whichever it is.
+/// Returns the name of any compute shader that this build embeds; empty if there is none.
 std::string find_embedded_name() {
 	for (const EmbeddedShader &shader : get_embedded_shaders()) {
 		if (shader.name.ends_with(".comp")) {
@@ -61,7 +61,7 @@ TEST_CASE("[ShaderCompiler] every shader of this build compiles to what the buil
 	CHECK(count > 0);
 }
 
-TEST_CASE("[ShaderCompiler] includes are found, and what is wrong is reported by file and line") {
+TEST_CASE("[ShaderCompiler] includes are resolved, and errors name the file and line") {
 	ShaderFolder folder;
 	folder.write("tests/answer.comp", KERNEL);
 	const std::vector<uint32_t> words = compile_shader(folder.path, "tests/answer.comp");
@@ -92,7 +92,7 @@ TEST_CASE("[ShaderCompiler] includes are found, and what is wrong is reported by
 	CHECK_THROWS_AS(compile_shader(folder.path, "common/empty.comp"), Error);
 }
 
-TEST_CASE("[ShaderCompiler] a variant is the same file with a macro of its name") {
+TEST_CASE("[ShaderCompiler] a variant is the same file compiled with the macro VARIANT_<NAME>") {
 	CHECK(find_shader_source("a/b.comp").file == "a/b.comp");
 	CHECK(find_shader_source("a/b.comp").macro.empty());
 	CHECK(find_shader_source("a/b.storage.comp").file == "a/b.comp");
@@ -108,13 +108,13 @@ TEST_CASE("[ShaderCompiler] a variant is the same file with a macro of its name"
 	CHECK(compile_shader(folder.path, "tests/answer.unused.comp") == words);
 }
 
-TEST_CASE("[ShaderCompiler] what a text includes") {
+TEST_CASE("[ShaderCompiler] find_includes returns the quoted includes in order") {
 	CHECK(find_includes("").empty());
 	CHECK(find_includes("#include \"a/b.h\"\n  #  include \"c.glsl\"\n// #include \"d.h\"\n"
 						"#include <e.h>\n") == std::vector<std::string>{ "a/b.h", "c.glsl" });
 }
 
-TEST_CASE("[ShaderWatcher] what changes is compiled again, with all that includes it") {
+TEST_CASE("[ShaderWatcher] a changed include file recompiles the entry point that includes it") {
 	const std::string name = find_embedded_name();
 	REQUIRE_FALSE(name.empty());
 	ShaderFolder folder;
@@ -138,7 +138,7 @@ TEST_CASE("[ShaderWatcher] what changes is compiled again, with all that include
 	CHECK(changes[0].spirv.empty());
 	CHECK(watcher.poll().empty()); // reported once
 
-	// Away for a moment, as editors write files; then there again with another content.
+	// Editors may delete a file and write it again with other content.
 	fs::remove(folder.path / "common/answer_inc.glsl");
 	CHECK(watcher.poll().empty());
 	folder.write("common/answer_inc.glsl", "#include \"common/more_inc.glsl\"\n");
@@ -151,7 +151,7 @@ TEST_CASE("[ShaderWatcher] what changes is compiled again, with all that include
 	CHECK(changes[0].failure.empty());
 }
 
-TEST_CASE("[ShaderWatcher] a folder that is not there watches nothing") {
+TEST_CASE("[ShaderWatcher] nothing is watched in a folder that does not exist") {
 	ShaderWatcher watcher("/no/such/folder");
 	CHECK(watcher.get_watched_count() == 0);
 	CHECK(watcher.poll().empty());

@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/count_box_inc.glsl"
 
-// Input 2 i, 2 i + 1: a CountBlockBox. Output per box and edge: may the edge matter to a receiver of the box;
-// what is known of its weight; are bundles of this edge alone, and of all edges, tested.
+// Input: items 2 i and 2 i + 1 are CountBlockBox i. Output per box and edge: x is 1 if the edge may matter to a
+// receiver of the box, y is its weight if all receivers see the same one, else 9. z and w are 1 if the test of bundles
+// accepts a bundle of this edge alone, and a bundle of all edges.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];
@@ -29,13 +30,13 @@ vec3 get_b(uint p_edge) {
 }
 
 CountEdgeBundle make_bundle(uint p_first, uint p_end) {
-	vec3 least = vec3(COUNT_FAR);
-	vec3 greatest = vec3(-COUNT_FAR);
+	vec3 minimum = vec3(COUNT_FAR);
+	vec3 maximum = vec3(-COUNT_FAR);
 	for (uint i = p_first; i < p_end; ++i) {
-		least = min(least, min(get_a(i), get_b(i)));
-		greatest = max(greatest, max(get_a(i), get_b(i)));
+		minimum = min(minimum, min(get_a(i), get_b(i)));
+		maximum = max(maximum, max(get_a(i), get_b(i)));
 	}
-	return CountEdgeBundle(vec4(0.5 * (least + greatest), 0.0), vec4(0.5001 * (greatest - least), 0.0));
+	return CountEdgeBundle(vec4(0.5 * (minimum + maximum), 0.0), vec4(0.5001 * (maximum - minimum), 0.0));
 }
 
 void main() {
@@ -49,13 +50,13 @@ void main() {
 	const CountBox box = make_count_box(light, light.views[0],
 			unpack_count_bounds(CountBlockBox(items[2u * box_index], items[2u * box_index + 1u])));
 	const CountEdgeKind kind = make_count_kind(edges[index].a_face0.w, edges[index].b_face1.w);
-	const uint known = find_known_weight(box, kind, planes[edges[index].a_face0.w & EDGE_COUNT_FACE_MASK],
+	const uint packed_weight = find_packed_weight(box, kind, planes[edges[index].a_face0.w & EDGE_COUNT_FACE_MASK],
 			kind.has_face1 ? planes[edges[index].b_face1.w] : vec4(0.0));
 	const ivec2 sides = ivec2(find_light_side(box, get_a(index)), find_light_side(box, get_b(index)));
-	const bool is_used = is_edge_in_reach(box, get_a(index), get_b(index)) && known != COUNT_ADDS_NOTHING &&
+	const bool is_used = is_edge_in_reach(box, get_a(index), get_b(index)) && packed_weight != COUNT_ADDS_NOTHING &&
 			max(sides.x, sides.y) >= 0;
 	results[item] = vec4(is_used ? 1.0 : 0.0,
-			(known & COUNT_KNOWS_WEIGHT) != 0u ? float(get_known_weight(known)) : 9.0,
+			(packed_weight & COUNT_HAS_WEIGHT) != 0u ? float(unpack_weight(packed_weight)) : 9.0,
 			may_use_bundle(box, make_bundle(index, index + 1u)) ? 1.0 : 0.0,
 			may_use_bundle(box, make_bundle(0u, edge_count)) ? 1.0 : 0.0);
 }

@@ -11,14 +11,15 @@ namespace gnomon {
 
 namespace {
 
-const double SIDE_TOLERANCE_SIZES = 2.5e-7; // of S
+// As in count_casters.cpp.
+const double SIDE_TOLERANCE_SIZES = 2.5e-7; // fraction of S
 const double SIDE_TOLERANCE_COSINE = 1e-6;
 
 double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 	return p_a.x * p_b.y - p_a.y * p_b.x;
 }
 
-bool is_before(const glm::dvec4 &p_plane, const glm::dvec3 &p_r) {
+bool is_in_front(const glm::dvec4 &p_plane, const glm::dvec3 &p_r) {
 	return glm::dot(glm::dvec3(p_plane), p_r) + p_plane.w > 0.0;
 }
 
@@ -31,19 +32,20 @@ int find_light_side(const CountSpace &p_space, const glm::dvec4 &p_plane) {
 	return side > reach + tolerance ? 1 : side < -reach - tolerance ? -1 : 0;
 }
 
-/// From a receiver to points: (X, d), X / d on the plane of the disc that faces it.
+/// Maps points to (X, d) as seen from a receiver: X / d is in the plane of the disc that faces it.
 class Receiver {
 public:
 	Receiver(const CountSpace &p_space, const glm::dvec3 &p_r) :
 			r(p_r), x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), to_light(0.0, 0.0, -1.0) {
 		if (!p_space.is_directional) {
 			const glm::dvec3 n = glm::normalize(p_r);
-			// As make_count_receiver: the points of the light are the same.
-			const double turn = n.z >= 0 ? 1.0 : -1.0;
-			const double a = -1.0 / (turn + n.z);
+			// The same basis as in make_count_receiver, so that the points of the light are the
+			// same.
+			const double sign_z = n.z >= 0 ? 1.0 : -1.0;
+			const double a = -1.0 / (sign_z + n.z);
 			const double b = n.x * n.y * a;
-			x = { 1.0 + turn * n.x * n.x * a, turn * b, -turn * n.x };
-			y = { b, turn + n.y * n.y * a, -n.y };
+			x = { 1.0 + sign_z * n.x * n.x * a, sign_z * b, -sign_z * n.x };
+			y = { b, sign_z + n.y * n.y * a, -n.y };
 			to_light = -p_r / glm::dot(p_r, p_r);
 		}
 	}
@@ -81,11 +83,12 @@ public:
 				weight < 0 ? -side : side, std::abs(weight));
 	}
 
-	/// The line along which a face passes through the disc's plane. p_has_before: of closed parts
-	/// the faces count that have the receiver before them, else those that have it behind.
-	void add_cut(const CountFace &p_face, bool p_has_before) {
-		const bool is_receiver_before = is_before(p_face.plane, r);
-		if (!p_face.is_double_sided && is_receiver_before != p_has_before) {
+	/// Adds the line along which a face crosses the disc's plane. p_uses_front_faces: of closed
+	/// mesh parts, only faces with the receiver in front have such a line; otherwise, only those
+	/// with the receiver behind.
+	void add_cut(const CountFace &p_face, bool p_uses_front_faces) {
+		const bool is_receiver_in_front = is_in_front(p_face.plane, r);
+		if (!p_face.is_double_sided && is_receiver_in_front != p_uses_front_faces) {
 			return;
 		}
 		std::optional<glm::dvec2> leave;
@@ -100,9 +103,9 @@ public:
 		}
 		if (leave) {
 			const bool is_between =
-					is_receiver_before != (space.get_light_side(p_face.plane) > 0.0);
-			add_sector(is_receiver_before ? *leave : *enter, is_receiver_before ? *enter : *leave,
-					is_between ? 1.0 : -1.0, 1);
+					is_receiver_in_front != (space.get_light_side(p_face.plane) > 0.0);
+			add_sector(is_receiver_in_front ? *leave : *enter,
+					is_receiver_in_front ? *enter : *leave, is_between ? 1.0 : -1.0, 1);
 		}
 	}
 
@@ -110,8 +113,8 @@ public:
 		const double points = double(DiscMasks::SAMPLE_COUNT * masks.size());
 		double hidden = 0;
 		double sum = 0;
-		double products = 0; // of the changes of both
-		double squares = 0;	 // of the count's change
+		double products = 0; // of the changes of the hidden state (0 or 1) and of the count
+		double squares = 0;	 // of the change of the count
 		bool overlaps = false;
 		for (const auto &samples : counts) {
 			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
@@ -126,23 +129,24 @@ public:
 			}
 		}
 		const double mean = p_solid_count + area;
-		const double trust = !overlaps ? 1.0 : squares > 0 ? products / squares : 0.0;
+		const double regression_slope = !overlaps ? 1.0 : squares > 0 ? products / squares : 0.0;
 		hidden = overlaps ? hidden : sum;
-		return std::clamp(1.0 - hidden / points - trust * (mean - sum / points), 0.0, 1.0);
+		return std::clamp(
+				1.0 - hidden / points - regression_slope * (mean - sum / points), 0.0, 1.0);
 	}
 
 private:
-	/// The part that is nearer to the light than the receiver, and before the light, on the disc's
-	/// plane, in units of R.
+	/// Clips an edge to what is nearer to the light than the receiver and in front of the light.
+	/// Returns its ends projected to the disc's plane, in units of R, or nothing if none is left.
 	std::optional<std::pair<glm::dvec2, glm::dvec2>> cut(
 			const glm::dvec3 &p_a, const glm::dvec3 &p_b) const {
-		const double least = space.nearer_tolerance;
-		const double most = space.is_directional ? std::numeric_limits<double>::infinity() : 1.0;
-		if (std::max(p_a.z, p_b.z) <= least || std::min(p_a.z, p_b.z) >= most) {
+		const double minimum = space.nearer_tolerance;
+		const double maximum = space.is_directional ? std::numeric_limits<double>::infinity() : 1.0;
+		if (std::max(p_a.z, p_b.z) <= minimum || std::min(p_a.z, p_b.z) >= maximum) {
 			return std::nullopt;
 		}
 		const auto move = [&](const glm::dvec3 &p_end, const glm::dvec3 &p_other) {
-			const double d = std::clamp(p_end.z, least, most);
+			const double d = std::clamp(p_end.z, minimum, maximum);
 			return d == p_end.z ? p_end
 								: glm::mix(p_end, p_other, (d - p_end.z) / (p_other.z - p_end.z));
 		};
@@ -152,14 +156,14 @@ private:
 				glm::dvec2(b) / (b.z * space.disc_radius));
 	}
 
-	/// Adds the part of the disc beyond the edge, as the centre sees it: a sector without its
-	/// triangle, with the sign of the turn.
+	/// Adds the region of the disc beyond an edge, seen from the centre: a circular sector without
+	/// its triangle. It is subtracted if p_side > 0.
 	void add_sector(const glm::dvec2 &p_a, const glm::dvec2 &p_b, double p_side, int p_weight) {
-		const glm::dvec2 way = p_b - p_a;
-		if (glm::dot(way, way) < 1e-16) {
+		const glm::dvec2 edge_direction = p_b - p_a;
+		if (glm::dot(edge_direction, edge_direction) < 1e-16) {
 			return;
 		}
-		const glm::dvec2 u = glm::normalize(way);
+		const glm::dvec2 u = glm::normalize(edge_direction);
 		const double distance = std::max(std::abs(cross(p_a, u)), 1e-20);
 		if (distance >= 1) {
 			return;
@@ -189,15 +193,15 @@ private:
 	const glm::dvec3 r;
 	const Receiver receiver;
 	const std::span<const DiscLookup> masks;
-	double area = 0; // of the disc's
+	double area = 0; // as a fraction of the disc's area
 	std::vector<std::array<int, DiscMasks::SAMPLE_COUNT>> counts;
 };
 
 } // namespace
 
 int CountEdge::compute_weight(const glm::dvec3 &p_r) const {
-	const int first = is_before(plane0, p_r) ? 1 : -1;
-	const int sum = first - (is_before(plane1, p_r) ? 1 : -1);
+	const int first = is_in_front(plane0, p_r) ? 1 : -1;
+	const int sum = first - (is_in_front(plane1, p_r) ? 1 : -1);
 	return !has_face1 ? first : is_double_sided ? sum : sum / 2;
 }
 
@@ -236,7 +240,7 @@ void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &
 			edge.plane1 =
 					faces[first + mesh_edge.face1].plane * (mesh_edge.is_inconsistent ? -1.0 : 1.0);
 			const int side = find_light_side(p_space, edge.plane0);
-			// Where the faces continue each other no point off their plane sees a silhouette.
+			// An edge between coplanar faces is never a silhouette.
 			if (mesh_edge.is_coplanar ||
 					(side != 0 && side == find_light_side(p_space, edge.plane1))) {
 				continue;
@@ -251,11 +255,11 @@ void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &
 namespace {
 
 struct Crossings {
-	int away = 0;
-	int toward = 0;
-	int open = 0;
+	int back_facing = 0;
+	int light_facing = 0;
+	int double_sided = 0;
 
-	int get_solid_count() const { return open + std::max(away, toward); }
+	int get_solid_count() const { return double_sided + std::max(back_facing, light_facing); }
 };
 
 Crossings count_crossings(
@@ -263,8 +267,8 @@ Crossings count_crossings(
 	const Receiver receiver(p_space, p_r);
 	Crossings found;
 	for (const CountFace &face : p_faces) {
-		const bool is_receiver_before = is_before(face.plane, p_r);
-		if (is_receiver_before == (p_space.get_light_side(face.plane) > 0.0)) {
+		const bool is_receiver_in_front = is_in_front(face.plane, p_r);
+		if (is_receiver_in_front == (p_space.get_light_side(face.plane) > 0.0)) {
 			continue;
 		}
 		bool is_left[3];
@@ -276,7 +280,9 @@ Crossings count_crossings(
 		if (is_left[0] != is_left[1] || is_left[0] != is_left[2]) {
 			continue;
 		}
-		++(face.is_double_sided ? found.open : is_receiver_before ? found.away : found.toward);
+		++(face.is_double_sided				   ? found.double_sided
+						: is_receiver_in_front ? found.back_facing
+											   : found.light_facing);
 	}
 	return found;
 }
@@ -299,7 +305,7 @@ double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r
 		}
 		for (const CountFace &face : p_faces) {
 			if (!p_space.is_directional) {
-				counter.add_cut(face, crossings.away >= crossings.toward);
+				counter.add_cut(face, crossings.back_facing >= crossings.light_facing);
 			}
 		}
 	}

@@ -8,20 +8,20 @@
 #include <span>
 #include <vector>
 
-// edge_count in double precision, without lists or boxes: each receiver tests all faces and all
-// edges. The shaders are tested against it.
+// The technique edge_count in double precision, without lists or boxes: each receiver tests all
+// faces and all edges. The shaders are tested against it.
 
 namespace gnomon {
 
-/// Light space: metres, the light's centre at the origin (directional: its view's origin, the light
-/// shines along z).
+/// A light and its space: metres, the light's centre at the origin (directional: its view's origin,
+/// and the light shines along z).
 struct CountSpace {
 	bool is_directional = false;
-	double disc_radius = 0; // R in metres; directional: the tangent of half the apparent diameter
+	double disc_radius = 0;			// R in metres; directional: a tangent
 	double nearer_tolerance = 2e-5; // see CountLightConstants
 	double scene_size_m = 1;		// S
 
-	/// Above 0 when the face with plane n.r + d = 0 is light-facing.
+	/// Above 0 when the face with plane (n, c), n.r + c = 0, is light-facing.
 	double get_light_side(const glm::dvec4 &p_plane) const {
 		return is_directional ? -p_plane.z : p_plane.w;
 	}
@@ -31,14 +31,14 @@ struct CountSpace {
 struct CountEdge {
 	glm::dvec3 a = glm::dvec3(0.0);
 	glm::dvec3 b = glm::dvec3(0.0);
-	/// n and d of the faces: n.r + d = 0, n unit, above 0 in front. The second is (0, 0, 0, 0)
-	/// where the edge has one face, and negated where both wind a -> b.
+	/// Planes (n, c) of the two faces: n.r + c is 0 on the face and above 0 in front, n is unit.
+	/// plane1 is 0 if the edge has one face, and negated if both faces wind a -> b.
 	glm::dvec4 plane0 = glm::dvec4(0.0);
 	glm::dvec4 plane1 = glm::dvec4(0.0);
 	bool has_face1 = false;
 	bool is_double_sided = false; // it belongs to a mesh part that is not closed
 
-	/// Signed weight as seen from a point.
+	/// Signed weight as seen from a point: the change of the number of solids across the edge.
 	int compute_weight(const glm::dvec3 &p_r) const;
 };
 
@@ -52,17 +52,19 @@ struct CountedCasters {
 	std::vector<CountEdge> edges;
 	std::vector<CountFace> faces;
 
-	/// Edges whose faces the whole light sees from the same side are skipped.
+	/// Adds the faces and edges of a mesh. Edges whose faces the whole light sees from the same
+	/// side are skipped.
 	void add_mesh(const MeshTopology &p_topology, const glm::dmat4 &p_light_from_node,
 			const CountSpace &p_space);
 };
 
-/// Number of solids between a receiver and the light's centre.
+/// Number of solids between a receiver at p_r and the light's centre.
 int count_solids_in_double(
 		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces);
 
-/// The fraction of the light that a receiver sees, 0..1. p_r: already moved off its surface.
-/// p_edges: all edges that may matter to it. p_masks: one per turn of 64 points of the light.
+/// The fraction of the light that a receiver sees, 0..1. p_r: its position, already moved off its
+/// surface. p_edges: all edges that may matter to it. p_masks: one per set of 64 points of the
+/// light.
 double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
 		std::span<const DiscLookup> p_masks);

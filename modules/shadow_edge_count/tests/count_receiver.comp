@@ -3,8 +3,8 @@
 #include "shadow_edge_count/count_edge_inc.glsl"
 #include "shadow_edge_count/count_faces_inc.glsl"
 
-// Input: r. Output: visibility, solids before the light's centre, signed area. All faces and edges are looked
-// at: no lists.
+// Input: receivers' positions in light space. Output: visibility, solids in front of the light's centre, signed area
+// (see CountState). Tests all faces and edges, without lists.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];
@@ -29,10 +29,10 @@ layout(set = 0, binding = 6) readonly buffer Masks {
 };
 
 uvec4 load_count_masks(uint p_index, uint p_pair) {
-	return uvec4(masks[p_index], uvec2(0u)); // one turn
+	return uvec4(masks[p_index], uvec2(0u)); // one set of points
 }
 
-// One list of all faces for every texel.
+// Each texel has the same list, of all faces.
 CountViewConstants load_count_view(uint p_view) {
 	return light.views[p_view];
 }
@@ -61,7 +61,7 @@ void main() {
 	const CountCrossings crossings = count_crossings(light, 0u, vec2(0.0), receiver);
 	CountState state = make_count_state(sum_crossings(crossings));
 	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && light.is_directional == 0u; ++i) {
-		count_add_cut(receiver, faces[i], planes[i], crossings.away >= crossings.toward, state);
+		count_add_cut(receiver, faces[i], planes[i], crossings.back_facing >= crossings.light_facing, state);
 	}
 	for (uint i = 0u; i < uint(edges.length()) && light.disc_radius > 0.0; ++i) {
 		const CountEdgeRecord edge = edges[i];
@@ -71,7 +71,7 @@ void main() {
 				receiver.position, planes[face0], kind.has_face1 ? planes[edge.b_face1.w] : vec4(0.0), kind);
 		const CountSector sector = find_edge_sector(
 				receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz), weight);
-		count_sectors(sector, make_no_sector(), state);
+		count_sectors(sector, make_empty_sector(), state);
 	}
 	results[item] = vec4(count_resolve(state), float(state.solid_count), state.area, 0.0);
 }

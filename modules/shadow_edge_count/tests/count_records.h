@@ -13,7 +13,8 @@ namespace gnomon {
 struct CountArrays {
 	std::vector<shader::CountEdgeRecord> edges;
 	std::vector<shader::CountFaceRecord> faces;
-	std::vector<glm::vec4> planes; // of the faces, then two for each edge
+	/// Of the faces, then two for each edge: face indices in `edges` are indices of these planes.
+	std::vector<glm::vec4> planes;
 	shader::CountLightConstants light = {};
 
 	static glm::uvec4 pack(const glm::dvec3 &p_point, uint32_t p_word) {

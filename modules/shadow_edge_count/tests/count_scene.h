@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// A sphere of p_rings x 2 p_rings patches.
+/// A sphere tessellated into p_rings rings of 2 p_rings patches.
 inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p_rings) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -19,10 +19,11 @@ inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p
 	for (uint32_t ring = 0; ring <= p_rings; ++ring) {
 		for (uint32_t column = 0; column < columns; ++column) {
 			const double polar = M_PI * ring / p_rings;
-			const double turn = 2.0 * M_PI * column / columns;
+			const double azimuth = 2.0 * M_PI * column / columns;
 			const double across = ring == 0 || ring == p_rings ? 0.0 : std::sin(polar);
 			positions.push_back(glm::vec3(p_radius *
-					glm::dvec3(across * std::cos(turn), std::cos(polar), across * std::sin(turn))));
+					glm::dvec3(across * std::cos(azimuth), std::cos(polar),
+							across * std::sin(azimuth))));
 		}
 	}
 	for (uint32_t ring = 0; ring < p_rings; ++ring) {
@@ -40,22 +41,22 @@ inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p
 	return make_mesh("sphere", std::move(positions), {}, std::move(indices));
 }
 
-/// Meshes, a light, and two ways to compute a point's visibility: by counting and by rays.
+/// Meshes and a light. Computes the visibility of a point by counting and by tracing rays.
 class CountScene {
 public:
 	glm::dvec3 light = glm::dvec3(1.8, 6.0, 1.2);
 	glm::dvec3 target = glm::dvec3(0.0, 0.4, 0.0);
 	bool is_directional = false;
-	double radius = 0.4; // R; directional: a tangent
-	double scene_size = 4;
-	double half_extent = 0.95; // of the view; directional: metres
-	uint32_t mask_turns = 1;
+	double radius = 0.4;		   // R; directional: a tangent
+	double scene_size = 4;		   // S in metres
+	double half_extent = 0.95;	   // of the view: a tangent; directional: metres
+	uint32_t sample_set_count = 1; // sets of 64 points: 1 or 4
 
 	void add(const std::shared_ptr<const Mesh> &p_mesh, const glm::dmat4 &p_world_from_node) {
 		objects.push_back({ get_topology(p_mesh), p_world_from_node });
 	}
 
-	/// After the last change.
+	/// Must be called after the last change, before any computation.
 	void build() {
 		const glm::dvec3 forward = glm::normalize(target - light);
 		const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
@@ -77,17 +78,18 @@ public:
 			}
 		}
 		masks.clear();
-		for (uint32_t turn = 0; turn < mask_turns; ++turn) {
-			masks.emplace_back(turn, mask_turns);
+		for (uint32_t sample_set = 0; sample_set < sample_set_count; ++sample_set) {
+			masks.emplace_back(sample_set, sample_set_count);
 		}
 	}
 
-	/// The receiver in light space, moved off its surface.
+	/// The position of a receiver in light space, moved off its surface.
 	glm::dvec3 make_receiver(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
 		return glm::dvec3(
 				view_from_world * glm::dvec4(p_position + p_normal * (5e-5 * scene_size), 1.0));
 	}
 
+	/// Visibility of a receiver by counting. p_receiver: see make_receiver.
 	double count(const glm::dvec3 &p_receiver) const {
 		return compute_count_visibility(space, p_receiver, casters.edges, casters.faces, masks);
 	}
@@ -95,18 +97,19 @@ public:
 		return count(make_receiver(p_position, p_normal));
 	}
 
-	/// The fraction of p_count points, of the disc that faces the point, that no triangle hides.
+	/// Visibility by tracing rays: the fraction of p_count points of the light that no triangle
+	/// hides. The points are on the disc that faces p_position.
 	double trace(const glm::dvec3 &p_position, const glm::dvec3 &p_normal, uint32_t p_count) const {
 		const glm::dvec3 from = p_position + p_normal * (5e-5 * scene_size);
-		const glm::dvec3 way = is_directional ? glm::normalize(light - target) : light - from;
-		const glm::dvec3 axis = glm::normalize(way);
+		const glm::dvec3 to_light = is_directional ? glm::normalize(light - target) : light - from;
+		const glm::dvec3 axis = glm::normalize(to_light);
 		const glm::dvec3 u = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 1.0, 0.2)));
 		const glm::dvec3 v = glm::cross(axis, u);
 		uint32_t seen = 0;
 		for (uint32_t index = 0; index < p_count; ++index) {
 			const double r = std::sqrt((index + 0.5) / p_count) * radius;
 			const double angle = 2.399963229728653 * index;
-			const glm::dvec3 to = way + u * (r * std::cos(angle)) + v * (r * std::sin(angle));
+			const glm::dvec3 to = to_light + u * (r * std::cos(angle)) + v * (r * std::sin(angle));
 			seen += is_hidden(from, is_directional ? to * (10.0 * scene_size) : to) ? 0 : 1;
 		}
 		return double(seen) / p_count;
@@ -123,12 +126,12 @@ private:
 		glm::dmat4 world_from_node;
 	};
 
-	/// A triangle on the way, which is whole at 1.
-	bool is_hidden(const glm::dvec3 &p_from, const glm::dvec3 &p_way) const {
+	/// True if a triangle intersects the segment from p_from to p_from + p_segment.
+	bool is_hidden(const glm::dvec3 &p_from, const glm::dvec3 &p_segment) const {
 		for (size_t first = 0; first < triangles.size(); first += 3) {
 			const glm::dvec3 e1 = triangles[first + 1] - triangles[first];
 			const glm::dvec3 e2 = triangles[first + 2] - triangles[first];
-			const glm::dvec3 h = glm::cross(p_way, e2);
+			const glm::dvec3 h = glm::cross(p_segment, e2);
 			const double determinant = glm::dot(e1, h);
 			if (determinant == 0) {
 				continue;
@@ -136,7 +139,7 @@ private:
 			const glm::dvec3 s = (p_from - triangles[first]) / determinant;
 			const double b = glm::dot(s, h);
 			const glm::dvec3 q = glm::cross(s, e1);
-			const double c = glm::dot(p_way, q);
+			const double c = glm::dot(p_segment, q);
 			const double t = glm::dot(e2, q);
 			if (b >= 0 && c >= 0 && b + c <= 1 && t > 0 && t < 1) {
 				return true;

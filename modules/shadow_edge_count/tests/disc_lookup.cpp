@@ -15,7 +15,7 @@ const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
 
 uint32_t DiscLookup::find_sector(const glm::dvec2 &p_direction) const {
 	const double angle = std::atan2(p_direction.y, p_direction.x) / SECTOR_RAD;
-	const double position = angle + 1.0 + SAMPLE_COUNT - (turn + 0.5) / turn_count;
+	const double position = angle + 1.0 + SAMPLE_COUNT - (sample_set + 0.5) / sample_set_count;
 	return static_cast<uint32_t>(position) % SAMPLE_COUNT;
 }
 
@@ -28,10 +28,11 @@ uint64_t DiscLookup::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to)
 }
 
 uint32_t DiscLookup::find_direction(const glm::dvec2 &p_direction) {
-	// The diamond angle y / (|x| + |y|) needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x.
+	// The diamond angle needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x. See
+	// find_direction_bin in count_masks_inc.glsl.
 	const double sum = std::abs(p_direction.x) + std::abs(p_direction.y);
-	const double share = sum > 0 ? p_direction.y / sum : 0.0;
-	const double angle = p_direction.x >= 0 ? 1.0 + share : 3.0 - share;
+	const double ratio = sum > 0 ? p_direction.y / sum : 0.0;
+	const double angle = p_direction.x >= 0 ? 1.0 + ratio : 3.0 - ratio;
 	return static_cast<uint32_t>(angle * (DIRECTION_COUNT / 4)) % DIRECTION_COUNT;
 }
 

@@ -4,20 +4,21 @@
 
 namespace gnomon {
 
-/// Lookups in the masks in double precision: the C++ version of count_masks_inc.glsl.
+/// Lookups of masks in double precision: the C++ version of count_masks_inc.glsl.
 class DiscLookup : public DiscMasks {
 public:
-	explicit DiscLookup(uint32_t p_turn = 0, uint32_t p_turn_count = 1) :
-			DiscMasks(p_turn, p_turn_count), turn(p_turn), turn_count(p_turn_count) {}
+	explicit DiscLookup(uint32_t p_sample_set = 0, uint32_t p_sample_set_count = 1) :
+			DiscMasks(p_sample_set, p_sample_set_count), sample_set(p_sample_set),
+			sample_set_count(p_sample_set_count) {}
 
-	/// Mask of the points beyond the line at p_offset (0..1) from the centre in the direction,
+	/// Mask of the points that are farther than p_offset (0..1) from the centre along p_direction,
 	/// which need not be unit.
 	uint64_t get_mask(const glm::dvec2 &p_direction, double p_offset) const {
 		return get_table()[size_t(find_direction(p_direction)) * OFFSET_COUNT +
 				find_offset(p_offset)];
 	}
-	/// Mask of the points in the sector from one direction counter-clockwise to another, less than
-	/// half a circle. Adjacent sectors have no point in common and miss none between them.
+	/// Mask of the points in the sector from p_from counter-clockwise to p_to, less than half a
+	/// circle. Adjacent sectors have no point in common and miss none between them.
 	uint64_t get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const;
 	/// Index of the first point whose angle is not below the direction's.
 	uint32_t find_sector(const glm::dvec2 &p_direction) const;
@@ -26,8 +27,8 @@ private:
 	static uint32_t find_direction(const glm::dvec2 &p_direction);
 	static uint32_t find_offset(double p_offset);
 
-	uint32_t turn = 0;
-	uint32_t turn_count = 1;
+	uint32_t sample_set = 0;
+	uint32_t sample_set_count = 1;
 };
 
 } // namespace gnomon

@@ -15,8 +15,8 @@
 
 namespace gnomon {
 
-/// What a frame is to render, apart from its scene.
-struct FrameWishes {
+/// Options of a frame, apart from its scene.
+struct FrameOptions {
 	glm::uvec2 size_px = glm::uvec2(96);
 	std::string technique = "edge_count";
 	bool may_reuse = true;
@@ -24,27 +24,27 @@ struct FrameWishes {
 };
 
 inline MaskResult render_frame(
-		MaskFixture &r_fixture, const SmallScene &p_scene, const FrameWishes &p_wishes = {}) {
+		MaskFixture &r_fixture, const SmallScene &p_scene, const FrameOptions &p_options = {}) {
 	MaskRequest request;
 	request.scene = p_scene.snap();
-	request.size_px = p_wishes.size_px;
-	request.technique_override = p_wishes.technique;
+	request.size_px = p_options.size_px;
+	request.technique_override = p_options.technique;
 	request.light = p_scene.light->name;
-	request.wants_surfaces = p_wishes.wants_surfaces;
-	request.may_reuse = p_wishes.may_reuse;
+	request.wants_surfaces = p_options.wants_surfaces;
+	request.may_reuse = p_options.may_reuse;
 	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	return result;
 }
 
-/// A finely tessellated sphere over the scene's box; their shadows overlap in part.
+/// Adds a finely tessellated sphere next to the scene's box. Their shadows overlap partly.
 inline MeshInstance3D &add_globe(
 		SmallScene &r_scene, double p_scale = 1.0, const glm::dvec3 &p_origin = glm::dvec3(0.0)) {
 	return add_mesh(r_scene.scene, "Globe", make_count_sphere(0.4 * p_scale, 16),
 			p_origin + p_scale * glm::dvec3(-0.7, 0.9, 0.5));
 }
 
-/// One light of a scene, counted in double.
+/// One light of a scene, with visibility counted in double precision.
 class CountedLight {
 public:
 	CountedLight(const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
@@ -67,11 +67,12 @@ public:
 						light_from_world * instance.world_from_node, space);
 			}
 		}
-		for (uint32_t turn = 0; turn < settings.get_turn_count(); ++turn) {
-			masks.emplace_back(turn, settings.get_turn_count());
+		for (uint32_t sample_set = 0; sample_set < settings.get_sample_set_count(); ++sample_set) {
+			masks.emplace_back(sample_set, settings.get_sample_set_count());
 		}
 	}
 
+	/// Visibility of the light at a surface point, 0..1.
 	double compute(const SurfacePoint &p_surface) const {
 		const glm::dvec3 normal = glm::normalize(glm::dvec3(p_surface.geometric_normal));
 		const glm::dvec3 position_world = camera_position_world + glm::dvec3(p_surface.position) +
@@ -93,13 +94,14 @@ private:
 /// Difference of a mask from its reference.
 struct MaskDifference {
 	double mean = 0; // over receivers
-	double greatest = 0;
-	double penumbra_mean = 0; // where the reference is neither 0 nor 1
+	double maximum = 0;
+	double penumbra_mean = 0; // where the reference is above 0.002 and below 0.998
 	size_t receiver_count = 0;
 	size_t penumbra_count = 0;
-	size_t apart_count = 0; // receivers that differ by more than 0.01
+	size_t mismatch_count = 0; // receivers that differ by more than 0.01
 };
 
+/// Compares a mask with a reference. Pixels without a receiver are skipped.
 inline MaskDifference compare_masks(
 		const std::vector<float> &p_mask, const MaskResult &p_reference) {
 	MaskDifference difference;
@@ -111,8 +113,8 @@ inline MaskDifference compare_masks(
 		const double error = std::abs(p_mask[index] - reference);
 		const bool is_penumbra = reference > 0.002 && reference < 0.998;
 		difference.mean += error;
-		difference.greatest = std::max(difference.greatest, error);
-		difference.apart_count += error > 0.01 ? 1 : 0;
+		difference.maximum = std::max(difference.maximum, error);
+		difference.mismatch_count += error > 0.01 ? 1 : 0;
 		difference.penumbra_mean += is_penumbra ? error : 0.0;
 		++difference.receiver_count;
 		difference.penumbra_count += is_penumbra ? 1 : 0;
@@ -137,7 +139,7 @@ inline MaskResult count_in_double(const SmallScene &p_scene, const MaskResult &p
 	return result;
 }
 
-/// False, with a message, in a build without the reference.
+/// True if the build has the traced reference. Otherwise it logs a message.
 inline bool has_reference() {
 	if (ShadowRegistry::find_reference() == nullptr) {
 		MESSAGE("No reference technique in this build: there is nothing to compare with.");
@@ -146,7 +148,8 @@ inline bool has_reference() {
 	return true;
 }
 
-/// The reference mask; has_reference() must be true. p_sample_count: rays per pixel.
+/// Renders the traced reference's mask. has_reference() must be true. p_sample_count: rays per
+/// pixel.
 inline MaskResult render_reference(MaskFixture &r_fixture, SmallScene &r_scene,
 		glm::uvec2 p_size_px = glm::uvec2(96), int64_t p_sample_count = 256) {
 	const std::string id = ShadowRegistry::find_reference()->id;

@@ -1,4 +1,4 @@
-// Which edges a box of receivers rejects: none that changes what one of them sees.
+// A box of receivers must not reject an edge that changes the visibility of one of them.
 
 #include "modules/shadow_edge_count/tests/count_records.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
@@ -15,7 +15,7 @@ namespace {
 
 const int UNKNOWN_WEIGHT = 9; // see count_cull.comp
 
-/// Receivers in light space, and the box of their (x', y') and w about a plane.
+/// Receivers in light space, and their box: bounds of (x', y'), and of w relative to a plane.
 struct ReceiverBox {
 	std::vector<glm::dvec3> receivers;
 	shader::CountBlockBox box;
@@ -27,7 +27,7 @@ glm::dvec3 warp(const CountScene &p_scene, const glm::dvec3 &p_r) {
 			: glm::dvec3(p_r.x, p_r.y, 1.0) / p_r.z;
 }
 
-/// Points that are close together or far apart, on a plane or anyhow.
+/// Random receivers within p_width_m, on a plane or anywhere, and their box.
 ReceiverBox make_box(
 		const CountScene &p_scene, TestRandom &r_random, double p_width_m, bool p_is_flat) {
 	for (;;) {
@@ -36,14 +36,14 @@ ReceiverBox make_box(
 		const glm::dvec3 u = r_random.next_unit();
 		const glm::dvec3 v = r_random.next_unit();
 		ReceiverBox result;
-		bool is_before = true;
+		bool is_in_front = true;
 		for (int index = 0; index < 12; ++index) {
 			const glm::dvec3 offset = p_is_flat
 					? u * r_random.next(-1, 1) + v * r_random.next(-1, 1)
 					: r_random.next() * r_random.next_unit();
 			const glm::dvec3 receiver(glm::vec3(
 					p_scene.make_receiver(middle + p_width_m * offset, { 0.0, 1.0, 0.0 })));
-			is_before = is_before && (p_scene.is_directional || receiver.z > 0.05);
+			is_in_front = is_in_front && (p_scene.is_directional || receiver.z > 0.05);
 			result.receivers.push_back(receiver);
 		}
 		const glm::dvec3 normal_world = glm::normalize(glm::cross(u, v));
@@ -51,29 +51,29 @@ ReceiverBox make_box(
 				p_scene.make_receiver(normal_world, {}) - p_scene.make_receiver({}, {});
 		const double height =
 				p_scene.is_directional ? normal.z : glm::dot(normal, result.receivers[0]);
-		if (!is_before || std::abs(height) < 1e-3) {
+		if (!is_in_front || std::abs(height) < 1e-3) {
 			continue;
 		}
 		const glm::vec2 slope(glm::dvec2(normal) / height);
-		glm::vec2 least(1e30f);
-		glm::vec2 greatest(-1e30f);
+		glm::vec2 minimum(1e30f);
+		glm::vec2 maximum(-1e30f);
 		glm::vec2 range(1e30f, -1e30f);
 		for (const glm::dvec3 &receiver : result.receivers) {
 			const glm::dvec3 warped = warp(p_scene, receiver);
 			const float above = float(warped.z - glm::dot(glm::dvec2(slope), glm::dvec2(warped)));
-			least = glm::min(least, glm::vec2(warped));
-			greatest = glm::max(greatest, glm::vec2(warped));
+			minimum = glm::min(minimum, glm::vec2(warped));
+			maximum = glm::max(maximum, glm::vec2(warped));
 			range = { std::min(range.x, above), std::max(range.y, above) };
 		}
-		result.box = { glm::vec4(least, greatest), glm::vec4(slope, range) };
+		result.box = { glm::vec4(minimum, maximum), glm::vec4(slope, range) };
 		return result;
 	}
 }
 
 struct CullResult {
-	std::vector<bool> is_used;		// one per edge, of each box
-	std::vector<int> known_weights; // the same, or UNKNOWN_WEIGHT
-	size_t wrong_bundle_count = 0;	// that reject an edge which is used alone
+	std::vector<bool> is_used;		// by box, then by edge
+	std::vector<int> known_weights; // by box, then by edge; may be UNKNOWN_WEIGHT
+	size_t wrong_bundle_count = 0;	// bundles that are rejected although an edge of theirs is used
 };
 
 CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
@@ -81,7 +81,7 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 	const CountArrays arrays(p_scene);
 	std::vector<glm::vec4> input;
 	for (const ReceiverBox &box : p_boxes) {
-		input.push_back(box.box.least_greatest);
+		input.push_back(box.box.min_max);
 		input.push_back(box.box.slope_range);
 	}
 	const OwnedBuffer light = r_fixture.make_buffer("light",
@@ -102,21 +102,21 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 
 enum class LightSetup { SPOT_ON_AXIS, SPOT_FAR_OFF, DIRECTIONAL };
 
-/// Two solids and an open mesh over the ground, anyhow.
+/// Two solids and an open mesh at random positions above the ground.
 CountScene make_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_random) {
 	CountScene scene;
 	scene.is_directional = p_setup == LightSetup::DIRECTIONAL;
 	scene.radius = scene.is_directional ? p_radius_sizes : p_radius_sizes * scene.scene_size;
 	scene.half_extent = scene.is_directional ? 6.0 : 0.95;
 	if (p_setup == LightSetup::SPOT_FAR_OFF) {
-		// About 50 degrees off the axis, as in the corner of an omni light's view.
+		// The casters are about 50 degrees off the axis, as in the corner of an omni light's view.
 		scene.light = { 2.2, 3.4, 1.4 };
 		scene.target = { 2.3, 1.4, 1.5 };
 		scene.half_extent = 2.6;
 	}
-	const auto make_transform = [&](double p_least_height, double p_greatest_height) {
+	const auto make_transform = [&](double p_min_height, double p_max_height) {
 		const glm::dvec3 position(r_random.next(-0.8, 0.8),
-				r_random.next(p_least_height, p_greatest_height), r_random.next(-0.8, 0.8));
+				r_random.next(p_min_height, p_max_height), r_random.next(-0.8, 0.8));
 		return glm::rotate(glm::translate(glm::dmat4(1.0), position), r_random.next(0.0, 6.28),
 				r_random.next_unit());
 	};
@@ -137,15 +137,15 @@ CountScene make_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_r
 }
 
 struct CullCheck {
-	double greatest_change = 0;
+	double max_change = 0;
 	size_t wrong_weight_count = 0;
 	size_t known_weight_count = 0;
-	size_t rejected_count = 0; // an edge of a box, each
-	size_t used_count = 0;
+	size_t rejected_count = 0; // pairs of a box and an edge
+	size_t used_count = 0;	   // pairs of a box and an edge
 	size_t penumbra_count = 0; // receivers
 };
 
-/// Small boxes and large ones, all receivers of each counted with all edges and with the used ones.
+/// Counts the receivers of small and large boxes with all edges, and with the used ones only.
 void check_boxes(KernelFixture &r_fixture, const CountScene &p_scene, TestRandom &r_random,
 		CullCheck &r_check) {
 	const size_t box_count = 60;
@@ -178,7 +178,7 @@ void check_boxes(KernelFixture &r_fixture, const CountScene &p_scene, TestRandom
 			const double few = compute_count_visibility(
 					p_scene.get_space(), receiver, used, p_scene.get_faces(), p_scene.get_masks());
 			r_check.penumbra_count += all > 0.002 && all < 0.998 ? 1 : 0;
-			r_check.greatest_change = std::max(r_check.greatest_change, std::abs(all - few));
+			r_check.max_change = std::max(r_check.max_change, std::abs(all - few));
 		}
 	}
 }
@@ -197,9 +197,9 @@ TEST_CASE("[GPU][EdgeCount] edges that a box of receivers rejects change nothing
 			for (int scene = 0; scene < 3; ++scene) {
 				check_boxes(fixture, make_scene(setup, radius, random), random, check);
 			}
-			CHECK(check.greatest_change < 1e-12);
+			CHECK(check.max_change < 1e-12);
 			CHECK(check.wrong_weight_count == 0);
-			// Otherwise nothing was tested.
+			// The scenes have enough cases of each kind.
 			CHECK(check.known_weight_count > 50);
 			CHECK(check.rejected_count > 1000);
 			CHECK(check.used_count > 200);

@@ -13,11 +13,11 @@ const glm::dvec3 UP(0.0, 1.0, 0.0);
 
 struct Agreement {
 	double mean = 0;
-	double greatest = 0;
-	size_t apart_count = 0; // by more than 1e-3
+	double maximum = 0;
+	size_t mismatch_count = 0; // receivers that differ by more than 1e-3
 };
 
-/// What the shader finds for receivers in light space: visibility, solids, area.
+/// The shader's results for receivers in light space: visibility, number of solids, area.
 std::vector<glm::vec4> run_receivers(const CountScene &p_scene, KernelFixture &r_fixture,
 		const std::vector<glm::dvec3> &p_receivers) {
 	const CountArrays arrays(p_scene);
@@ -36,14 +36,14 @@ std::vector<glm::vec4> run_receivers(const CountScene &p_scene, KernelFixture &r
 					{ 6, masks.get() } });
 }
 
-/// Receivers on the ground, counted by the shader and in double.
+/// Compares the shader with the double version, for receivers on the ground.
 Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
 	std::vector<glm::dvec3> receivers;
 	TestRandom random;
 	const size_t count = 2000;
 	for (size_t index = 0; index < count; ++index) {
 		const glm::dvec3 position(random.next(-1.6, 1.4), 0.0, random.next(-1.5, 1.3));
-		// What float32 can hold is the question to both.
+		// Rounded to float32, so that both get the same position.
 		receivers.push_back(glm::dvec3(glm::vec3(p_scene.make_receiver(position, UP))));
 	}
 	const std::vector<glm::vec4> results = run_receivers(p_scene, r_fixture, receivers);
@@ -54,15 +54,15 @@ Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
 		REQUIRE(results[index].x >= 0.0f);
 		REQUIRE(results[index].x <= 1.0f);
 		agreement.mean += difference / count;
-		agreement.greatest = std::max(agreement.greatest, difference);
-		agreement.apart_count += difference > 1e-3 ? 1 : 0;
+		agreement.maximum = std::max(agreement.maximum, difference);
+		agreement.mismatch_count += difference > 1e-3 ? 1 : 0;
 	}
 	return agreement;
 }
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] the shader counts as double does where one solid hides the light") {
+TEST_CASE("[GPU][EdgeCount] the shader matches the double version in the shadow of one solid") {
 	KernelFixture fixture;
 	for (const bool is_directional : { false, true }) {
 		for (const double radius : { 0.0, 0.02, 0.1, 0.3 }) { // of S, or a tangent
@@ -79,12 +79,12 @@ TEST_CASE("[GPU][EdgeCount] the shader counts as double does where one solid hid
 			scene.build();
 			const Agreement agreement = compare(scene, fixture);
 			CHECK(agreement.mean < 5e-5);
-			CHECK(agreement.apart_count <= 2); // on an outline, where rounding decides
+			CHECK(agreement.mismatch_count <= 2); // receivers on an outline, where rounding decides
 		}
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] the shader counts as double does where solids overlap") {
+TEST_CASE("[GPU][EdgeCount] the shader matches the double version where solids overlap") {
 	KernelFixture fixture;
 	CountScene scene;
 	scene.add(make_box_mesh("box", glm::vec3(4.2, 0.2, 4.2)),
@@ -99,11 +99,11 @@ TEST_CASE("[GPU][EdgeCount] the shader counts as double does where solids overla
 	scene.build();
 	const Agreement agreement = compare(scene, fixture);
 	CHECK(agreement.mean < 5e-4);
-	CHECK(agreement.greatest < 0.05);  // one point of 64 more or less, in two layers
-	CHECK(agreement.apart_count < 60); // of 2000: a point that is on an edge
+	CHECK(agreement.maximum < 0.05);	  // one point of 64 more or less, in two layers
+	CHECK(agreement.mismatch_count < 60); // of 2000: a point of the light is on an edge
 }
 
-// A ray through a vertex meets all its faces in one point, and one through an edge two of them.
+// A ray through a vertex meets all faces of the vertex in one point, a ray through an edge two.
 TEST_CASE("[GPU][EdgeCount] rays through shared edges and vertices count each solid once") {
 	KernelFixture fixture;
 	for (const bool is_directional : { false, true }) {
@@ -116,9 +116,9 @@ TEST_CASE("[GPU][EdgeCount] rays through shared edges and vertices count each so
 		scene.add(make_count_sphere(0.75, 8), glm::translate(glm::dmat4(1.0), { 0.5, 4.0, 0.25 }));
 		scene.build();
 		std::vector<glm::dvec3> receivers;
-		std::vector<bool> is_inside; // the outline, where rounding may decide
+		std::vector<bool> is_inside; // not close to the outline, where rounding may decide
 		const auto add = [&](const glm::dvec3 &p_corner, const glm::dvec4 &p_plane) {
-			// Beyond the sphere, in float32 exactly behind the point.
+			// A receiver behind the sphere, whose ray passes exactly through the point in float32.
 			const glm::dvec3 point = glm::dvec3(glm::vec3(p_corner));
 			receivers.push_back(is_directional ? point + glm::dvec3(0.0, 0.0, 8.0) : 2.0 * point);
 			is_inside.push_back(std::abs(scene.get_space().get_light_side(p_plane)) >
@@ -145,7 +145,8 @@ TEST_CASE("[GPU][EdgeCount] rays through shared edges and vertices count each so
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] solids are counted as in double, behind, inside and next to them") {
+TEST_CASE("[GPU][EdgeCount] numbers of solids match the double version behind, inside and next to "
+		  "solids") {
 	KernelFixture fixture;
 	TestRandom random;
 	for (const bool is_directional : { false, true }) {
@@ -178,15 +179,15 @@ TEST_CASE("[GPU][EdgeCount] solids are counted as in double, behind, inside and 
 			receivers.push_back(glm::dvec3(glm::vec3(scene.make_receiver(position, UP))));
 		}
 		const std::vector<glm::vec4> results = run_receivers(scene, fixture, receivers);
-		size_t apart_count = 0;
+		size_t mismatch_count = 0;
 		size_t hidden_count = 0;
 		for (size_t index = 0; index < receivers.size(); ++index) {
 			const int expected =
 					count_solids_in_double(scene.get_space(), receivers[index], scene.get_faces());
-			apart_count += int(results[index].y) != expected ? 1 : 0;
+			mismatch_count += int(results[index].y) != expected ? 1 : 0;
 			hidden_count += expected > 0 ? 1 : 0;
 		}
-		CHECK(apart_count <= 1); // rounding, at an outline
+		CHECK(mismatch_count <= 1); // rounding at an outline
 		CHECK(hidden_count > 500);
 	}
 }

@@ -34,12 +34,12 @@ void make_directional(CountScene &r_scene, bool p_is_directional, double p_tange
 
 struct Difference {
 	double mean = 0; // over penumbra points
-	double greatest = 0;
+	double maximum = 0;
 	uint32_t penumbra_count = 0;
 };
 
-/// Counts against rays on a grid of the ground around the shadow.
-/// p_is_inside: points that no camera sees, inside a solid.
+/// Compares counting with tracing rays, on a grid of the ground around the shadow. p_is_inside:
+/// returns true for points inside a solid, which are skipped since no camera sees them.
 template <typename Predicate>
 Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_is_inside) {
 	const int steps = 16;
@@ -58,7 +58,7 @@ Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_i
 			REQUIRE(counted >= 0.0);
 			REQUIRE(counted <= 1.0);
 			const double error = std::abs(counted - reference);
-			difference.greatest = std::max(difference.greatest, error);
+			difference.maximum = std::max(difference.maximum, error);
 			if (reference > 0.002 && reference < 0.998) {
 				difference.mean += error;
 				++difference.penumbra_count;
@@ -75,7 +75,7 @@ Difference compare(const CountScene &p_scene, double p_half_width) {
 
 } // namespace
 
-TEST_CASE("[EdgeCount] one solid's shadow is that of rays, for lights of every size") {
+TEST_CASE("[EdgeCount] the shadow of one solid matches ray tracing, for lights of every size") {
 	for (const double radius : { 0.0, 0.08, 0.4, 1.2, 3.0 }) {
 		CAPTURE(radius);
 		CountScene scene;
@@ -84,13 +84,13 @@ TEST_CASE("[EdgeCount] one solid's shadow is that of rays, for lights of every s
 		add_tilted_box(scene);
 		scene.build();
 		const Difference difference = compare(scene, 1.4);
-		CHECK(difference.mean < 0.002); // the rays' own noise included
-		CHECK(difference.greatest < 0.008);
+		CHECK(difference.mean < 0.002); // includes the noise of the rays
+		CHECK(difference.maximum < 0.008);
 		CHECK((difference.penumbra_count > 0) == (radius > 0));
 	}
 }
 
-TEST_CASE("[EdgeCount] a sphere's shadow, too, and under a directional light") {
+TEST_CASE("[EdgeCount] the shadow of a sphere matches ray tracing, for both kinds of light") {
 	for (const bool is_directional : { false, true }) {
 		CAPTURE(is_directional);
 		CountScene scene;
@@ -101,16 +101,16 @@ TEST_CASE("[EdgeCount] a sphere's shadow, too, and under a directional light") {
 		scene.build();
 		const Difference difference = compare(scene, 1.4);
 		CHECK(difference.mean < 0.002);
-		CHECK(difference.greatest < 0.008);
+		CHECK(difference.maximum < 0.008);
 		CHECK(difference.penumbra_count > 10);
 	}
 }
 
-TEST_CASE("[EdgeCount] shadows of solids behind one another overlap as they do for rays") {
-	for (const uint32_t turns : { 1u, 4u }) {
-		CAPTURE(turns);
+TEST_CASE("[EdgeCount] overlapping shadows of several solids match ray tracing") {
+	for (const uint32_t sample_set_count : { 1u, 4u }) {
+		CAPTURE(sample_set_count);
 		CountScene scene;
-		scene.mask_turns = turns;
+		scene.sample_set_count = sample_set_count;
 		add_ground(scene);
 		for (int index = 0; index < 4; ++index) {
 			const glm::dvec3 position(
@@ -121,8 +121,8 @@ TEST_CASE("[EdgeCount] shadows of solids behind one another overlap as they do f
 		}
 		scene.build();
 		const Difference difference = compare(scene, 1.4);
-		CHECK(difference.mean < (turns == 1 ? 0.01 : 0.006));
-		CHECK(difference.greatest < (turns == 1 ? 0.06 : 0.04));
+		CHECK(difference.mean < (sample_set_count == 1 ? 0.01 : 0.006));
+		CHECK(difference.maximum < (sample_set_count == 1 ? 0.06 : 0.04));
 		CHECK(difference.penumbra_count > 50);
 	}
 }
@@ -141,17 +141,17 @@ TEST_CASE("[EdgeCount] a solid that is sunk into the ground leaks no light") {
 		return glm::all(glm::lessThan(glm::abs(own), half));
 	});
 	CHECK(difference.mean < 0.003);
-	CHECK(difference.greatest < 0.02);
+	CHECK(difference.maximum < 0.02);
 	CHECK(difference.penumbra_count > 20);
 }
 
 TEST_CASE("[EdgeCount] open meshes cast the same shadow from both sides") {
-	for (const bool is_turned : { false, true }) {
-		CAPTURE(is_turned);
+	for (const bool is_flipped : { false, true }) {
+		CAPTURE(is_flipped);
 		CountScene scene;
 		add_ground(scene);
 		std::vector<uint32_t> indices = { 0, 1, 2, 0, 2, 3 };
-		if (is_turned) {
+		if (is_flipped) {
 			std::reverse(indices.begin(), indices.end());
 		}
 		scene.add(make_mesh("quad",
@@ -163,11 +163,11 @@ TEST_CASE("[EdgeCount] open meshes cast the same shadow from both sides") {
 		scene.build();
 		const Difference difference = compare(scene, 1.4);
 		CHECK(difference.mean < 0.002);
-		CHECK(difference.greatest < 0.008);
+		CHECK(difference.maximum < 0.008);
 	}
 }
 
-TEST_CASE("[EdgeCount] scale changes nothing") {
+TEST_CASE("[EdgeCount] the scale of the scene does not change visibility") {
 	std::vector<double> values[3];
 	const double scales[] = { 1.0, 1e-3, 1e3 };
 	for (int index = 0; index < 3; ++index) {
@@ -191,7 +191,7 @@ TEST_CASE("[EdgeCount] scale changes nothing") {
 	}
 }
 
-TEST_CASE("[EdgeCount] nothing between receiver and light is exactly 1, a solid through all is 0") {
+TEST_CASE("[EdgeCount] visibility is exactly 1 with no caster and exactly 0 in full shadow") {
 	CountScene scene;
 	add_ground(scene);
 	scene.build();
@@ -200,10 +200,10 @@ TEST_CASE("[EdgeCount] nothing between receiver and light is exactly 1, a solid 
 			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.5, 0.0)));
 	scene.build();
 	CHECK(scene.count({ -0.4, 0.0, -0.3 }, UP) == 0.0);
-	CHECK(scene.count({ 0.0, 1.8, 0.0 }, UP) == 1.0); // on top of it
+	CHECK(scene.count({ 0.0, 1.8, 0.0 }, UP) == 1.0); // on top of the box
 }
 
-TEST_CASE("[EdgeCount] casters that cut the light's disc hide what rays find") {
+TEST_CASE("[EdgeCount] shadows of casters that cut the light's disc match ray tracing") {
 	const auto quad = make_mesh("quad",
 			{ { -0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, 0.5f },
 					{ -0.5f, 0.0f, 0.5f } },
@@ -215,18 +215,18 @@ TEST_CASE("[EdgeCount] casters that cut the light's disc hide what rays find") {
 		CAPTURE(mesh->name);
 		for (const glm::dvec3 &offset : { glm::dvec3(0.02, 0.01, -0.03), glm::dvec3(0.3, 0.1, 0.1),
 					 glm::dvec3(-0.1, 0.35, 0.2), glm::dvec3(0.05, -0.25, -0.3) }) {
-			for (const double turn : { 0.0, 0.5, 1.4 }) {
+			for (const double angle_rad : { 0.0, 0.5, 1.4 }) {
 				CAPTURE(offset.x);
-				CAPTURE(turn);
+				CAPTURE(angle_rad);
 				CountScene scene;
-				scene.mask_turns = 4;
+				scene.sample_set_count = 4;
 				add_ground(scene);
 				scene.add(mesh,
-						glm::rotate(glm::translate(glm::dmat4(1.0), scene.light + offset), turn,
-								glm::dvec3(0.3, 1.0, 0.1)));
+						glm::rotate(glm::translate(glm::dmat4(1.0), scene.light + offset),
+								angle_rad, glm::dvec3(0.3, 1.0, 0.1)));
 				scene.build();
 				const Difference difference = compare(scene, 1.4);
-				CHECK(difference.greatest < 0.01);
+				CHECK(difference.maximum < 0.01);
 			}
 		}
 	}

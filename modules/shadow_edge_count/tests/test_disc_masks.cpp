@@ -18,14 +18,14 @@ double compute_angle(const glm::dvec2 &p_direction) {
 
 } // namespace
 
-TEST_CASE("[EdgeCount] each ring and each sector of the disc has one point of all turns") {
-	for (const uint32_t turn_count : { 1u, 4u }) {
-		CAPTURE(turn_count);
-		const uint32_t count = DiscMasks::SAMPLE_COUNT * turn_count;
+TEST_CASE("[EdgeCount] each ring and each sector of the disc has one point of all sample sets") {
+	for (const uint32_t sample_set_count : { 1u, 4u }) {
+		CAPTURE(sample_set_count);
+		const uint32_t count = DiscMasks::SAMPLE_COUNT * sample_set_count;
 		std::vector<uint32_t> rings(count, 0);
 		std::vector<uint32_t> sectors(count, 0);
-		for (uint32_t turn = 0; turn < turn_count; ++turn) {
-			const DiscLookup masks(turn, turn_count);
+		for (uint32_t sample_set = 0; sample_set < sample_set_count; ++sample_set) {
+			const DiscLookup masks(sample_set, sample_set_count);
 			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
 				const glm::dvec2 point = masks.compute_sample(index);
 				++rings.at(size_t(glm::dot(point, point) * count));
@@ -37,16 +37,16 @@ TEST_CASE("[EdgeCount] each ring and each sector of the disc has one point of al
 	}
 }
 
-TEST_CASE("[EdgeCount] a wedge has the points between its directions, in each turn") {
+TEST_CASE("[EdgeCount] a wedge has the points between its directions, in each sample set") {
 	const double two_pi = 2.0 * std::numbers::pi;
-	for (const uint32_t turn_count : { 1u, 4u }) {
-		for (uint32_t turn = 0; turn < turn_count; ++turn) {
-			CAPTURE(turn_count);
-			CAPTURE(turn);
-			const DiscLookup masks(turn, turn_count);
+	for (const uint32_t sample_set_count : { 1u, 4u }) {
+		for (uint32_t sample_set = 0; sample_set < sample_set_count; ++sample_set) {
+			CAPTURE(sample_set_count);
+			CAPTURE(sample_set);
+			const DiscLookup masks(sample_set, sample_set_count);
 			for (uint32_t pair = 0; pair < 500; ++pair) {
 				const double from = std::fmod(pair * 0.7548776662, 1.0) * two_pi;
-				// An edge is seen under less than half a circle.
+				// Seen from the centre, an edge spans less than half a circle.
 				const double width = std::fmod(pair * 0.5698402910, 1.0) * std::numbers::pi;
 				const double to = std::fmod(from + width, two_pi);
 				uint64_t expected = 0;

@@ -1,4 +1,4 @@
-// Where a block of pixels has more edges than the budget, or lists have no room.
+// Blocks of pixels that have more edges than the budget, and lists that do not fit.
 
 #include "modules/shadow_edge_count/block_passes.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
@@ -14,7 +14,7 @@ namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
-/// The line of the plan that begins so; there must be one.
+/// The first entry of the plan that starts with p_begin. The test fails if there is none.
 FramePlanEntry find_entry(const MaskResult &p_result, const std::string &p_begin) {
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
 		if (entry.pass.starts_with(p_begin)) {
@@ -25,7 +25,7 @@ FramePlanEntry find_entry(const MaskResult &p_result, const std::string &p_begin
 	return {};
 }
 
-/// How many of the pixels are in blocks of a kind, EDGE_COUNT_BLOCKS_*.
+/// Number of pixels in blocks of a kind, EDGE_COUNT_BLOCKS_*.
 size_t count_pixels(
 		MaskFixture &r_fixture, const SmallScene &p_scene, glm::uvec2 p_size_px, int p_kind) {
 	MaskRequest request;
@@ -37,7 +37,7 @@ size_t count_pixels(
 	return size_t(std::count(kinds.begin(), kinds.end(), float(p_kind)));
 }
 
-/// A mesh of triangles as large as the scene, one above another, below its ground.
+/// A mesh of stacked triangles, each as large as the scene, below its ground.
 std::shared_ptr<const Mesh> make_floors(uint32_t p_count) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -54,7 +54,7 @@ std::shared_ptr<const Mesh> make_floors(uint32_t p_count) {
 
 } // namespace
 
-TEST_CASE("[EdgeCount] lists have room for what small images need, and 24 MB at most") {
+TEST_CASE("[EdgeCount] edge lists are large enough for small images, and at most 24 MB") {
 	CHECK(choose_chunk_capacity({ 128, 128 }, 100) == 256 * 128 / EDGE_COUNT_CHUNK_SIZE);
 	CHECK(choose_chunk_capacity({ 128, 128 }, 1'000'000) == 256 * 2048 / EDGE_COUNT_CHUNK_SIZE);
 	CHECK(choose_chunk_capacity({ 8192, 8192 }, 1'000'000) == 6'000'000 / EDGE_COUNT_CHUNK_SIZE);
@@ -64,66 +64,66 @@ TEST_CASE("[EdgeCount] lists have room for what small images need, and 24 MB at 
 TEST_CASE("[GPU][EdgeCount] a block with more edges than its budget is filtered, as the plan "
 		  "reports") {
 	MaskFixture fixture;
-	const FrameWishes wishes;
+	const FrameOptions options;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_mesh(scene.scene, "Globe", make_count_sphere(0.45, 40), { -0.8, 1.0, 0.6 });
 		scene.light->properties["light_size"] = 0.3;
-		const MaskResult counted = render_frame(fixture, scene, wishes);
+		const MaskResult counted = render_frame(fixture, scene, options);
 		CHECK_FALSE(find_entry(counted, "filter").runs);
 		CHECK(find_entry(counted, "filter").reason.starts_with("edge_count_budget is -1"));
-		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_FILTERED) == 0);
-		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_LISTED) > 256);
+		CHECK(count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_FILTERED) == 0);
+		CHECK(count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_LISTED) > 256);
 
 		scene.light->properties["edge_count_budget"] = int64_t(65536);
-		const MaskResult unlimited = render_frame(fixture, scene, wishes);
+		const MaskResult unlimited = render_frame(fixture, scene, options);
 		CHECK_FALSE(find_entry(unlimited, "filter where").runs);
 		CHECK(find_entry(unlimited, "filter where")
 						.reason.starts_with("all casters together have"));
 		CHECK(unlimited.visibility == counted.visibility);
 
 		scene.light->properties["edge_count_budget"] = int64_t(64);
-		const MaskResult filtered = render_frame(fixture, scene, wishes);
+		const MaskResult filtered = render_frame(fixture, scene, options);
 		CHECK(find_entry(filtered, "filter where").runs);
 		CHECK(find_entry(filtered, "filter where").pass ==
 				"filter where a block has more than 64 edges");
 		const size_t filtered_count =
-				count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_FILTERED);
+				count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_FILTERED);
 		CHECK(filtered_count >= 256);
-		CHECK(filtered_count < size_t(wishes.size_px.x) * wishes.size_px.y / 2);
+		CHECK(filtered_count < size_t(options.size_px.x) * options.size_px.y / 2);
 		const MaskDifference difference = compare_masks(filtered.visibility, counted);
 		CHECK(difference.mean > 0.0);
 		CHECK(difference.mean < 0.01);
 		CHECK(difference.penumbra_mean < 0.08);
-		CHECK(filtered.visibility == render_frame(fixture, scene, wishes).visibility); // reused
-		const FrameWishes uncached = { .may_reuse = false };
+		CHECK(filtered.visibility == render_frame(fixture, scene, options).visibility); // reused
+		const FrameOptions uncached = { .may_reuse = false };
 		CHECK(filtered.visibility == render_frame(fixture, scene, uncached).visibility);
 
-		// Every block that has an edge.
+		// With a budget of 0, every block that has an edge is filtered.
 		scene.light->properties["edge_count_budget"] = int64_t(0);
-		const MaskResult all_filtered = render_frame(fixture, scene, wishes);
-		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_FILTERED) >
+		const MaskResult all_filtered = render_frame(fixture, scene, options);
+		CHECK(count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_FILTERED) >
 				filtered_count);
-		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_LISTED) == 0);
+		CHECK(count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_LISTED) == 0);
 		CHECK(compare_masks(all_filtered.visibility, counted).mean < 0.01);
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] a budget holds for the edges that a block lists in all views") {
+TEST_CASE("[GPU][EdgeCount] with any budget an omni light's mask stays close to the counted one") {
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	scene.light->properties["light_size"] = 1.0;
-	const FrameWishes wishes = { .size_px = glm::uvec2(16) };
-	const MaskResult counted = render_frame(fixture, scene, wishes);
+	const FrameOptions options = { .size_px = glm::uvec2(16) };
+	const MaskResult counted = render_frame(fixture, scene, options);
 	for (const int64_t budget : { 8, 16, 24, 32, 48, 64, 128 }) {
 		CAPTURE(budget);
 		scene.light->properties["edge_count_budget"] = budget;
-		CHECK(compare_masks(render_frame(fixture, scene, wishes).visibility, counted).mean < 0.1);
+		CHECK(compare_masks(render_frame(fixture, scene, options).visibility, counted).mean < 0.1);
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] blocks whose lists have no room are counted as exactly as the others") {
+TEST_CASE("[GPU][EdgeCount] blocks whose lists do not fit are counted as exactly as others") {
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
@@ -131,18 +131,18 @@ TEST_CASE("[GPU][EdgeCount] blocks whose lists have no room are counted as exact
 		add_mesh(scene.scene, "Globe", make_count_sphere(0.5, 96), { -0.3, 1.2, 0.3 });
 		scene.light->properties["light_size"] = 1.5;
 		scene.light->properties["edge_count_quality"] = std::string("64");
-		const FrameWishes wishes = { .size_px = glm::uvec2(32), .wants_surfaces = true };
-		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_UNLISTED) > 0);
-		const MaskResult frame = render_frame(fixture, scene, wishes);
+		const FrameOptions options = { .size_px = glm::uvec2(32), .wants_surfaces = true };
+		CHECK(count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_UNLISTED) > 0);
+		const MaskResult frame = render_frame(fixture, scene, options);
 		const MaskDifference difference =
 				compare_masks(frame.visibility, count_in_double(scene, frame));
 		CHECK(difference.penumbra_count > 200);
 		CHECK(difference.mean < 3e-4);
-		CHECK(difference.greatest < 0.05);
+		CHECK(difference.maximum < 0.05);
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] face lists without room are made again, and the first frame is right") {
+TEST_CASE("[GPU][EdgeCount] face lists that do not fit are rebuilt within the first frame") {
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		std::vector<float> masks[2];
@@ -151,24 +151,24 @@ TEST_CASE("[GPU][EdgeCount] face lists without room are made again, and the firs
 			SmallScene scene(type);
 			scene.light->properties["edge_count_map_size"] = int64_t(16);
 			if (has_floors) {
-				// More faces than are looked at one by one, each over most of the map.
+				// More than MAX_BOUNDED_FACES faces, each of which covers much of the map.
 				add_mesh(scene.scene, "Floors", make_floors(21'000), {});
 			}
-			const FrameWishes wishes = { .size_px = glm::uvec2(48) };
-			const MaskResult frame = render_frame(fixture, scene, wishes);
+			const FrameOptions options = { .size_px = glm::uvec2(48) };
+			const MaskResult frame = render_frame(fixture, scene, options);
 			masks[has_floors ? 1 : 0] = frame.visibility;
 			if (has_floors) {
-				CHECK(find_entry(frame, "face lists with larger texels").runs);
+				CHECK(find_entry(frame, "face lists again with larger texels").runs);
 			}
 		}
 		CHECK(std::count(masks[0].begin(), masks[0].end(), 1.0f) > 100);
 		CHECK(std::count(masks[0].begin(), masks[0].end(), 0.0f) > 20);
-		// Nothing that is seen is below the floors.
-		size_t apart_count = 0;
+		// The floors are below everything visible, so they cast no visible shadow.
+		size_t mismatch_count = 0;
 		for (size_t index = 0; index < masks[0].size(); ++index) {
-			apart_count += std::abs(masks[0][index] - masks[1][index]) > 1e-3f ? 1 : 0;
+			mismatch_count += std::abs(masks[0][index] - masks[1][index]) > 1e-3f ? 1 : 0;
 		}
-		CHECK(apart_count == 0);
+		CHECK(mismatch_count == 0);
 	}
 }
 

@@ -1,5 +1,5 @@
-// What is cached from frame to frame, what invalidates it, and that every frame is the same bit for
-// bit.
+// Results that are reused from frame to frame: when they are invalidated, and that masks are equal
+// bit for bit with and without reuse.
 
 #include "modules/core/files.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
@@ -17,7 +17,7 @@ MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_
 			r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_reuse = p_may_reuse });
 }
 
-/// Casters whose edges the frame found, or reused.
+/// Number of casters whose edges the frame found, or reused if p_is_found is false.
 int count_casters(const MaskResult &p_result, bool p_is_found) {
 	const std::string begin = "find edges, casters: ";
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
@@ -28,7 +28,7 @@ int count_casters(const MaskResult &p_result, bool p_is_found) {
 	return 0;
 }
 
-/// Passes that ran.
+/// Number of passes that ran and have p_name in their name.
 size_t count_passes(const MaskResult &p_result, const std::string &p_name) {
 	return size_t(std::count_if(
 			p_result.timings.begin(), p_result.timings.end(), [&](const PassTiming &p_timing) {
@@ -36,7 +36,7 @@ size_t count_passes(const MaskResult &p_result, const std::string &p_name) {
 			}));
 }
 
-/// Changes one thing after another; each frame must be the one that a fresh renderer draws.
+/// Changes one thing after another. Each mask must equal that of a renderer without reuse.
 void check_changes(LightType p_type) {
 	MaskFixture caching;
 	MaskFixture fresh;
@@ -48,7 +48,7 @@ void check_changes(LightType p_type) {
 	struct Step {
 		const char *what;
 		std::function<void()> change;
-		bool finds; // edges of casters
+		bool finds; // edges of some caster are found again
 	};
 	const std::vector<Step> steps = {
 		{ "first frame", set("edge_count_map_size", int64_t(128)), true },
@@ -57,14 +57,14 @@ void check_changes(LightType p_type) {
 		{ "r alone", set("penumbra_outer_width", 0.1), true },
 		{ "points", set("edge_count_quality", std::string("256")), false },
 		{ "points again", set("edge_count_quality", std::string("64")), false },
-		// The filter reads a depth map, which is drawn with all the rest.
+		// The filter reads a depth map, which is drawn together with all other results.
 		{ "budget", set("edge_count_budget", int64_t(100)), true },
 		{ "no budget", set("edge_count_budget", int64_t(-1)), false },
 		{ "map size", set("edge_count_map_size", int64_t(96)), true },
 		{ "light's position", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
 		{ "intensity", [&] { scene.light->intensity = 3.0f; }, false },
-		{ "a caster less", [&] { scene.box->casts_shadow = false; }, true },
-		{ "and again", [&] { scene.box->casts_shadow = true; }, true },
+		{ "one caster fewer", [&] { scene.box->casts_shadow = false; }, true },
+		{ "that caster again", [&] { scene.box->casts_shadow = true; }, true },
 		{ "another mesh", [&] { globe.surfaces[0].mesh = make_box_mesh("cube", glm::vec3(0.3f)); },
 				true },
 		{ "no casters",
@@ -93,7 +93,7 @@ void check_changes(LightType p_type) {
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] of a scene at rest nothing is found or drawn again") {
+TEST_CASE("[GPU][EdgeCount] in a static scene no faces or edges are found again") {
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
 		CAPTURE(int(type));
@@ -118,8 +118,8 @@ TEST_CASE("[GPU][EdgeCount] of a scene at rest nothing is found or drawn again")
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] of a caster at rest edges are cached, and the mask is that of a new "
-		  "frame") {
+TEST_CASE("[GPU][EdgeCount] edges of a static caster are reused, and the mask equals that of a "
+		  "fresh frame") {
 	MaskFixture caching;
 	MaskFixture fresh;
 	SmallScene scene;
@@ -140,27 +140,28 @@ TEST_CASE("[GPU][EdgeCount] of a caster at rest edges are cached, and the mask i
 	scene.box->parent_from_node = glm::rotate(scene.box->parent_from_node, 0.3, { 0.2, 1.0, 0.0 });
 	globe.parent_from_node = glm::translate(globe.parent_from_node, { 0.07, 0.03, -0.05 });
 	check(2, 1);
-	// Mirrored it is another kind of caster.
+	// A mirrored caster has other flags, which invalidates all results.
 	globe.parent_from_node = glm::scale(globe.parent_from_node, { -1.0, 1.0, 1.0 });
 	check(3, 0);
 }
 
-TEST_CASE("[GPU][EdgeCount] after any change the mask is that of a new frame, bit for bit") {
+TEST_CASE("[GPU][EdgeCount] after any change the mask equals that of a fresh frame, bit for bit") {
 	check_changes(LightType::SPOT);
 }
 
-TEST_CASE("[GPU][EdgeCount] the same of an omni light, some of whose views have no casters") {
+TEST_CASE("[GPU][EdgeCount] after any change to an omni light with empty views the mask equals "
+		  "that of a fresh frame") {
 	check_changes(LightType::OMNI);
 }
 
-TEST_CASE("[GPU][EdgeCount] frames repeat bit for bit, also on another device") {
+TEST_CASE("[GPU][EdgeCount] masks are equal bit for bit in repeated frames and on new devices") {
 	std::vector<float> first[2];
 	for (int device = 0; device < 2; ++device) {
 		MaskFixture fixture;
 		for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 			SmallScene scene(type);
 			add_globe(scene);
-			// Deep overlaps: face lists have no order.
+			// Many overlapping faces, since the order of face lists may vary.
 			for (int plate = 0; plate < 8; ++plate) {
 				add_mesh(scene.scene, text("Plate ", plate),
 						make_box_mesh("plate", { 0.6f, 0.01f, 0.6f }),
@@ -179,14 +180,14 @@ TEST_CASE("[GPU][EdgeCount] frames repeat bit for bit, also on another device") 
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] what memory held before changes no bit of the mask") {
-	// Five of the light's views have no casters, and next to pixels in a shadow there are some that
-	// receive nothing: the shadow on the box ends where the box does.
+TEST_CASE("[GPU][EdgeCount] the mask does not depend on previous contents of memory") {
+	// Five of the light's views have no casters, and some pixels without a receiver are next to
+	// pixels in a shadow: the shadow on the box ends where the box does.
 	SmallScene scene(LightType::OMNI);
 	scene.ground->surfaces.clear();
 	add_mesh(scene.scene, "Globe", make_count_sphere(0.4, 12), { 0.35, 1.9, 0.2 });
 	const auto fill_memory = [](RenderingDevice &r_device, uint32_t p_value) {
-		// Small enough to share a block of memory, which stays when they are gone.
+		// Small enough to share a block of device memory, which remains when they are freed.
 		std::vector<OwnedBuffer> buffers;
 		const std::vector<uint32_t> words(4u << 20, p_value);
 		for (int index = 0; index < 3; ++index) {

@@ -1,4 +1,4 @@
-// Solids that touch one another, and outlines exactly where texels meet.
+// Solids that touch or intersect one another, and outlines exactly on the borders of texels.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -12,14 +12,15 @@ namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
-/// Shines straight down from a height; the view's axes are those of the world.
+/// The transform of a light that shines straight down from a height. The axes of its view are
+/// parallel to those of the world.
 glm::dmat4 look_down(double p_height_m) {
 	return glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0),
 			glm::dvec4(0, p_height_m, 0, 1));
 }
 
-/// With the double version, and with the reference where there is one. Returns how far it is from
-/// the latter.
+/// Compares the mask with the double version, and, in a build with the reference, with that.
+/// Returns the difference from the reference, or zeros without one.
 MaskDifference check_mask(MaskFixture &r_fixture, SmallScene &r_scene, double p_reference_limit,
 		glm::uvec2 p_size_px = glm::uvec2(96)) {
 	const MaskResult frame =
@@ -27,7 +28,7 @@ MaskDifference check_mask(MaskFixture &r_fixture, SmallScene &r_scene, double p_
 	const MaskDifference difference =
 			compare_masks(frame.visibility, count_in_double(r_scene, frame));
 	CHECK(difference.mean < 5e-5);
-	CHECK(difference.apart_count == 0);
+	CHECK(difference.mismatch_count == 0);
 	if (has_reference()) {
 		const MaskDifference error =
 				compare_masks(frame.visibility, render_reference(r_fixture, r_scene, p_size_px));
@@ -54,12 +55,12 @@ TEST_CASE("[GPU][EdgeCount] solids that are sunk into the ground leak no light")
 					make_box_mesh("pole", { 0.06f, 0.8f, 0.05f }), { -0.4, 0.5, 1.1 });
 			pole.parent_from_node = glm::rotate(pole.parent_from_node, 0.3, { 0.2, 0.3, 1.0 });
 			const MaskDifference error = check_mask(fixture, scene, 0.001);
-			CHECK(error.greatest <= 0.1);
+			CHECK(error.maximum <= 0.1);
 		}
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] outlines where texels meet, or next to it, do no harm") {
+TEST_CASE("[GPU][EdgeCount] outlines on the borders of texels or close to them cause no errors") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const double height_m = 4.0;
@@ -75,19 +76,19 @@ TEST_CASE("[GPU][EdgeCount] outlines where texels meet, or next to it, do no har
 		CAPTURE(offset_px);
 		scene.box->surfaces[0].mesh = make_box_mesh("box",
 				glm::vec3(find_side_m(160.0 + offset_px), 0.3, find_side_m(150.0 + offset_px)));
-		CHECK(check_mask(fixture, scene, 0.0005).greatest < 0.1);
+		CHECK(check_mask(fixture, scene, 0.0005).maximum < 0.1);
 	}
 }
 
-// A block without edges is not wholly lit or dark where a face passes between its receivers.
-TEST_CASE("[GPU][EdgeCount] a thin wall parts lit from dark ground within blocks of pixels") {
+// A block without edges may be partly lit if a face passes between its receivers.
+TEST_CASE("[GPU][EdgeCount] a thin wall separates lit from dark ground within blocks of pixels") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		scene.light->parent_from_node = look_at({ 3.0, 1.6, 0.1 }, { 0, 0.3, 0 });
 		scene.light->properties["light_size"] = 0.004;
-		// In the wall's plane, so that both sides of its foot are seen.
+		// The camera is in the wall's plane, so that both sides of its foot are visible.
 		scene.camera->parent_from_node = look_at({ 0.1, 4.0, 3.0 }, { 0.1, 0.0, 0.0 });
 		scene.box->surfaces[0].mesh = make_box_mesh("wall", { 0.002f, 0.9f, 2.4f });
 		scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.1, 0.3, 0.0 });

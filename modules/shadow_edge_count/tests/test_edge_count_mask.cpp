@@ -1,4 +1,4 @@
-// The whole technique against its double version, pixel by pixel.
+// Compares the whole technique with its double version, pixel by pixel.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
-/// The borders between an omni light's views shall run over what the camera sees.
+/// Rotates an omni light so that borders between its views cross what the camera sees.
 SmallScene make_scene(LightType p_type) {
 	SmallScene scene(p_type);
 	if (p_type == LightType::OMNI) {
@@ -27,7 +27,7 @@ MaskDifference compare_with_double(const MaskResult &p_frame, const SmallScene &
 	return difference;
 }
 
-/// Shares the shadow of the box and of each other, in two layers and three.
+/// Solids whose shadows overlap that of the box and one another, in two and three layers.
 void add_overlapping_solids(SmallScene &r_scene) {
 	add_globe(r_scene);
 	for (int index = 0; index < 3; ++index) {
@@ -47,7 +47,7 @@ void add_overlapping_solids(SmallScene &r_scene) {
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every kind of light") {
+TEST_CASE("[GPU][EdgeCount] the mask matches the double version, for every kind of light") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
@@ -56,40 +56,41 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every ki
 		const MaskDifference difference = compare_with_double(
 				render_frame(fixture, scene, { .wants_surfaces = true }), scene);
 		CHECK(difference.penumbra_count > 80);
-		// Half a step of the mask's 16 bits below 1 is 0.00024.
+		// A rounding error of the mask's 16-bit floats just below 1 is at most 0.00024.
 		CHECK(difference.mean < 3e-5);
 		CHECK(difference.penumbra_mean < 4e-4);
-		CHECK(difference.apart_count == 0);
+		CHECK(difference.mismatch_count == 0);
 	}
 }
 
-// Where solids overlap points of the light are counted, and one of 64 is 0.016 of it. Rounding
-// decides on which side of an edge it lies where it lies on one.
-TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids overlap") {
+// Where solids overlap, points of the light are counted, and one of 64 is 0.016 of the light. If an
+// edge passes through a point, rounding decides on which side the point is.
+TEST_CASE("[GPU][EdgeCount] the mask matches the double version where solids overlap") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		std::vector<float> masks[2];
-		for (const int turn : { 0, 1 }) {
-			CAPTURE(turn);
+		for (const int quality_index : { 0, 1 }) {
+			CAPTURE(quality_index);
 			SmallScene scene = make_scene(type);
 			add_overlapping_solids(scene);
 			scene.light->properties["light_size"] = 0.5;
 			scene.light->properties["light_angular_distance"] = 14.0;
-			scene.light->properties["edge_count_quality"] = std::string(turn == 0 ? "64" : "256");
+			scene.light->properties["edge_count_quality"] =
+					std::string(quality_index == 0 ? "64" : "256");
 			const MaskResult frame = render_frame(
 					fixture, scene, { .size_px = glm::uvec2(64), .wants_surfaces = true });
 			const MaskDifference difference = compare_with_double(frame, scene);
 			CHECK(difference.penumbra_count > 250);
 			CHECK(difference.mean < 2e-4);
-			CHECK(double(difference.apart_count) < 0.005 * double(difference.receiver_count));
-			masks[turn] = frame.visibility;
+			CHECK(double(difference.mismatch_count) < 0.005 * double(difference.receiver_count));
+			masks[quality_index] = frame.visibility;
 		}
-		CHECK(masks[0] != masks[1]); // they do overlap
+		CHECK(masks[0] != masks[1]); // the number of points matters only if solids overlap
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] the mask is that of the double version under many solids at once") {
+TEST_CASE("[GPU][EdgeCount] the mask matches the double version under many stacked solids") {
 	MaskFixture fixture;
 	for (const int count : { 12, 30, 130 }) {
 		CAPTURE(count);
@@ -100,15 +101,15 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version under many so
 			add_mesh(scene.scene, text("Plate ", index), mesh, { 0.0, 1.0 + 0.012 * index, 0.0 });
 		}
 		scene.light->properties["light_size"] = 0.4;
-		const FrameWishes wishes = { .size_px = glm::uvec2(64), .wants_surfaces = true };
-		const MaskResult frame = render_frame(fixture, scene, wishes);
+		const FrameOptions options = { .size_px = glm::uvec2(64), .wants_surfaces = true };
+		const MaskResult frame = render_frame(fixture, scene, options);
 		const MaskDifference difference = compare_with_double(frame, scene);
 		CHECK(difference.penumbra_count > 300);
 		CHECK(difference.mean < 3e-4);
-		CHECK(double(difference.apart_count) < 0.002 * double(difference.receiver_count));
+		CHECK(double(difference.mismatch_count) < 0.002 * double(difference.receiver_count));
 		if (has_reference()) {
 			const MaskDifference error = compare_masks(
-					frame.visibility, render_reference(fixture, scene, wishes.size_px));
+					frame.visibility, render_reference(fixture, scene, options.size_px));
 			CHECK(error.penumbra_mean < 0.02);
 		}
 	}

@@ -1,4 +1,4 @@
-// A light that moves a little each frame: what the mask changes must be what the reference changes.
+// A light that moves a little each frame: the mask must change as much as the reference does.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -24,7 +24,7 @@ Masks render_frames(MaskFixture &r_fixture, const std::string &p_technique) {
 	return masks;
 }
 
-/// What the masks should be, without noise: counted in double with 256 points.
+/// The reference masks, without noise: counted in double with 256 points.
 Masks count_frames(MaskFixture &r_fixture) {
 	SmallScene scene;
 	scene.box->surfaces[0].mesh = make_count_sphere(0.5, 16);
@@ -39,9 +39,9 @@ Masks count_frames(MaskFixture &r_fixture) {
 }
 
 struct MotionError {
-	double rmse = 0; // of the change from frame to frame, in the penumbra of either
-	double greatest = 0;
-	double reference_rms = 0; // of the change itself
+	double rmse = 0; // of the change from frame to frame, in the penumbra of either frame
+	double maximum = 0;
+	double reference_rms = 0; // of the reference's change
 	size_t pixel_count = 0;
 };
 
@@ -63,7 +63,7 @@ MotionError compute_motion_error(const Masks &p_masks, const Masks &p_references
 					reference[0].visibility[index] - reference[-1].visibility[index];
 			const double difference = std::abs(change - reference_change);
 			error.rmse += difference * difference;
-			error.greatest = std::max(error.greatest, difference);
+			error.maximum = std::max(error.maximum, difference);
 			error.reference_rms += reference_change * reference_change;
 			++error.pixel_count;
 		}
@@ -76,7 +76,7 @@ MotionError compute_motion_error(const Masks &p_masks, const Masks &p_references
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] under a light that moves nothing flickers") {
+TEST_CASE("[GPU][EdgeCount] shadows do not flicker while the light moves") {
 	MaskFixture fixture;
 	REQUIRE(ShadowRegistry::find_fallback() != nullptr);
 	const Masks references = count_frames(fixture);
@@ -84,9 +84,9 @@ TEST_CASE("[GPU][EdgeCount] under a light that moves nothing flickers") {
 	const MotionError filtered = compute_motion_error(
 			render_frames(fixture, ShadowRegistry::find_fallback()->id), references);
 	CHECK(own.pixel_count > 500);
-	CHECK(own.reference_rms > 0.005); // it does move
-	// Two roundings to the mask's 16 bits: 0.0002 each.
+	CHECK(own.reference_rms > 0.005); // the shadow does move
+	// Both masks are rounded to 16-bit floats, with an error of 0.0002 each.
 	CHECK(own.rmse < 0.001);
-	CHECK(own.greatest < 0.02);
+	CHECK(own.maximum < 0.02);
 	CHECK(own.rmse < 0.1 * filtered.rmse);
 }

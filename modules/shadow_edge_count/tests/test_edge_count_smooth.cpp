@@ -1,4 +1,4 @@
-// Blocks whose edges are all far away: 16 of their pixels are counted, the others interpolated.
+// Blocks whose edges are all far away: 16 of the 64 pixels are counted, the others interpolated.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 const glm::uvec2 SIZE_PX(256);
 
-/// The ground, seen from above its middle, under things that hang high above it.
+/// Casters high above the ground.
 SmallScene make_scene(LightType p_type) {
 	SmallScene scene(p_type);
 	scene.box->surfaces.clear();
@@ -28,30 +28,31 @@ SmallScene make_scene(LightType p_type) {
 	return scene;
 }
 
-MaskResult render_interpolated(MaskFixture &r_fixture, SmallScene &r_scene, double p_share) {
-	r_scene.light->properties["edge_count_interpolation"] = p_share;
+MaskResult render_interpolated(
+		MaskFixture &r_fixture, SmallScene &r_scene, double p_interpolation) {
+	r_scene.light->properties["edge_count_interpolation"] = p_interpolation;
 	return render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
 }
 
-/// Pixels of the greatest difference, and how many are not equal bit for bit.
+/// Largest difference of two masks, and number of pixels that are not equal bit for bit.
 struct Change {
-	float greatest = 0;
+	float maximum = 0;
 	size_t count = 0;
 };
 
 Change compare(const MaskResult &p_one, const MaskResult &p_other) {
 	Change change;
 	for (size_t index = 0; index < p_one.visibility.size(); ++index) {
-		const float apart = std::abs(p_one.visibility[index] - p_other.visibility[index]);
-		change.greatest = std::max(change.greatest, apart);
-		change.count += apart > 0 ? 1 : 0;
+		const float difference = std::abs(p_one.visibility[index] - p_other.visibility[index]);
+		change.maximum = std::max(change.maximum, difference);
+		change.count += difference > 0 ? 1 : 0;
 	}
 	return change;
 }
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as right as a "
+TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as accurate as a "
 		  "counted one") {
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
@@ -61,7 +62,7 @@ TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as
 		const MaskResult interpolated = render_interpolated(fixture, scene, 0.5);
 		const Change change = compare(counted, interpolated);
 		CHECK(change.count > 2000);
-		CHECK(change.greatest < 0.04f); // ten points of 256
+		CHECK(change.maximum < 0.04f); // about ten of 256 points
 		if (has_reference()) {
 			const MaskResult reference = render_reference(fixture, scene, SIZE_PX, 4096);
 			const double error = compare_masks(counted.visibility, reference).penumbra_mean;
@@ -70,7 +71,7 @@ TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] next to outlines and contacts every pixel is counted") {
+TEST_CASE("[GPU][EdgeCount] no pixel is interpolated next to outlines and contacts") {
 	MaskFixture fixture;
 	SmallScene scene; // a box on the ground
 	scene.light->properties["light_size"] = 0.05;
@@ -78,28 +79,28 @@ TEST_CASE("[GPU][EdgeCount] next to outlines and contacts every pixel is counted
 	CHECK(compare(counted, render_interpolated(fixture, scene, 0.5)).count == 0);
 }
 
-TEST_CASE("[GPU][EdgeCount] a thin wall ends what is interpolated, however far all edges are") {
+TEST_CASE("[GPU][EdgeCount] no interpolation across a thin wall, however far all edges are") {
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		scene.light->parent_from_node = look_at({ 3.0, 1.6, 0.1 }, { 0, 0.3, 0 });
 		scene.light->properties["light_size"] = 0.5;
-		// In the wall's plane, so that both sides of its foot are seen.
+		// The camera is in the wall's plane, so that both sides of its foot are visible.
 		scene.camera->parent_from_node = look_at({ 0.1, 4.0, 3.0 }, { 0.1, 0.0, 0.0 });
 		scene.box->surfaces[0].mesh = make_box_mesh("wall", { 0.0005f, 0.9f, 2.4f });
 		scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.1, 0.3, 0.0 });
-		// Its penumbra is on both sides.
+		// The plate's penumbra is on both sides of the wall.
 		add_mesh(scene.scene, "Plate", make_box_mesh("plate", { 0.02f, 0.2f, 0.6f }),
 				{ 1.8, 0.95, 0.0 });
 		const MaskResult counted = render_interpolated(fixture, scene, 0.0);
 		const Change change = compare(counted, render_interpolated(fixture, scene, 0.5));
 		CHECK(change.count > 500);
-		CHECK(change.greatest < 0.04f);
+		CHECK(change.maximum < 0.04f);
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] where a face cuts the light's disc nothing is interpolated") {
+TEST_CASE("[GPU][EdgeCount] nothing is interpolated if a face cuts the light's disc") {
 	MaskFixture fixture;
 	SmallScene scene = make_scene(LightType::OMNI);
 	add_mesh(scene.scene, "Cutter", make_box_mesh("cutter", { 0.3f, 0.02f, 0.3f }),

@@ -1,4 +1,4 @@
-// The lists of faces that texels have: no face is missing that a receiver there may have before it.
+// The texels' lists of faces: none lacks a face that may be in front of a receiver there.
 
 #include "modules/shadow_edge_count/tests/count_in_double.h"
 
@@ -15,7 +15,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Large faces and small ones, slivers, through the light's plane and behind it.
+/// Random large and small faces and slivers, in front of the light, across its plane and behind it.
 std::vector<CountFace> make_soup(TestRandom &r_random, size_t p_count) {
 	std::vector<CountFace> faces;
 	for (size_t index = 0; index < p_count; ++index) {
@@ -106,7 +106,7 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 		r_fixture.read<uint32_t>(totals_readback, EDGE_COUNT_TOTAL_COUNT) };
 }
 
-/// True when the way from the light's centre through a point of the map meets the face.
+/// True if the line from the light's centre through a point of the map meets the face.
 bool is_met(bool p_is_directional, const glm::dvec2 &p_position, const CountFace &p_face) {
 	const auto to_plane = [&](const glm::dvec3 &p_point) {
 		return p_is_directional ? glm::dvec3(p_point.x, p_point.y, 1.0) : p_point;
@@ -114,16 +114,16 @@ bool is_met(bool p_is_directional, const glm::dvec2 &p_position, const CountFace
 	const glm::dvec3 a = to_plane(p_face.corners[0]);
 	const glm::dvec3 b = to_plane(p_face.corners[1]);
 	const glm::dvec3 c = to_plane(p_face.corners[2]);
-	const glm::dvec3 way(p_position, 1.0);
-	const double turn = glm::dot(a, glm::cross(b, c)) >= 0 ? 1.0 : -1.0;
-	return turn * glm::dot(way, glm::cross(a, b)) >= 0 &&
-			turn * glm::dot(way, glm::cross(b, c)) >= 0 &&
-			turn * glm::dot(way, glm::cross(c, a)) >= 0;
+	const glm::dvec3 direction(p_position, 1.0);
+	const double orientation = glm::dot(a, glm::cross(b, c)) >= 0 ? 1.0 : -1.0;
+	return orientation * glm::dot(direction, glm::cross(a, b)) >= 0 &&
+			orientation * glm::dot(direction, glm::cross(b, c)) >= 0 &&
+			orientation * glm::dot(direction, glm::cross(c, a)) >= 0;
 }
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] no face is missing in the list of a texel that it covers") {
+TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it covers") {
 	KernelFixture fixture;
 	TestRandom random;
 	size_t pair_count = 0;
@@ -146,11 +146,11 @@ TEST_CASE("[GPU][EdgeCount] no face is missing in the list of a texel that it co
 			size_t missing_count = 0;
 			size_t met_count = 0;
 			for (int index = 0; index < 250; ++index) {
-				const glm::dvec2 share(random.next(), random.next());
+				const glm::dvec2 fraction(random.next(), random.next());
 				const glm::dvec2 position =
-						(share * 2.0 - 1.0) * double(light.views[0].half_extent.x);
+						(fraction * 2.0 - 1.0) * double(light.views[0].half_extent.x);
 				const glm::uvec2 texel = glm::min(
-						glm::uvec2(share * double(map_size_px)), glm::uvec2(map_size_px - 1));
+						glm::uvec2(fraction * double(map_size_px)), glm::uvec2(map_size_px - 1));
 				std::set<uint32_t> listed;
 				for (uint32_t node = lists.heads[texel.y * map_size_px + texel.x]; node != 0;
 						node = lists.nodes[node - 1].y) {
@@ -166,7 +166,7 @@ TEST_CASE("[GPU][EdgeCount] no face is missing in the list of a texel that it co
 			}
 			CHECK(missing_count == 0);
 			CHECK(met_count > 200);
-			// Not all faces in all lists.
+			// The lists are selective: not every face is in every list.
 			CHECK((map_size_px < 256 ||
 					node_count < faces.size() * map_size_px * map_size_px / 20));
 		}

@@ -25,14 +25,14 @@ struct Caster {
 	OwnedBuffer edges;
 };
 
-/// What the passes found.
+/// Results of the passes.
 struct Found {
 	std::vector<shader::CountEdgeRecord> edges;
 	std::vector<shader::CountFaceRecord> faces;
 	std::vector<glm::vec4> planes;
 };
 
-/// Runs the passes over all casters and reads back what they found.
+/// Runs the passes over all casters and reads back their results.
 Found find_edges(
 		KernelFixture &r_fixture, std::vector<Caster> &r_casters, const CountSpace &p_space) {
 	uint32_t face_count = 0;
@@ -156,7 +156,7 @@ Found find_edges(
 	return found;
 }
 
-/// The same mesh with its edges in the order of the caster's.
+/// The caster's topology with its edges in the order of CountMesh.
 MeshTopology reorder(const Caster &p_caster) {
 	const auto make_key = [](const auto &p_edge) {
 		return std::tuple(p_edge.a, p_edge.b, p_edge.face0, p_edge.face1);
@@ -176,7 +176,7 @@ MeshTopology reorder(const Caster &p_caster) {
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] the passes find all casters' faces and edges as in double, in order") {
+TEST_CASE("[GPU][EdgeCount] faces and edges of all casters match the double version, in order") {
 	KernelFixture fixture;
 	for (const bool is_directional : { false, true }) {
 		for (const double radius : { 0.02, 0.3 }) {
@@ -186,9 +186,9 @@ TEST_CASE("[GPU][EdgeCount] the passes find all casters' faces and edges as in d
 			scene.is_directional = is_directional;
 			scene.radius = radius;
 			scene.build();
-			const auto make_transform = [](double p_turn, double p_scale) {
+			const auto make_transform = [](double p_angle_rad, double p_scale) {
 				glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), glm::dvec3(0.31, -0.23, 4.1));
-				matrix = glm::rotate(matrix, p_turn, glm::dvec3(0.3, 0.7, -0.2));
+				matrix = glm::rotate(matrix, p_angle_rad, glm::dvec3(0.3, 0.7, -0.2));
 				return glm::scale(matrix, glm::dvec3(p_scale, 1.0, 1.0));
 			};
 			const std::shared_ptr<const Mesh> quad = make_mesh("quad",

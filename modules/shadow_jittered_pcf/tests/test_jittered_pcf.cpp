@@ -9,7 +9,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[JitteredPcf] each set has its rings from the outermost in, one tap in each cell") {
+TEST_CASE("[JitteredPcf] each set starts with the outermost ring and has one tap per cell") {
 	for (uint32_t ring_count : { 1u, 4u, 8u }) {
 		const std::vector<glm::vec4> pairs = build_jitter_offsets(ring_count);
 		const uint32_t tap_count = ring_count * JITTERED_PCF_TAPS_PER_RING;
@@ -31,7 +31,7 @@ TEST_CASE("[JitteredPcf] each set has its rings from the outermost in, one tap i
 	}
 }
 
-TEST_CASE("[GPU][JitteredPcf] a wider filter has a wider edge, and none a hard one") {
+TEST_CASE("[GPU][JitteredPcf] a larger radius widens the penumbra, and radius 0 makes it hard") {
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
@@ -47,7 +47,7 @@ TEST_CASE("[GPU][JitteredPcf] a wider filter has a wider edge, and none a hard o
 	}
 }
 
-TEST_CASE("[GPU][JitteredPcf] the early out changes only what is smaller than the filter") {
+TEST_CASE("[GPU][JitteredPcf] the early out changes few pixels, to fully lit or fully hidden") {
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.light->properties["jittered_pcf_radius_uv"] = 0.02;
@@ -58,7 +58,7 @@ TEST_CASE("[GPU][JitteredPcf] the early out changes only what is smaller than th
 	for (size_t pixel = 0; pixel < with.visibility.size(); ++pixel) {
 		const bool is_same = with.visibility[pixel] == without.visibility[pixel];
 		different_count += !is_same;
-		// Where it stopped it returned all or nothing.
+		// Where the filter stopped early, it returned 0 or 1.
 		CHECK((is_same || with.visibility[pixel] == 0.0f || with.visibility[pixel] == 1.0f));
 	}
 	CHECK(different_count < with.visibility.size() / 20);

@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_map/lookup_inc.glsl"
 
-// xy: a position on the map, z: its w, w: the filter's width. Gives the filtered and the hard lookup.
+// Runs the filtered (result x) and the hard lookup (result y) of each point. Point xy: position in map coordinates,
+// z: the receiver's w, w: width of the filter in texels.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 points[];

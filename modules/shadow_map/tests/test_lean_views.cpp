@@ -1,4 +1,4 @@
-// Which views the maps of this module skip, and which other maps may not.
+// Tests which light views shadow_map and views skip because the camera sees no receiver in them.
 
 #include "modules/shadows/tests/mask_fixture.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 const char NO_RECEIVERS[] = "the camera sees no receiver in it";
 
-/// An omni light in a room of four walls, and a camera that looks at the one towards +x.
+/// An omni light in a room with four walls, and a camera that looks at the wall towards +x.
 SmallScene make_room() {
 	SmallScene scene(LightType::OMNI);
 	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 1, 0));
@@ -44,11 +44,11 @@ TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are skipp
 		SmallScene scene = make_room();
 		scene.light->properties["light_size"] = 0.0; // one point
 		const MaskResult lean = fixture.render_mask(scene, id);
-		// Only the wall towards +x is seen: every other of the six views is not needed.
+		// Only the wall towards +x is visible: the other five views are not needed.
 		CHECK(count_skipped(lean, NO_RECEIVERS) == 5);
 		CHECK(count_skipped(fixture.render_mask(scene, id, glm::uvec2(64), false), NO_RECEIVERS) ==
 				0);
-		// From above and outside all walls and the ground are seen, but nothing above the light.
+		// From above all walls and the ground are visible, but nothing above the light.
 		scene.camera->parent_from_node = look_at({ 0.5, 12, 0.5 }, { 0, 0, 0 });
 		scene.camera->vertical_fov_rad = 1.0f;
 		const MaskResult wide = fixture.render_mask(scene, id);
@@ -56,7 +56,7 @@ TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are skipp
 	}
 }
 
-TEST_CASE("[GPU][ShadowMap] a map that was drawn is still there when the camera turns back") {
+TEST_CASE("[GPU][ShadowMap] a skipped view keeps its map for when the camera turns back") {
 	MaskFixture fixture;
 	SmallScene scene = make_room();
 	const auto look = [&](double p_x) {

@@ -22,7 +22,9 @@ shader::LightViewConstants make_view() {
 	return view;
 }
 
-/// Receivers are at w = 5 of 10; texels are hidden by a caster at 9 or hold nothing.
+/// Looks up receivers at w = 5 in a map whose texels have a caster at w = 9, nearer to the light,
+/// or none. w is 10 at the light and 0 at the far plane. p_texels: positions in texels. p_width:
+/// width of the filter in texels.
 std::vector<glm::vec4> look_up(KernelFixture &r_fixture, const std::vector<bool> &p_is_hidden,
 		const std::vector<glm::vec2> &p_texels, float p_width) {
 	std::vector<float> depths;
@@ -47,13 +49,14 @@ std::vector<glm::vec4> look_up(KernelFixture &r_fixture, const std::vector<bool>
 			{ { KernelFixture::BINDING_CONSTANTS, view.get() }, { BINDING_MAP, map.get() } });
 }
 
-/// Length of what [p_low, p_low + p_width] and the texel have in common.
+/// Length of the overlap of [p_low, p_low + p_width] and the texel, in texels.
 double compute_overlap(double p_low, double p_width, int p_texel) {
 	return std::max(
 			0.0, std::min(p_low + p_width, p_texel + 1.0) - std::max(p_low, double(p_texel)));
 }
 
-/// Area of the box about the texel position that is on lit texels or beyond the map.
+/// Fraction of the filter's box around the position p_texel (in texels) that covers lit texels or
+/// is outside the map. p_width: width of the box in texels.
 double compute_reference(
 		const std::vector<bool> &p_is_hidden, const glm::dvec2 &p_texel, double p_width) {
 	const glm::dvec2 low = p_texel - 0.5 * p_width;
@@ -70,7 +73,7 @@ double compute_reference(
 
 } // namespace
 
-TEST_CASE("[GPU][Shaders] a filtered lookup weighs each texel by what the box covers of it") {
+TEST_CASE("[GPU][Shaders] a filtered lookup weights each texel by its area in the box") {
 	KernelFixture fixture;
 	TestRandom random;
 	std::vector<bool> is_hidden;
@@ -97,7 +100,7 @@ TEST_CASE("[GPU][Shaders] a filtered lookup weighs each texel by what the box co
 	}
 }
 
-TEST_CASE("[GPU][Shaders] lookups are exactly 1 on a free map and beyond it, 0 on a full one") {
+TEST_CASE("[GPU][Shaders] lookups are 1 on a free map and beyond it, 0 on a full one") {
 	KernelFixture fixture;
 	const size_t texel_count = SIZE_PX * SIZE_PX;
 	TestRandom random;

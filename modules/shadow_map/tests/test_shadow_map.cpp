@@ -30,7 +30,7 @@ TEST_CASE("[GPU][ShadowMap] a static scene's second frame draws no light view") 
 	}
 }
 
-TEST_CASE("[GPU][ShadowMap] a camera that moves keeps the map, a caster or light does not") {
+TEST_CASE("[GPU][ShadowMap] the map is redrawn when a caster or the light moves, not the camera") {
 	MaskFixture fixture;
 	SmallScene scene;
 	fixture.render_mask(scene, "shadow_map");
@@ -55,7 +55,7 @@ TEST_CASE("[GPU][ShadowMap] a moved caster's cached frame equals a fresh one bit
 	CHECK(reused.visibility == fresh.render_mask(scene, "shadow_map").visibility);
 }
 
-TEST_CASE("[GPU][ShadowMap] a hard mask holds only 0 and 1, wider filters more shades") {
+TEST_CASE("[GPU][ShadowMap] a hard mask has only 0 and 1, wider filters have more values between") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const auto count_shades = [&](const char *p_filter) {
@@ -94,7 +94,7 @@ TEST_CASE("[GPU][ShadowMap] a flat lit floor has no acne at any map size or ligh
 TEST_CASE("[GPU][ShadowMap] omni faces meet without a seam") {
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
-	// The light hangs level with the floor's plate edges, so that several faces see the floor.
+	// The light hangs so low that several of its six views see the floor.
 	scene.box->casts_shadow = false;
 	scene.light->parent_from_node = look_at({ 0, 1.0, 0 }, { 1, 0.2, 0.3 });
 	for (const char *filter : { "hard", "7x7" }) {
@@ -104,7 +104,7 @@ TEST_CASE("[GPU][ShadowMap] omni faces meet without a seam") {
 	}
 }
 
-TEST_CASE("[GPU][Views] more views come nearer to the mean of many") {
+TEST_CASE("[GPU][Views] the error against 128 views falls with the number of views") {
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);

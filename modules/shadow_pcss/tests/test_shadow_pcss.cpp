@@ -64,12 +64,12 @@ TEST_CASE("[GPU][Pcss] an omni light's penumbra does not end at the border of a 
 	const MaskResult mask = fixture.render_mask(scene, "pcss", glm::uvec2(96));
 	scene.light->parent_from_node =
 			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
-	const MaskResult turned = fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	const MaskResult rotated = fixture.render_mask(scene, "pcss", glm::uvec2(96));
 	CHECK(count_shades(mask) > 100);
-	CHECK(compute_mask_difference(mask, turned) < 0.01);
+	CHECK(compute_mask_difference(mask, rotated) < 0.01);
 }
 
-TEST_CASE("[GPU][Pcss] a static scene's second frame draws no map, another tap count neither") {
+TEST_CASE("[GPU][Pcss] a static scene's map is cached, even when the tap count changes") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const MaskResult first = fixture.render_mask(scene, "pcss");
@@ -86,17 +86,18 @@ TEST_CASE("[GPU][Pcss] a caster behind the light changes nothing") {
 		CAPTURE(get_light_type_name(type));
 		SmallScene scene(type);
 		const MaskResult without = fixture.render_mask(scene, "pcss", glm::uvec2(64));
-		const glm::dvec3 way = glm::normalize(glm::dvec3(1.2, 4.0, 0.8));
-		MeshInstance3D &box = add_mesh(scene.scene, "Behind",
-				make_box_mesh("behind", glm::vec3(0.4f)), glm::dvec3(1.2, 4.0, 0.8) + 1.0 * way);
+		const glm::dvec3 to_light = glm::normalize(glm::dvec3(1.2, 4.0, 0.8));
+		MeshInstance3D &box =
+				add_mesh(scene.scene, "Behind", make_box_mesh("behind", glm::vec3(0.4f)),
+						glm::dvec3(1.2, 4.0, 0.8) + 1.0 * to_light);
 		box.parent_from_node = scene.light->parent_from_node;
-		box.parent_from_node[3] = glm::dvec4(glm::dvec3(1.2, 4.0, 0.8) + 1.0 * way, 1.0);
+		box.parent_from_node[3] = glm::dvec4(glm::dvec3(1.2, 4.0, 0.8) + 1.0 * to_light, 1.0);
 		const MaskResult with = fixture.render_mask(scene, "pcss", glm::uvec2(64));
 		CHECK(compute_mask_difference(with, without) < 1e-3);
 	}
 }
 
-TEST_CASE("[GPU][Pcss] views without receivers are drawn: taps reach across into them") {
+TEST_CASE("[GPU][Pcss] views without receivers are drawn, as taps reach into them") {
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	scene.camera->parent_from_node = look_at({ 0, 1.2, 2.5 }, { 0, 0.2, 0 });

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/fin_inc.glsl"
 
-// Input 3 i: position, corner; 3 i + 1: normal, its sign; 3 i + 2: r, t, 1 for an orthographic view.
-// Constants: view from node. Output: clip position; theta.
+// Runs fin_inc.glsl for each item i. Input 3 i: position, corner; 3 i + 1: normal, normal_sign; 3 i + 2: r, t, 1 for an
+// orthographic view. Output 2 i: clip position; 2 i + 1: theta.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];

@@ -24,7 +24,7 @@ struct FinsFixture : MaskFixture {
 		PropertyValues settings;
 	};
 
-	/// All instances are casters of every view.
+	/// Builds the frame's light views. All instances are casters of every view.
 	Frame make_frame(const SmallScene &p_scene, uint32_t p_map_size_px, float p_margin_m = 0) {
 		Frame frame;
 		frame.scene = p_scene.snap();
@@ -52,7 +52,7 @@ struct FinsFixture : MaskFixture {
 		graph.execute(RenderGraph::Mode::WAIT);
 	}
 
-	/// Adds a pass that fills r_bytes when the graph runs.
+	/// Adds a pass that copies one array layer of the texture to r_bytes when the graph runs.
 	static void read_back(RenderGraph &r_graph, RGTexture p_texture, uint32_t p_layer,
 			std::vector<uint8_t> &r_bytes) {
 		const TextureDesc desc = r_graph.get_desc(p_texture);
@@ -67,7 +67,7 @@ struct FinsFixture : MaskFixture {
 					p_context.commands.copy_texture_to_buffer(
 							p_context.get(p_texture), p_context.get(buffer), p_layer);
 				});
-		keep_on_host(r_graph, buffer, size_bytes, r_bytes);
+		copy_to_host(r_graph, buffer, size_bytes, r_bytes);
 	}
 	static void read_back(RenderGraph &r_graph, RGBuffer p_buffer, uint64_t p_size_bytes,
 			std::vector<uint8_t> &r_bytes) {
@@ -80,7 +80,7 @@ struct FinsFixture : MaskFixture {
 					p_context.commands.copy_buffer(
 							p_context.get(p_buffer), p_context.get(buffer), p_size_bytes);
 				});
-		keep_on_host(r_graph, buffer, p_size_bytes, r_bytes);
+		copy_to_host(r_graph, buffer, p_size_bytes, r_bytes);
 	}
 
 	template <typename T> static std::vector<T> cast(const std::vector<uint8_t> &p_bytes) {
@@ -89,7 +89,7 @@ struct FinsFixture : MaskFixture {
 		return values;
 	}
 
-	/// Depth layers of every view, [view][layer][texel].
+	/// Returns the depth layers of every view as [view][layer][texel].
 	std::vector<std::vector<std::vector<float>>> find_layers(
 			const Frame &p_frame, uint32_t p_layer_count, Peeling p_peeling) {
 		const uint32_t view_count = static_cast<uint32_t>(p_frame.views.size());
@@ -122,11 +122,11 @@ struct FinsFixture : MaskFixture {
 	}
 
 	struct PenumbraMaps {
-		std::vector<uint8_t> color; // pairs of halves
+		std::vector<uint8_t> color; // two 16-bit floats per texel, R and G
 		std::vector<float> depth;
 	};
 
-	/// Penumbra maps of view 0.
+	/// Draws the penumbra maps of view 0 and reads them back.
 	PenumbraMaps draw_fins(const Frame &p_frame, const FinsSettings &p_settings) {
 		PenumbraMaps maps;
 		std::vector<uint8_t> depth;
@@ -160,7 +160,7 @@ struct FinsFixture : MaskFixture {
 	}
 
 private:
-	static void keep_on_host(RenderGraph &r_graph, RGBuffer p_buffer, uint64_t p_size_bytes,
+	static void copy_to_host(RenderGraph &r_graph, RGBuffer p_buffer, uint64_t p_size_bytes,
 			std::vector<uint8_t> &r_bytes) {
 		r_graph.add_pass("keep")
 				.reads(p_buffer, Access::HOST_READ)

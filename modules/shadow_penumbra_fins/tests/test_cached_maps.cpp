@@ -1,4 +1,4 @@
-// What the fins cache from frame to frame, and what makes them redraw.
+// Tests that maps are cached from frame to frame, and which changes make them redraw.
 
 #include "modules/core/error.h"
 #include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
@@ -45,9 +45,9 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 		return [&scene, p_name, p_value] { scene.light->properties[p_name] = p_value; };
 	};
 	struct Step {
-		const char *what;
+		const char *description;
 		std::function<void()> change;
-		bool draws_all; // every view that has casters; else none
+		bool draws_all; // true: the fins of all views with casters are redrawn; false: none
 	};
 	std::list<SettingScope> scopes;
 	const std::vector<Step> steps = {
@@ -59,10 +59,10 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 		{ "curve", set("penumbra_fins_curve", std::string("linear")), true },
 		{ "layers", set("penumbra_fins_layers", int64_t(2)), true },
 		{ "map size", set("penumbra_fins_map_size", int64_t(128)), true },
-		{ "way to peel", [&] { scopes.emplace_back("penumbra_fins", "peeling", "one_pass"); },
+		{ "peeling method", [&] { scopes.emplace_back("penumbra_fins", "peeling", "one_pass"); },
 				false },
-		{ "way to make fins",
-				[&] { scopes.emplace_back("penumbra_fins", "method", "geometry_shader"); }, false },
+		{ "fin method", [&] { scopes.emplace_back("penumbra_fins", "method", "geometry_shader"); },
+				false },
 		{ "light's position", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
 		{ "intensity", [&] { scene.light->intensity = 3.0f; }, false },
 		{ "no t", set("penumbra_inner_width", 0.0), true },
@@ -80,7 +80,7 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 	};
 	size_t full_count = 0;
 	for (const Step &step : steps) {
-		CAPTURE(step.what);
+		CAPTURE(step.description);
 		step.change();
 		const MaskResult reused = render(caching, scene, true);
 		const MaskResult redrawn = render(fresh, scene, false);
@@ -89,7 +89,7 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 		CHECK((count_drawn_views(reused) > 0) == step.draws_all);
 		CHECK(reused.visibility == render(caching, scene, true).visibility);
 	}
-	// A caster that moves within two views draws these two alone.
+	// A caster that moves redraws some of the views, not all.
 	scene.box->parent_from_node[3].x += 0.05;
 	const MaskResult moved = render(caching, scene, true);
 	CHECK(moved.visibility == render(fresh, scene, false).visibility);
@@ -97,7 +97,7 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 	CHECK(count_drawn_views(moved) < full_count);
 }
 
-TEST_CASE("[GPU][PenumbraFins] another technique and back redraws the maps") {
+TEST_CASE("[GPU][PenumbraFins] switching to another technique and back redraws the maps") {
 	MaskFixture fixture;
 	const SmallScene scene;
 	const MaskResult first = render(fixture, scene, true);
@@ -107,7 +107,7 @@ TEST_CASE("[GPU][PenumbraFins] another technique and back redraws the maps") {
 	CHECK(count_drawn_views(again) == 1);
 }
 
-TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing that is cached") {
+TEST_CASE("[GPU][PenumbraFins] a frame that fails half-way leaves no cached maps") {
 	MaskFixture fixture;
 	const SmallScene scene;
 	MaskRequest request;
@@ -121,8 +121,8 @@ TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing t
 }
 
 TEST_CASE("[GPU][PenumbraFins] fins of a caster outside an omni light's view reach into it") {
-	// The box is outside the view downwards; its outer fins reach into it and darken the
-	// ground.
+	// The box is outside the light's downward view, but its outer fins reach into that view and
+	// darken the ground.
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(2.4, 2.0, 0));
@@ -138,12 +138,12 @@ TEST_CASE("[GPU][PenumbraFins] fins of a caster outside an omni light's view rea
 	CHECK(build_light_views(snapshot->lights[0], *snapshot, 256, 2, 1.0f)[down_view].may_see(
 			box.bounds_world));
 	const MaskResult omni = render(fixture, scene, true);
-	// The same light turned by 45 degrees has its borders elsewhere.
+	// The same light rotated by 45 degrees has the borders of its views elsewhere.
 	scene.light->parent_from_node =
 			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
-	const MaskResult turned = render(fixture, scene, true);
-	CHECK(compute_mask_difference(omni, turned) < 0.001);
-	// And the fins do darken what the downward view holds, within 45 degrees of the light's foot.
+	const MaskResult rotated_light = render(fixture, scene, true);
+	CHECK(compute_mask_difference(omni, rotated_light) < 0.001);
+	// The fins do darken the downward view, which extends 45 degrees to each side of straight down.
 	scene.light->properties["penumbra_outer_width"] = 0.0;
 	CHECK(compute_mask_difference(render(fixture, scene, true), omni) > 0.004);
 }

@@ -28,7 +28,7 @@ SmallScene make_scene(LightType p_type = LightType::DIRECTIONAL) {
 		add_mesh(scene.scene, cube.half_m == UPPER.half_m ? "Upper" : "Lower",
 				make_box_mesh("cube", glm::vec3(float(cube.half_m))), cube.centre);
 	}
-	// Straight down, exactly: the shadows' borders are then known.
+	// Light that shines exactly straight down makes the positions of the shadows' borders known.
 	scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
 			glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 7, 0, 1));
 	scene.light->properties["penumbra_outer_width"] = WIDTH_M;
@@ -37,7 +37,7 @@ SmallScene make_scene(LightType p_type = LightType::DIRECTIONAL) {
 	return scene;
 }
 
-/// Where the ray of a pixel meets the cubes or the ground first; nothing where it is no top face.
+/// Returns the first hit of a pixel's ray with the cubes or the ground, if it is on a top face.
 std::optional<glm::dvec3> find_top(const SceneSnapshot &p_scene, glm::uvec2 p_pixel) {
 	const CameraSnapshot &camera = p_scene.camera;
 	const double tangent = std::tan(0.5 * double(camera.vertical_fov_rad));
@@ -67,8 +67,9 @@ struct Expected {
 	double visibility = 0;
 };
 
-/// The case of a point on a top face, from figure 7, with light straight down. A fin at the corner
-/// of a cube leans out along (1, 1, 1), so that it covers r / sqrt(3) in x and z.
+/// Returns the case and visibility of a point on a top face, from figure 7, with light straight
+/// down. A fin at the corner of a cube leans out along (1, 1, 1), so that it covers r / sqrt(3) in
+/// x and z.
 Expected compute_expected(const glm::dvec3 &p_point) {
 	const double reach_m = WIDTH_M / std::sqrt(3.0);
 	const double margin_m = 0.03; // pixels and texels at a border may go either way
@@ -127,8 +128,8 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 		const MaskResult mask = fixture.render_mask(scene, "penumbra_fins", request.size_px);
 		request.debug_view = "case";
 		const std::vector<float> cases = fixture.render(request).debug_values;
-		// The debug view's classes, found where the case is known beyond doubt, by the mask's
-		// values.
+		// For each expected case, how often each value of the debug view occurs. Pixels too near to
+		// a border are skipped.
 		std::map<int, std::map<float, int>> classes;
 		for (uint32_t y = 0; y < SIZE_PX; ++y) {
 			for (uint32_t x = 0; x < SIZE_PX; ++x) {
@@ -146,7 +147,7 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 				right_counts[expected.case_number] += is_right;
 			}
 		}
-		// One class per case, and no two alike.
+		// Each case has one debug value, and no two cases have the same.
 		std::set<float> seen;
 		for (const auto &[case_number, counts] : classes) {
 			CAPTURE(case_number);
@@ -160,7 +161,7 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] r = t = 0 is the plain shadow map, without fins and layers") {
+TEST_CASE("[GPU][PenumbraFins] r = t = 0 gives a plain shadow map and skips fins and layers") {
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
@@ -183,7 +184,7 @@ TEST_CASE("[GPU][PenumbraFins] r = t = 0 is the plain shadow map, without fins a
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] one width of 0 skips its half alone, with the same mask") {
+TEST_CASE("[GPU][PenumbraFins] a width of 0 skips only its half, and the mask stays the same") {
 	MaskFixture fixture;
 	for (const char *width : { "penumbra_outer_width", "penumbra_inner_width" }) {
 		CAPTURE(width);
@@ -198,7 +199,7 @@ TEST_CASE("[GPU][PenumbraFins] one width of 0 skips its half alone, with the sam
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] every way to peel and to make fins gives the same mask") {
+TEST_CASE("[GPU][PenumbraFins] all peeling and fin methods give the same mask") {
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene = make_scene(type);
@@ -229,8 +230,7 @@ TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside 
 	}
 }
 
-TEST_CASE(
-		"[GPU][PenumbraFins] an instance scaled to a line gets no fins, and the plan reports it") {
+TEST_CASE("[GPU][PenumbraFins] the plan reports an instance that is scaled to a line") {
 	MaskFixture fixture;
 	SmallScene scene = make_scene(LightType::SPOT);
 	add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.5f)), { 0, 0, 0 })

@@ -1,5 +1,5 @@
-// The corners of a fin against the same in double: B' = B + r N, B'' = B - t N (Sun et al. 2010,
-// section 2.1.1).
+// Compares fin corners computed on the GPU with double precision on the CPU: B' = B + r N,
+// B'' = B - t N (Sun et al. 2010, section 2.1.1).
 
 #include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
 #include "tests/shaders/kernel_fixture.h"
@@ -20,7 +20,8 @@ struct FinCase {
 glm::dvec4 compute_clip(const FinCase &p_case, const glm::dmat4 &p_view_from_node) {
 	glm::dvec3 position =
 			glm::dvec3(p_view_from_node * glm::dvec4(glm::dvec3(p_case.position_corner), 1.0));
-	// The definition, where fin_inc.glsl takes cofactors; its sign then makes up for mirroring.
+	// The inverse transpose, which defines normals. fin_inc.glsl uses cofactors and corrects their
+	// sign for mirrored transforms.
 	const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(glm::dmat3(p_view_from_node)));
 	const glm::dvec3 normal = glm::normalize(normal_matrix * glm::dvec3(p_case.normal));
 	const uint32_t corner = static_cast<uint32_t>(p_case.position_corner.w) & 6u;
@@ -38,14 +39,14 @@ TEST_CASE("[GPU][PenumbraFins] corners of fins are where the paper puts them, un
 		  "transform") {
 	KernelFixture fixture;
 	TestRandom random;
-	const glm::dmat4 turned =
+	const glm::dmat4 rotation =
 			glm::rotate(glm::dmat4(1.0), 0.8, glm::normalize(glm::dvec3(1, -2, 0.5)));
 	for (const glm::dvec3 scale : { glm::dvec3(1.0), glm::dvec3(3, 0.2, 1), glm::dvec3(-2, 1, 1),
 				 glm::dvec3(1e-3), glm::dvec3(1e3) }) {
 		CAPTURE(scale.x);
 		const glm::dmat4 view_from_node =
 				glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, -0.2, 5) * std::abs(scale.x)) *
-				turned * glm::scale(glm::dmat4(1.0), scale);
+				rotation * glm::scale(glm::dmat4(1.0), scale);
 		std::vector<FinCase> cases;
 		for (int item = 0; item < 300; ++item) {
 			const float corner = float(item % 6);
@@ -72,7 +73,7 @@ TEST_CASE("[GPU][PenumbraFins] corners of fins are where the paper puts them, un
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] a vertex without a normal has its corners on the edge") {
+TEST_CASE("[GPU][PenumbraFins] with a zero normal, the fin's corners stay on the edge") {
 	KernelFixture fixture;
 	const std::vector<glm::vec4> input = { { 1, 2, 3, 2 }, { 0, 0, 0, 1 }, { 5, 5, 0, 0 },
 		{ 1, 2, 3, 0 }, { 0, 0, 0, 1 }, { 5, 5, 0, 0 } };

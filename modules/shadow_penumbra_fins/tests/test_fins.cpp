@@ -12,7 +12,7 @@ using namespace gnomon;
 
 namespace {
 
-std::shared_ptr<const Mesh> share(const char *p_name, const Mesh &p_mesh) {
+std::shared_ptr<const Mesh> share_mesh(const char *p_name, const Mesh &p_mesh) {
 	return make_mesh(p_name, p_mesh.positions_node, {}, p_mesh.indices);
 }
 
@@ -21,11 +21,12 @@ std::vector<std::pair<const char *, Mesh>> make_meshes() {
 	return { { "cube with split corners", unweld(make_cube()) }, { "sphere", make_sphere(3) },
 		{ "torus", make_torus(60, 40) }, { "quad", make_quad() },
 		{ "moebius band", make_moebius(30) },
-		{ "two cubes that share an edge", join(make_cube(), make_cube(glm::vec3(2, 2, 0))) },
+		{ "two cubes with a common edge", join(make_cube(), make_cube(glm::vec3(2, 2, 0))) },
 		{ "soup", make_soup(3, 14, 40) } };
 }
 
-/// A solid of revolution about y through these (radius, height), closed by a disc at both ends.
+/// Makes a solid of revolution about y, closed by a disc at both ends. p_profile: radius and height
+/// of each ring in metres.
 Mesh make_lathed(const std::vector<glm::vec2> &p_profile) {
 	constexpr uint32_t SIDE_COUNT = 48;
 	const uint32_t ring_count = static_cast<uint32_t>(p_profile.size());
@@ -79,13 +80,14 @@ FinsSettings make_settings(float p_outer_m, float p_inner_m, FinMethod p_method)
 TEST_CASE("[GPU][PenumbraFins] compute finds the CPU's silhouette edges, in order, on meshes of "
 		  "every class") {
 	FinsFixture fixture;
-	// Each mesh by itself, and all of them in one frame, which share the buffers.
+	// Each mesh by itself, and all of them in one frame with common buffers.
 	for (size_t only = 0; only <= make_meshes().size(); ++only) {
-		SmallScene scene = make_scene(share("first", test_meshes::make_sphere(4)));
+		SmallScene scene = make_scene(share_mesh("first", test_meshes::make_sphere(4)));
 		size_t index = 0;
 		for (const auto &[name, mesh] : make_meshes()) {
 			if (index++ == only || only == make_meshes().size()) {
-				add_mesh(scene.scene, name, share(name, mesh), { 0.3 * double(index), 0, 0.2 });
+				add_mesh(
+						scene.scene, name, share_mesh(name, mesh), { 0.3 * double(index), 0, 0.2 });
 			}
 		}
 		const FinsFixture::Frame frame = fixture.make_frame(scene, 32);
@@ -106,7 +108,7 @@ TEST_CASE("[GPU][PenumbraFins] compute finds the CPU's silhouette edges, in orde
 		for (size_t caster = 0; caster < draws.size(); ++caster) {
 			const SilhouetteCaster &item = casters.casters[caster];
 			const MeshTopology &topology = *item.gpu->topology;
-			const auto silhouette = find_silhouette_edges(topology, item.light_node);
+			const auto silhouette = find_silhouette_edges(topology, item.light_position_node);
 			std::vector<uint32_t> expected; // indices in the GPU's order
 			const std::vector<uint32_t> order = order_edges_by_face(topology);
 			for (uint32_t order_index = 0; order_index < order.size(); ++order_index) {
@@ -129,7 +131,7 @@ TEST_CASE("[GPU][PenumbraFins] geometry shader and compute draw the same penumbr
 	FinsFixture fixture;
 	for (const auto &[name, mesh] : make_meshes()) {
 		CAPTURE(name);
-		const SmallScene scene = make_scene(share(name, mesh));
+		const SmallScene scene = make_scene(share_mesh(name, mesh));
 		const FinsFixture::Frame frame = fixture.make_frame(scene, 128, 0.2f);
 		for (const glm::vec2 widths : { glm::vec2(0.2f, 0.1f), glm::vec2(0.2f, 0.0f),
 					 glm::vec2(0.0f, 0.2f), glm::vec2(5.0f, 5.0f) }) {
@@ -148,12 +150,14 @@ TEST_CASE("[GPU][PenumbraFins] geometry shader and compute draw the same penumbr
 TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins without a gap") {
 	// Fins along split normals would leave the corners open (the reason for welded normals).
 	FinsFixture fixture;
-	SmallScene scene = make_scene(share("cube", test_meshes::unweld(test_meshes::make_cube())));
+	SmallScene scene =
+			make_scene(share_mesh("cube", test_meshes::unweld(test_meshes::make_cube())));
 	scene.light->parent_from_node = look_at({ 0.3, 9, 0.2 }, { 0.1, 0, -0.1 });
 	scene.light->outer_cone_rad = 0.35f;
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 256, 0.3f);
 	const auto maps = fixture.draw_fins(frame, make_settings(0.3f, 0.0f, FinMethod::COMPUTE));
-	// What is no fin falls apart in two: nothing leads from the middle to the map's border.
+	// A flood fill over texels without a fin, from the cube's centre, must not reach the map's
+	// border.
 	const int width = static_cast<int>(frame.views[0].size_px.x);
 	const auto is_fin = [&](const glm::ivec2 &p_texel) {
 		return maps.depth[size_t(p_texel.y) * size_t(width) + size_t(p_texel.x)] > 0;
@@ -162,13 +166,13 @@ TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins wi
 			glm::dvec3(frame.views[0].view_from_world * glm::dvec4(0.1, 0.2, -0.1, 1));
 	const glm::dvec2 centre_map =
 			glm::dvec2(centre_view) / centre_view.z / glm::dvec2(frame.views[0].half_extent);
-	std::vector<glm::ivec2> waiting = { glm::ivec2((centre_map * 0.5 + 0.5) * double(width)) };
+	std::vector<glm::ivec2> pending = { glm::ivec2((centre_map * 0.5 + 0.5) * double(width)) };
 	std::set<std::pair<int, int>> reached;
 	bool has_left = false;
-	REQUIRE_FALSE(is_fin(waiting[0]));
-	while (!waiting.empty() && !has_left) {
-		const glm::ivec2 texel = waiting.back();
-		waiting.pop_back();
+	REQUIRE_FALSE(is_fin(pending[0]));
+	while (!pending.empty() && !has_left) {
+		const glm::ivec2 texel = pending.back();
+		pending.pop_back();
 		if (!reached.insert({ texel.x, texel.y }).second) {
 			continue;
 		}
@@ -178,7 +182,7 @@ TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins wi
 			has_left =
 					has_left || glm::min(next.x, next.y) < 0 || glm::max(next.x, next.y) >= width;
 			if (!has_left && !is_fin(next)) {
-				waiting.push_back(next);
+				pending.push_back(next);
 			}
 		}
 	}
@@ -188,9 +192,9 @@ TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins wi
 
 TEST_CASE("[GPU][PenumbraFins] inner fins of edges that the light does not see are dropped") {
 	FinsFixture fixture;
-	// A small cube hangs right under a large one: nothing of it is seen.
-	SmallScene alone = make_scene(share("large", test_meshes::make_cube()));
-	SmallScene both = make_scene(share("large", test_meshes::make_cube()));
+	// A small cube right below a large one is hidden from the light.
+	SmallScene alone = make_scene(share_mesh("large", test_meshes::make_cube()));
+	SmallScene both = make_scene(share_mesh("large", test_meshes::make_cube()));
 	add_mesh(both.scene, "Hidden", make_box_mesh("hidden", glm::vec3(0.3f)), { -0.2, -2.0, -0.5 });
 	const FinsFixture::Frame frame = fixture.make_frame(alone, 128, 0.1f);
 	const FinsFixture::Frame frame_of_both = fixture.make_frame(both, 128, 0.1f);
@@ -200,11 +204,11 @@ TEST_CASE("[GPU][PenumbraFins] inner fins of edges that the light does not see a
 }
 
 TEST_CASE("[GPU][PenumbraFins] beta drops the inner fins deep in a solid that hides their edge") {
-	// Figure 4 (b) of the paper. A mushroom's foot is a silhouette that the cap hides; its inner
-	// fin is in the stem, before the second layer, so that the layers alone would keep it.
+	// Figure 4 (b) of the paper. The silhouette at the foot of a mushroom is hidden by the cap. Its
+	// inner fin is inside the stem and in front of the second layer, so only beta removes it.
 	FinsFixture fixture;
 	const auto draw = [&](const std::vector<glm::vec2> &p_profile, float p_beta_m) {
-		SmallScene scene = make_scene(share("lathed", make_lathed(p_profile)));
+		SmallScene scene = make_scene(share_mesh("lathed", make_lathed(p_profile)));
 		scene.light->parent_from_node = look_at({ 0.1, 8, -0.1 }, { 0.1, 0, -0.101 });
 		FinsSettings settings = make_settings(0.1f, 0.1f, FinMethod::COMPUTE);
 		settings.beta_m = p_beta_m;
@@ -220,12 +224,12 @@ TEST_CASE("[GPU][PenumbraFins] beta drops the inner fins deep in a solid that hi
 TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the fins of the plain one") {
 	FinsFixture fixture;
 	const Mesh torus = test_meshes::make_torus(40, 30);
-	Mesh turned = torus;
-	for (size_t i = 0; i < turned.indices.size(); i += 3) {
-		std::swap(turned.indices[i], turned.indices[i + 1]);
+	Mesh flipped = torus;
+	for (size_t i = 0; i < flipped.indices.size(); i += 3) {
+		std::swap(flipped.indices[i], flipped.indices[i + 1]);
 	}
 	const auto draw = [&](const Mesh &p_mesh, bool p_mirrors) {
-		SmallScene scene = make_scene(share("torus", p_mesh));
+		SmallScene scene = make_scene(share_mesh("torus", p_mesh));
 		if (p_mirrors) { // the torus is its own mirror image
 			scene.scene.root->children.back()->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0),
 					glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0.1, 0.2, -0.1, 1));
@@ -233,8 +237,8 @@ TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the fins of 
 		return fixture.draw_fins(fixture.make_frame(scene, 128, 0.2f),
 				make_settings(0.2f, 0.2f, FinMethod::COMPUTE));
 	};
-	const auto share_of_equal = [](const FinsFixture::PenumbraMaps &p_left,
-										const FinsFixture::PenumbraMaps &p_right) {
+	const auto compute_equal_fraction = [](const FinsFixture::PenumbraMaps &p_left,
+												const FinsFixture::PenumbraMaps &p_right) {
 		size_t equal_count = 0;
 		for (size_t texel = 0; texel < p_left.depth.size(); ++texel) {
 			equal_count += std::abs(p_left.depth[texel] - p_right.depth[texel]) < 0.01f;
@@ -242,10 +246,10 @@ TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the fins of 
 		return double(equal_count) / double(p_left.depth.size());
 	};
 	const auto plain = draw(torus, false);
-	// Other diagonals and rounding move single texels on the rims.
-	CHECK(share_of_equal(plain, draw(turned, false)) > 0.99);
-	CHECK(share_of_equal(plain, draw(torus, true)) > 0.99);
-	CHECK(share_of_equal(plain, draw(turned, true)) > 0.99);
+	// Different triangle diagonals and rounding change single texels at the rims.
+	CHECK(compute_equal_fraction(plain, draw(flipped, false)) > 0.99);
+	CHECK(compute_equal_fraction(plain, draw(torus, true)) > 0.99);
+	CHECK(compute_equal_fraction(plain, draw(flipped, true)) > 0.99);
 }
 
 TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and nothing is NaN") {
@@ -253,7 +257,7 @@ TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and not
 	// A quad and its back side: every vertex normal is zero.
 	Mesh double_sided = test_meshes::make_quad();
 	double_sided.indices.insert(double_sided.indices.end(), { 2, 1, 0, 3, 2, 0 });
-	const SmallScene scene = make_scene(share("double-sided", double_sided));
+	const SmallScene scene = make_scene(share_mesh("double-sided", double_sided));
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 64, 0.2f);
 	fixture.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
 		CHECK(count_zero_normals(build_silhouette_casters(
@@ -270,34 +274,36 @@ TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and not
 
 TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditions or depth clamp "
 		  "draw the same maps") {
-	FinsFixture able;
+	FinsFixture full_fixture;
 	const Mesh torus = test_meshes::make_torus(60, 40);
-	const SmallScene scene = make_scene(share("torus", torus));
-	const FinsFixture::Frame frame = able.make_frame(scene, 128, 0.2f);
-	const auto expected = able.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
-	const auto expected_layers = able.find_layers(frame, 3, Peeling::PASSES);
-	const SmallScene quad_scene = make_scene(share("quad", test_meshes::make_quad()));
+	const SmallScene scene = make_scene(share_mesh("torus", torus));
+	const FinsFixture::Frame frame = full_fixture.make_frame(scene, 128, 0.2f);
+	const auto expected =
+			full_fixture.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
+	const auto expected_layers = full_fixture.find_layers(frame, 3, Peeling::PASSES);
+	const SmallScene quad_scene = make_scene(share_mesh("quad", test_meshes::make_quad()));
 	const auto expected_quad =
-			able.find_layers(able.make_frame(quad_scene, 64), 3, Peeling::PASSES);
+			full_fixture.find_layers(full_fixture.make_frame(quad_scene, 64), 3, Peeling::PASSES);
 	const FeatureList features = { &DeviceFeatures::geometry_shader,
 		&DeviceFeatures::fragment_stores, &DeviceFeatures::conditional_rendering,
 		&DeviceFeatures::depth_clamp };
-	for (size_t lacking = 0; lacking < features.size(); ++lacking) {
-		CAPTURE(lacking);
-		FinsFixture lacks("", { features[lacking] });
-		const auto maps = lacks.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
+	for (size_t missing_feature = 0; missing_feature < features.size(); ++missing_feature) {
+		CAPTURE(missing_feature);
+		FinsFixture limited_fixture("", { features[missing_feature] });
+		const auto maps =
+				limited_fixture.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
 		CHECK(maps.color == expected.color);
 		CHECK(maps.depth == expected.depth);
-		CHECK(lacks.find_layers(frame, 3, Peeling::PASSES) == expected_layers);
-		CHECK(lacks.find_layers(lacks.make_frame(quad_scene, 64), 3, Peeling::PASSES) ==
-				expected_quad);
-		// A wish for one pass is granted only where it can be.
-		FinsSettings wish = make_settings(0.2f, 0.1f, FinMethod::COMPUTE);
-		wish.map_size_px = 128;
-		wish.peeling = Peeling::ONE_PASS;
-		lacks.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
-			CHECK((choose_peeling(wish, p_inputs, 0) == Peeling::PASSES) ==
-					(features[lacking] == &DeviceFeatures::fragment_stores));
+		CHECK(limited_fixture.find_layers(frame, 3, Peeling::PASSES) == expected_layers);
+		CHECK(limited_fixture.find_layers(limited_fixture.make_frame(quad_scene, 64), 3,
+					  Peeling::PASSES) == expected_quad);
+		// A request for ONE_PASS is honoured only where the device supports it.
+		FinsSettings one_pass_settings = make_settings(0.2f, 0.1f, FinMethod::COMPUTE);
+		one_pass_settings.map_size_px = 128;
+		one_pass_settings.peeling = Peeling::ONE_PASS;
+		limited_fixture.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
+			CHECK((choose_peeling(one_pass_settings, p_inputs, 0) == Peeling::PASSES) ==
+					(features[missing_feature] == &DeviceFeatures::fragment_stores));
 		});
 	}
 }

@@ -8,7 +8,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Horizontal squares, one per height, all of them in the light's whole view.
+/// Makes horizontal squares, one per height, each of which covers the light's whole view.
 std::shared_ptr<const Mesh> make_squares(const std::vector<float> &p_heights_m) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -25,7 +25,8 @@ std::shared_ptr<const Mesh> make_squares(const std::vector<float> &p_heights_m) 
 	return make_mesh("squares", positions, {}, indices);
 }
 
-/// A spot at 4 m that looks straight down on what p_mesh adds; no ground, no box.
+/// Makes a scene of p_mesh alone (may be null), with a light at y = 4 m that looks almost straight
+/// down.
 SmallScene make_scene(const std::shared_ptr<const Mesh> &p_mesh, LightType p_type) {
 	SmallScene scene(p_type);
 	scene.ground->surfaces.clear();
@@ -105,7 +106,7 @@ TEST_CASE("[GPU][PenumbraFins] a scene with one layer has two empty ones, peeled
 TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped, not lost") {
 	FinsFixture fixture;
 	SmallScene scene = make_scene(make_box_mesh("rod", { 0.5f, 4.5f, 0.5f }), LightType::SPOT);
-	const FinsFixture::Frame frame = fixture.make_frame(scene, 32); // the light is inside
+	const FinsFixture::Frame frame = fixture.make_frame(scene, 32); // the light is inside the rod
 	const auto peeled = fixture.find_layers(frame, 3, Peeling::PASSES);
 	CHECK(peeled == fixture.find_layers(frame, 3, Peeling::ONE_PASS));
 	for (const std::vector<float> &layer : peeled[0]) {
@@ -123,7 +124,7 @@ TEST_CASE("[GPU][PenumbraFins] the plan reports where layer 3 waits for layer 2,
 		const MaskResult all = fixture.render_mask(p_scene, "penumbra_fins", glm::uvec2(64), false);
 		CHECK(lean.visibility == all.visibility);
 		CHECK(all.plan.to_text().find("layer 3 only if") == std::string::npos);
-		return lean.plan.to_text().find("layer 3 only if layer 2 holds anything, views: 1") !=
+		return lean.plan.to_text().find("layer 3 only if layer 2 is not empty, views: 1") !=
 				std::string::npos;
 	};
 	SmallScene square = make_scene(make_squares({ 1.0f }), LightType::SPOT);
@@ -131,6 +132,6 @@ TEST_CASE("[GPU][PenumbraFins] the plan reports where layer 3 waits for layer 2,
 	add_mesh(square.scene, "Floor", make_box_mesh("floor", { 3, 0.1f, 3 }), { 0, -0.2, 0 })
 			.casts_shadow = false;
 	CHECK(is_conditional(square) == fixture.device->get_features().conditional_rendering);
-	SmallScene solid; // a box has a back: nothing is conditional
+	SmallScene solid; // a box has back faces, so layer 2 is not empty
 	CHECK_FALSE(is_conditional(solid));
 }

@@ -7,7 +7,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Sun et al. 2010, section 2.1.3.
+/// Visibility as a function of theta, with the sine curve of Sun et al. 2010, section 2.1.3.
 double compute_transition(double p_theta, bool p_is_outer) {
 	return p_is_outer ? std::sin((p_theta - 0.5) * M_PI) * 0.7 + 0.3
 					  : (1 - std::cos(p_theta * M_PI)) * 0.3;
@@ -50,29 +50,29 @@ TEST_CASE("[GPU][PenumbraFins] without an inner half the outer one rises from 0 
 TEST_CASE("[GPU][PenumbraFins] any outer fin beats any inner one, and the farther of two wins") {
 	KernelFixture fixture;
 	TestRandom random;
-	// near:far from 1:2 to 1:1e6, the most that stiff scenes have.
+	// nearest : farthest from 1:2 to 1:1e6, the limit that MIN_DISTANCE_FRACTION sets.
 	for (double ratio : { 2.0, 100.0, 1e6 }) {
 		CAPTURE(ratio);
 		const float nearest_m = 3.0f;
 		const float farthest_m = static_cast<float>(nearest_m * ratio);
 		std::vector<glm::vec4> input;
 		for (int item = 0; item < 400; ++item) {
-			const double share = random.next();
+			const double fraction = random.next();
 			const float distance_m = item == 0 ? nearest_m
 					: item == 1				   ? farthest_m
-								: static_cast<float>(nearest_m * std::pow(ratio, share));
+								: static_cast<float>(nearest_m * std::pow(ratio, fraction));
 			for (float is_outer : { 0.0f, 1.0f }) {
 				input.emplace_back(is_outer, is_outer, 0.0f, 0.0f);
 				input.emplace_back(distance_m, nearest_m, farthest_m, 0.0f);
 			}
 		}
 		const auto results = fixture.run("penumbra.comp", input, input.size() / 2, 1);
-		float greatest_inner = 0;
-		float least_outer = 1;
+		float max_inner = 0;
+		float min_outer = 1;
 		for (size_t item = 0; item < results.size(); item += 2) {
 			const double distance_m = input[2 * item + 1].x;
-			greatest_inner = std::max(greatest_inner, results[item].y);
-			least_outer = std::min(least_outer, results[item + 1].y);
+			max_inner = std::max(max_inner, results[item].y);
+			min_outer = std::min(min_outer, results[item + 1].y);
 			CHECK(results[item].y > 0.0f);
 			CHECK(results[item + 1].y <= 1.0f);
 			if (item >= 2 && distance_m > input[2 * (item - 2) + 1].x * 1.0001) {
@@ -80,6 +80,6 @@ TEST_CASE("[GPU][PenumbraFins] any outer fin beats any inner one, and the farthe
 				CHECK(results[item + 1].y > results[item - 1].y);
 			}
 		}
-		CHECK(greatest_inner < least_outer);
+		CHECK(max_inner < min_outer);
 	}
 }

@@ -23,7 +23,7 @@ MaskResult render_planar(
 	return result;
 }
 
-/// Surfaces at the height of the floor's top.
+/// Compares the mask on the floor's top with rays to the light.
 HardDifference compare_floor(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const double camera_height = p_scene.snap()->camera.position_world.y;
 	return HardReference(p_scene).compare(p_frame, [&](const SurfacePoint &p_surface) {
@@ -40,7 +40,7 @@ void check_floor(const SmallScene &p_scene, const MaskResult &p_frame) {
 	CHECK(difference.unexplained_count == 0);
 }
 
-bool has_line(const MaskResult &p_frame, const char *p_text) {
+bool plan_contains(const MaskResult &p_frame, const char *p_text) {
 	return p_frame.plan.to_text().find(p_text) != std::string::npos;
 }
 
@@ -55,8 +55,8 @@ TEST_CASE("[GPU][ShadowPlanar] on a declared floor the mask is that of rays") {
 				{ 0.2, 1.8, 0.1 }); // shades what the box shades, in part
 		const MaskResult frame = render_planar(fixture, scene);
 		check_floor(scene, frame);
-		CHECK(has_line(frame, "planes: "));
-		CHECK(has_line(frame, "shadows on 2 other meshes"));
+		CHECK(plan_contains(frame, "planes: "));
+		CHECK(plan_contains(frame, "shadows on 2 other meshes"));
 		CHECK(render_planar(fixture, scene, false).visibility == frame.visibility);
 	}
 }
@@ -76,16 +76,16 @@ TEST_CASE("[GPU][ShadowPlanar] casters behind the plane and above the light hide
 	check_floor(scene, render_planar(fixture, scene));
 }
 
-TEST_CASE("[GPU][ShadowPlanar] a scene that does not fit is reported") {
+TEST_CASE("[GPU][ShadowPlanar] scenes without declared planes, or with curved ones, are reported") {
 	MaskFixture fixture;
 	SmallScene undeclared;
 	undeclared.ground->is_planar_receiver = false;
 	const MaskResult none = render_planar(fixture, undeclared);
-	CHECK(has_line(none, "no node has shadow_planar_receiver"));
+	CHECK(plan_contains(none, "no node has shadow_planar_receiver"));
 	CHECK(compute_mask_difference(none, none) == 0);
 	CHECK(std::count(none.visibility.begin(), none.visibility.end(), 1.0f) >=
 			ptrdiff_t(count_receivers(none)));
-	// A floor that is a ball.
+	// A curved floor.
 	SmallScene curved;
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -99,7 +99,7 @@ TEST_CASE("[GPU][ShadowPlanar] a scene that does not fit is reported") {
 		}
 	}
 	curved.ground->surfaces[0].mesh = make_mesh("arch", positions, {}, indices);
-	CHECK(has_line(render_planar(fixture, curved), "they are curved"));
+	CHECK(plan_contains(render_planar(fixture, curved), "they are curved"));
 }
 
 TEST_CASE("[GPU][ShadowPlanar] the mask does not depend on scale, nor on the distance from the "
@@ -116,17 +116,17 @@ TEST_CASE("[GPU][ShadowPlanar] the mask does not depend on scale, nor on the dis
 						  SmallScene(LightType::SPOT, 1.0, glm::dvec3(1e5, -1e5, 1e5)))) < 2e-4);
 }
 
-TEST_CASE("[ShadowPlanar] planes are found by their lit area") {
+TEST_CASE("[ShadowPlanar] only planes that face the light are found") {
 	SmallScene scene(LightType::OMNI);
 	const auto snapshot = scene.snap();
 	const ReceiverPlanes found = find_receiver_planes(*snapshot, snapshot->lights[0]);
-	REQUIRE(found.planes.size() == 1); // of a floor's box only the top is light-facing
+	REQUIRE(found.planes.size() == 1); // only the top of the floor's box faces the light
 	CHECK(found.planes[0].area_m2 == doctest::Approx(36.0));
 	CHECK(found.planes[0].normal.y == doctest::Approx(1.0));
 	CHECK(found.planes[0].offset_m == doctest::Approx(snapshot->camera.position_world.y));
 	CHECK(compute_light_height(found.planes[0], snapshot->lights[0], snapshot->camera) ==
 			doctest::Approx(4.0));
-	// Next to a block the light sees a side of it too.
+	// The light sees the top and two sides of the box.
 	scene.box->is_planar_receiver = true;
 	const auto both = scene.snap();
 	CHECK(find_receiver_planes(*both, both->lights[0]).planes.size() == 4);
@@ -139,7 +139,7 @@ TEST_CASE("[ShadowPlanar] planes are found by their lit area") {
 	CHECK(lower.planes[0].normal.y == doctest::Approx(-1.0));
 }
 
-TEST_CASE("[ShadowPlanar] far from the origin a leaning floor of many faces is still one plane") {
+TEST_CASE("[ShadowPlanar] far from the origin a tilted floor of many faces is still one plane") {
 	for (const double far_m : { 0.0, 1e5 }) {
 		CAPTURE(far_m);
 		SmallScene scene(LightType::OMNI, 1.0, glm::dvec3(far_m, -far_m, far_m));
@@ -155,7 +155,7 @@ TEST_CASE("[ShadowPlanar] far from the origin a leaning floor of many faces is s
 		scene.ground->surfaces[0].mesh = make_mesh("tiles", positions, {}, indices);
 		scene.ground->parent_from_node =
 				glm::rotate(scene.ground->parent_from_node, 0.31, glm::dvec3(0.6, 0.5, 0.4));
-		// A light that is low over it, in parts of its distance from the origin.
+		// The light is low over the floor, compared with its distance from the origin.
 		scene.light->parent_from_node = scene.ground->parent_from_node *
 				glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 0.05, 0.1));
 		const auto snapshot = scene.snap();

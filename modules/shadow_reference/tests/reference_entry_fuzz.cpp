@@ -1,6 +1,6 @@
 // fuzz: modules=core sources=modules/shadow_reference/reference_entry.cpp
-// Any bytes as a cached reference. The first nine state what is requested: the pixels, and with
-// colours?
+// Parses arbitrary bytes as a cached reference. The first nine bytes are the request: the number of
+// pixels, and whether there must be colours.
 #include "modules/shadow_reference/reference_entry.h"
 
 #include "tests/fuzz/fuzz_target.h"
@@ -33,13 +33,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 				" values");
 		GNOMON_ASSERT(reference->colors.size() == (is_colored ? pixel_count : 0), "colours");
 		const std::vector<uint8_t> again = build_reference_entry(KEY, *reference);
-		constexpr size_t PADDING_BYTES = 4; // the last of the header, never looked at
+		constexpr size_t PADDING_BYTES = 4; // at the end of the header, never read
 		constexpr size_t HEADER_BYTES = 32;
 		GNOMON_ASSERT(again.size() == bytes.size() &&
 						std::equal(again.begin(), again.begin() + HEADER_BYTES - PADDING_BYTES,
 								bytes.begin()) &&
 						std::equal(again.begin() + HEADER_BYTES, again.end(),
 								bytes.begin() + HEADER_BYTES),
-				"another reference came back");
+				"rebuilding the entry gives other bytes");
 	});
 }

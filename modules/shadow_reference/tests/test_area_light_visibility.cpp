@@ -24,7 +24,7 @@ TriangleBuilder make_scene() {
 	return triangles;
 }
 
-/// Root mean square over the penumbra, against the closed form of make_scene.
+/// Root mean square error over the penumbra, compared with the closed form for make_scene.
 double compute_rms_error(
 		const VisibilityResult &p_result, const std::vector<ReceiverPoint> &p_points) {
 	double square_sum = 0;
@@ -49,7 +49,7 @@ TEST_CASE("[DiscSamples] cover the disc evenly for every count and scramble") {
 		DiscSamples::Packet packet;
 		glm::dvec2 sum(0.0);
 		double largest_radius = 0;
-		unsigned inner_count = 0; // half of the disc's area
+		unsigned inner_count = 0; // points in the inner half of the disc's area
 		uint32_t visited_count = 0;
 		for (uint32_t i = 0; i < samples.get_packet_count(); ++i) {
 			samples.compute_packet(i, 0x12345678u, 0x9abcdef0u, packet);
@@ -63,16 +63,16 @@ TEST_CASE("[DiscSamples] cover the disc evenly for every count and scramble") {
 		}
 		CHECK(visited_count == count);
 		CHECK(largest_radius <= 1.000001);
-		// Twice what a good set shows; random points miss the last two.
+		// Limits are twice the values of a good sample set. Random points fail both checks.
 		const double scale = std::pow(count, -0.75);
 		CHECK(glm::length(sum) / count < 1.2 * scale);
 		CHECK(std::abs(static_cast<double>(inner_count) / count - 0.5) <= 1.2 * scale);
 	}
 }
 
-TEST_CASE("[DiscSamples] every power of two puts one point in each cell of each dyadic grid") {
-	// Seen through the map to the disc, the quadrants of the square stay quadrants (turned by 45
-	// degrees): a net has a quarter of its points in each.
+TEST_CASE("[DiscSamples] 256 points put 64 in each quadrant of the disc") {
+	// The map to the disc turns quadrants of the square into quadrants of the disc, rotated by 45
+	// degrees. A (0,2)-net has a quarter of its points in each.
 	const DiscSamples samples(256, 1);
 	DiscSamples::Packet packet;
 	unsigned counts[4] = {};
@@ -121,7 +121,7 @@ TEST_CASE("[Reference] the error falls faster than that of random samples") {
 	}
 }
 
-TEST_CASE("[Reference] the printed standard error is the real one within a quarter") {
+TEST_CASE("[Reference] from 16 samples on, the standard error is within 25 % of the real one") {
 	const CasterScene tracer = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	for (const uint32_t sample_count : { 2u, 3u, 17u, 64u, 1000u, 1024u, 9216u }) {
@@ -188,7 +188,7 @@ TEST_CASE("[Reference] degenerate receivers have a defined value, never NaN") {
 		{ { 0, inf, 0 }, up, true }, { { 0, 0, 0 }, { nan, 0, 0 }, true },
 		{ { 0, 0, 0 }, up, false },							   // 0: no receiver
 		{ LIGHT.position, { 0, 0, 0 }, true },				   // 1: on the light
-		{ { 3, 0, 0 }, { 0, 0, 0 }, true },					   // no normal: traced from where it is
+		{ { 3, 0, 0 }, { 0, 0, 0 }, true },					   // no normal: rays start at it
 		{ LIGHT.position + glm::vec3(0, 0, 1e-6f), up, true }, // closer than its radius
 		{ { 3, 0, 1e6f }, up, true }, // far behind the light: the renderer would not query it
 	};
@@ -208,7 +208,7 @@ TEST_CASE("[Reference] degenerate triangles are harmless, those not finite are s
 			make_scene().build().compute(points, SIZE_PX, LIGHT, make_options(64)).visibility);
 }
 
-TEST_CASE("[Reference] a light or an option out of range is an error that names the range") {
+TEST_CASE("[Reference] a light or an option out of range is an error") {
 	const CasterScene tracer = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(1, 1.0f);
 	const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -252,7 +252,7 @@ TEST_CASE("[Reference] progress rises to 1 on the calling thread, and may stop t
 
 	std::atomic<bool> is_cancelled = true;
 	options.is_cancelled = &is_cancelled;
-	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete); // by all threads
+	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete); // all threads
 
 	is_cancelled = false;
 	options.thread_count = 1; // others might have traced all tiles before this one is called

@@ -114,9 +114,9 @@ TEST_CASE("[Reference] a disc before a spot light hides the lens of two circles"
 					make_spot(light_position, radius), make_options(SAMPLE_COUNT));
 			for (size_t i = 0; i < points.size(); ++i) {
 				const double distance = glm::dot(light_position - get_start(points[i]), axis);
-				const double magnified = distance / (distance - 2.0);
+				const double magnification = distance / (distance - 2.0);
 				const double expected = closed_form::compute_disc_visibility(
-						occluder_radius * magnified / radius, offset * magnified / radius);
+						occluder_radius * magnification / radius, offset * magnification / radius);
 				CHECK(std::abs(expected - result.visibility[i]) < TOLERANCE);
 			}
 		}
@@ -150,7 +150,7 @@ TEST_CASE(
 TEST_CASE("[Reference] nothing in between is exactly 1, everything hidden exactly 0") {
 	TriangleBuilder cover;
 	cover.add_half_plane(250.0f, 2.5f);
-	TriangleBuilder elsewhere; // behind the light, below the ground, and the lamp's own surface
+	TriangleBuilder elsewhere; // behind the light, and below the ground
 	elsewhere.add_half_plane(250.0f, 7.0f);
 	elsewhere.add_half_plane(250.0f, -0.1f);
 	const std::vector<ReceiverPoint> points = make_ground(8, 2.0f);

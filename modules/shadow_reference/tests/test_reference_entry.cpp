@@ -19,7 +19,7 @@ ReferenceVisibility make_reference() {
 
 } // namespace
 
-TEST_CASE("[ReferenceEntry] a reference comes back as it was, with colours and without") {
+TEST_CASE("[ReferenceEntry] a reference survives saving and loading, with colours and without") {
 	ReferenceVisibility reference = make_reference();
 	const auto colored = parse_reference_entry(build_reference_entry(KEY, reference), KEY, 3, true);
 	REQUIRE(colored);
@@ -33,7 +33,7 @@ TEST_CASE("[ReferenceEntry] a reference comes back as it was, with colours and w
 	CHECK(plain->colors.empty());
 }
 
-TEST_CASE("[ReferenceEntry] another key, another size and counts that wrap around are nothing") {
+TEST_CASE("[ReferenceEntry] another key, another size and counts that wrap around are rejected") {
 	const std::vector<uint8_t> bytes = build_reference_entry(KEY, make_reference());
 	CHECK_FALSE(parse_reference_entry(bytes, KEY + 1, 3, true));
 	CHECK_FALSE(parse_reference_entry(bytes, KEY, 3, false));

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-/// Occluders and receivers whose exact visibility is known. z is up; receivers lie in z = 0 and
-/// look up.
+/// Occluders and receivers whose exact visibility is known. z is up; receivers are in the plane
+/// z = 0 and face up.
 namespace gnomon::test_scenes {
 
 struct TriangleBuilder : Triangles {
@@ -25,12 +25,13 @@ struct TriangleBuilder : Triangles {
 		positions.insert(positions.end(), { p_a, p_b, p_c, p_d });
 		indices.insert(indices.end(), { first, first + 1, first + 2, first, first + 2, first + 3 });
 	}
-	/// Everything with x < p_edge_x at the height p_height: a half-plane for all receivers used.
+	/// Adds a square, x < p_edge_x at the height p_height, large enough to be a half-plane for all
+	/// receivers of the tests.
 	void add_half_plane(float p_edge_x, float p_height) {
 		add_quad({ p_edge_x, -500, p_height }, { p_edge_x, 500, p_height },
 				{ p_edge_x - 500, 500, p_height }, { p_edge_x - 500, -500, p_height });
 	}
-	/// A disc of 2000 corners: its area is that of the circle to 2e-6.
+	/// Adds a disc of 2000 corners. Its area differs from the circle's by a fraction of 2e-6.
 	void add_disc(const glm::dvec3 &p_centre, const glm::dvec3 &p_axis_x,
 			const glm::dvec3 &p_axis_y, double p_radius) {
 		const uint32_t first = static_cast<uint32_t>(positions.size());
@@ -46,7 +47,7 @@ struct TriangleBuilder : Triangles {
 	}
 };
 
-/// p_count x p_count points over a square of the ground about the origin.
+/// Returns p_count x p_count receivers on a square of the ground around the origin.
 inline std::vector<ReceiverPoint> make_ground(uint32_t p_count, float p_half_size) {
 	std::vector<ReceiverPoint> points;
 	for (uint32_t y = 0; y < p_count; ++y) {
@@ -61,7 +62,7 @@ inline std::vector<ReceiverPoint> make_ground(uint32_t p_count, float p_half_siz
 
 constexpr float SCENE_SIZE_M = 4.0f;
 
-/// Where the rays of a receiver start.
+/// Returns the point at which the rays of a receiver start.
 inline glm::dvec3 get_start(const ReceiverPoint &p_point) {
 	return glm::dvec3(p_point.position) +
 			5e-5 * SCENE_SIZE_M * glm::dvec3(p_point.geometric_normal);

@@ -9,17 +9,17 @@ using namespace gnomon;
 
 namespace {
 
-/// Light enters evenly over a disc.
+/// Light enters evenly over a disc with the spread radius.
 class EvenSpread : public SurfaceSpread {
 public:
 	float compute_radius_m(const SurfaceMaterial &, float) const override { return 1.0f; }
-	float compute_distance(float p_share) const override { return std::sqrt(p_share); }
+	float compute_distance(float p_fraction) const override { return std::sqrt(p_fraction); }
 };
 
 const EvenSpread EVEN;
 const float OFFSET_M = 1e-4f;
 
-/// Level, facing up.
+/// Adds a horizontal square that faces up. p_half: half the length of its sides in metres.
 void add_square(Triangles &r_triangles, const glm::vec3 &p_centre, float p_half) {
 	const uint32_t first = static_cast<uint32_t>(r_triangles.positions.size());
 	for (const glm::vec2 &corner :
@@ -51,16 +51,15 @@ double count_rays(const SpreadMean &p_mean) {
 	return p_mean.counts[0] + p_mean.counts[1];
 }
 
-/// Of a disc of radius 1, the share beyond a line at a distance.
-double compute_cap_share(double p_distance) {
+/// Returns the fraction of a unit disc's area beyond a line at p_distance from its centre.
+double compute_cap_fraction(double p_distance) {
 	return (std::acos(p_distance) - p_distance * std::sqrt(1 - p_distance * p_distance)) /
 			3.14159265358979;
 }
 
 } // namespace
 
-TEST_CASE(
-		"[SpreadVisibility] on a flat body the mean is the share of the disc that sees the light") {
+TEST_CASE("[SpreadVisibility] on a flat body the mean is the fraction of the disc that is lit") {
 	Triangles ground;
 	add_square(ground, glm::vec3(0), 10);
 	Triangles roof; // over x < 0
@@ -69,7 +68,7 @@ TEST_CASE(
 		CAPTURE(x);
 		const SpreadMean mean = trace(ground, roof, glm::vec3(2 * x, 0, 0), 2.0f);
 		CHECK(count_rays(mean) == 16384);
-		CHECK(mean.compute_mean().x == doctest::Approx(compute_cap_share(-x)).epsilon(0.003));
+		CHECK(mean.compute_mean().x == doctest::Approx(compute_cap_fraction(-x)).epsilon(0.003));
 		CHECK(mean.compute_mean().x == mean.compute_mean().z);
 	}
 	CHECK(trace(ground, roof, glm::vec3(3, 0, 0), 2.0f).compute_mean().x == 1);
@@ -78,22 +77,22 @@ TEST_CASE(
 
 TEST_CASE("[SpreadVisibility] points that the body lacks, or that the light cannot reach, do not "
 		  "count") {
-	Triangles half; // for x < 0 alone
+	Triangles half; // covers x < 0 only
 	add_square(half, glm::vec3(-10, 0, 0), 10);
 	const Triangles nothing;
 	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 1.0f)) ==
 			doctest::Approx(16384 / 2).epsilon(0.01));
 	AreaLight spot;
 	spot.position = glm::vec3(-1, 1, 0);
-	spot.cos_outer = std::cos(0.7853982f); // a metre wide below
+	spot.cos_outer = std::cos(0.7853982f); // the cone covers a radius of 1 m on the ground
 	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 2.0f, spot)) < 16384 * 0.26);
 	spot.cos_outer = -1;
 	spot.range_m = 1.2f;
 	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 2.0f, spot)) < 16384 * 0.15);
 }
 
-TEST_CASE("[SpreadVisibility] a step counts as far as the radius, up and down, and the nearer "
-		  "level first") {
+TEST_CASE("[SpreadVisibility] surfaces up to the radius above or below the receiver "
+		  "count, and of two the nearer one") {
 	for (const float height : { 0.5f, -0.5f }) {
 		CAPTURE(height);
 		Triangles step;
@@ -102,20 +101,20 @@ TEST_CASE("[SpreadVisibility] a step counts as far as the radius, up and down, a
 		const Triangles nothing;
 		CHECK(count_rays(trace(step, nothing, glm::vec3(-0.1f, 0, 0), 1.0f)) == 16384);
 		CHECK(count_rays(trace(step, nothing, glm::vec3(-0.1f, 0, 0), 0.4f)) < 0.7 * 16384);
-		// A second level farther off hides nothing.
+		// A second level, farther from the plane, is not sampled: a roof over it has no effect.
 		add_square(step, glm::vec3(-10, -0.9f, 0), 10);
-		Triangles roof; // between the two
+		Triangles roof; // between the two levels
 		add_square(roof, glm::vec3(-10, -0.4f, 0), 10);
 		CHECK(trace(step, roof, glm::vec3(-3, 0, 0), 1.0f).compute_mean().x == 1);
 	}
 }
 
-TEST_CASE("[SpreadVisibility] of several bodies the one counts on which the receiver is") {
+TEST_CASE("[SpreadVisibility] of several bodies only the receiver's own counts") {
 	Triangles near_body;
 	add_square(near_body, glm::vec3(0), 10);
 	Triangles far_body;
 	add_square(far_body, glm::vec3(0, -0.2f, 0), 10);
-	Triangles roof; // over the far one alone
+	Triangles roof; // between the two, hides only the far one
 	add_square(roof, glm::vec3(0, -0.1f, 0), 10);
 	const CasterScene casters(roof.positions, roof.indices, {});
 	const Triangles bodies[] = { far_body, near_body };
@@ -126,11 +125,11 @@ TEST_CASE("[SpreadVisibility] of several bodies the one counts on which the rece
 	CHECK(mean.compute_mean().x == 1);
 }
 
-TEST_CASE("[SpreadVisibility] a spread far wider than its body leaves the receiver what it sees "
-		  "itself") {
-	Triangles crumb;
-	add_square(crumb, glm::vec3(0), 1e-5f);
-	const Triangles bodies[] = { crumb };
+TEST_CASE("[SpreadVisibility] with a spread far wider than its body, a receiver has its own "
+		  "visibility") {
+	Triangles small_body;
+	add_square(small_body, glm::vec3(0), 1e-5f);
+	const Triangles bodies[] = { small_body };
 	const SpreadVisibility spread(bodies, EVEN);
 	VisibilityOptions options;
 	options.sample_count = 256;
@@ -148,7 +147,7 @@ TEST_CASE("[SpreadVisibility] a spread far wider than its body leaves the receiv
 	}
 }
 
-TEST_CASE("[CasterScene] each translucent body leaves its part once, however often it is met") {
+TEST_CASE("[CasterScene] each translucent body attenuates a ray once, however often it is met") {
 	const glm::vec3 red(0.9f, 0.25f, 0.125f);
 	const glm::vec3 blue(0.125f, 0.5f, 0.75f);
 	std::vector<TranslucentTriangles> bodies(2);
@@ -161,14 +160,14 @@ TEST_CASE("[CasterScene] each translucent body leaves its part once, however oft
 	Triangles wall;
 	add_square(wall, glm::vec3(5, 1, 0), 1);
 	const CasterScene scene(wall.positions, wall.indices, bodies);
-	const auto look_up = [&](float p_x) {
+	const auto trace_up = [&](float p_x) {
 		return scene.trace(glm::vec3(p_x, 0, 0), glm::vec3(0, 3, 0), 1.0f);
 	};
-	CHECK(look_up(-0.5f) == red);
-	CHECK(look_up(0.5f) == red * blue);
-	CHECK(look_up(1.5f) == blue);
-	CHECK(look_up(3.0f) == glm::vec3(1.0f));
-	CHECK(look_up(5.0f) == glm::vec3(0.0f));
+	CHECK(trace_up(-0.5f) == red);
+	CHECK(trace_up(0.5f) == red * blue);
+	CHECK(trace_up(1.5f) == blue);
+	CHECK(trace_up(3.0f) == glm::vec3(1.0f));
+	CHECK(trace_up(5.0f) == glm::vec3(0.0f));
 	CHECK(scene.trace(glm::vec3(0.5f, 0, 0), glm::vec3(0, 3, 0), 0.5f) == red); // ends before blue
 
 	// As a packet, and as the mask of a light with a size.

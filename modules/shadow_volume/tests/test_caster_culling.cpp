@@ -1,4 +1,4 @@
-// What occlusion culling culls, and that the image never changes.
+// Tests which casters occlusion culling culls, and that the image never changes.
 
 #include "modules/shadow_volume/culling_boxes.h"
 #include "modules/shadow_volume/tests/volume_fixture.h"
@@ -12,11 +12,11 @@ namespace {
 
 const std::string HIDDEN = "others hide them from the light";
 
-double draw(std::mt19937 &r_random, double p_least, double p_greatest) {
-	return std::uniform_real_distribution<double>(p_least, p_greatest)(r_random);
+double draw_uniform(std::mt19937 &r_random, double p_min, double p_max) {
+	return std::uniform_real_distribution<double>(p_min, p_max)(r_random);
 }
 
-/// The number before " casters" in the plan's line that reports it; 0 without one.
+/// Returns the number of culled casters that the frame plan reports; 0 if it reports none.
 size_t read_hidden_count(const MaskResult &p_frame) {
 	const std::string plan = p_frame.plan.to_text();
 	const size_t reason = plan.find(HIDDEN);
@@ -27,14 +27,14 @@ size_t read_hidden_count(const MaskResult &p_frame) {
 	return std::stoul(plan.substr(plan.rfind(start, reason) + start.size()));
 }
 
-MaskResult render_culled(MaskFixture &r_fixture, SmallScene &r_scene, const char *p_wish,
+MaskResult render_culled(MaskFixture &r_fixture, SmallScene &r_scene, const char *p_mode,
 		const char *p_extrusion = "auto") {
 	return render_volumes(r_fixture, r_scene,
-			{ { "culling", std::string(p_wish) }, { "extrusion", std::string(p_extrusion) } });
+			{ { "culling", std::string(p_mode) }, { "extrusion", std::string(p_extrusion) } });
 }
 
-/// A wall upright between the light and rows of small boxes on the ground. One row more is on
-/// the wall's lit side.
+/// An upright wall between the light and rows of small boxes on the ground. One more row of boxes
+/// is on the wall's lit side.
 struct WallScene : SmallScene {
 	MeshInstance3D *wall = nullptr;
 	MeshInstance3D *last = nullptr;
@@ -58,12 +58,12 @@ struct WallScene : SmallScene {
 	}
 };
 
-void check_same(const MaskResult &p_one, const MaskResult &p_other) {
+void check_equal_masks(const MaskResult &p_one, const MaskResult &p_other) {
 	CHECK(p_one.visibility == p_other.visibility);
 }
 
-/// Meshes of every class and size at random, some as large as walls, some touching, some within
-/// others.
+/// Adds random casters of every mesh class and size, some as large as walls, some touching, some
+/// inside others.
 void add_random_casters(SmallScene &r_scene, std::mt19937 &r_random) {
 	const std::vector<std::shared_ptr<const Mesh>> meshes = { make_box_mesh("box", glm::vec3(0.5f)),
 		make_box_mesh("plate", glm::vec3(1, 0.6f, 0.01f)),
@@ -73,24 +73,29 @@ void add_random_casters(SmallScene &r_scene, std::mt19937 &r_random) {
 		share_mesh("soup", test_meshes::make_soup(5, 20, 24)) };
 	for (int i = 0; i < 120; ++i) {
 		const size_t kind = r_random() % meshes.size();
-		const double size = i < 12 ? draw(r_random, 0.5, 1.2) : draw(r_random, 0.02, 0.2);
+		const double size =
+				i < 12 ? draw_uniform(r_random, 0.5, 1.2) : draw_uniform(r_random, 0.02, 0.2);
 		MeshInstance3D &node = add_mesh(r_scene.scene, text("Caster ", i), meshes[kind],
-				{ draw(r_random, -2, 1), draw(r_random, 0, 2), draw(r_random, -2, 2) });
-		node.parent_from_node = glm::rotate(
-				glm::scale(node.parent_from_node,
-						glm::dvec3(r_random() % 2 == 0 ? size : -size, size, size)),
-				draw(r_random, 0, 3), { 0.3, draw(r_random, -1, 1), draw(r_random, -1, 1) });
+				{ draw_uniform(r_random, -2, 1), draw_uniform(r_random, 0, 2),
+						draw_uniform(r_random, -2, 2) });
+		node.parent_from_node =
+				glm::rotate(glm::scale(node.parent_from_node,
+									glm::dvec3(r_random() % 2 == 0 ? size : -size, size, size)),
+						draw_uniform(r_random, 0, 3),
+						{ 0.3, draw_uniform(r_random, -1, 1), draw_uniform(r_random, -1, 1) });
 	}
 }
 
 } // namespace
 
-TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within theirs") {
+TEST_CASE("[ShadowVolume] every box is in one subtree, and inside the subtree's box") {
 	std::mt19937 random(3);
 	std::vector<Bounds> boxes(1000);
 	for (Bounds &box : boxes) {
-		box.add(glm::dvec3(draw(random, -9, 9), draw(random, -9, 9), draw(random, -9, 9)));
-		box.add(box.minimum + glm::dvec3(draw(random, 0, 1), draw(random, 0, 1), 0.2));
+		box.add(glm::dvec3(draw_uniform(random, -9, 9), draw_uniform(random, -9, 9),
+				draw_uniform(random, -9, 9)));
+		box.add(box.minimum +
+				glm::dvec3(draw_uniform(random, 0, 1), draw_uniform(random, 0, 1), 0.2));
 	}
 	boxes[17] = Bounds(); // empty: in no subtree
 	const glm::dvec3 origin(100, 200, -300);
@@ -128,18 +133,21 @@ TEST_CASE("[GPU][ShadowVolume] casters behind a wall are culled, those next to i
 		WallScene scene(type);
 		const MaskResult all = render_culled(fixture, scene, "off");
 		CHECK(read_hidden_count(all) == 0);
-		const MaskResult first = render_culled(fixture, scene, "auto"); // decided on the GPU
+		// The GPU's predicates decide which casters are drawn.
+		const MaskResult first = render_culled(fixture, scene, "auto");
 		CHECK(first.plan.to_text().find("occlusion culling, casters: 75") != std::string::npos);
-		check_same(first, all);
-		const MaskResult second = render_culled(fixture, scene, "auto"); // known from the first
+		check_equal_masks(first, all);
+		// Hidden casters are culled by the first frame's result.
+		const MaskResult second = render_culled(fixture, scene, "auto");
 		CHECK(second.plan.to_text().find("occlusion culling, casters") == std::string::npos);
 		CHECK(read_hidden_count(second) >= WallScene::COUNT_BEHIND - 6);
-		CHECK(read_hidden_count(second) <= WallScene::COUNT_BEHIND + 1); // and the box
-		check_same(second, all);
+		CHECK(read_hidden_count(second) <= WallScene::COUNT_BEHIND + 1); // and the scene's box
+		check_equal_masks(second, all);
 		scene.camera->parent_from_node = look_at({ 2.8, 1.2, 2.0 }, { 0.2, 0.3, 0 });
-		const MaskResult elsewhere = render_culled(fixture, scene, "auto"); // still known
+		// The result stays valid when the camera moves.
+		const MaskResult elsewhere = render_culled(fixture, scene, "auto");
 		CHECK(read_hidden_count(elsewhere) == read_hidden_count(second));
-		check_same(elsewhere, render_culled(fixture, scene, "off"));
+		check_equal_masks(elsewhere, render_culled(fixture, scene, "off"));
 	}
 }
 
@@ -155,11 +163,11 @@ TEST_CASE(
 				glm::translate(glm::dmat4(1.0), { 0.2 - 0.1 * step, 0.1 + 0.3 * step, 1.3 });
 		for (const char *extrusion : { "compute", "geometry_shader" }) {
 			const MaskResult culled = render_culled(fixture, scene, "auto", extrusion);
-			check_same(culled, render_culled(fixture, scene, "off", extrusion));
+			check_equal_masks(culled, render_culled(fixture, scene, "off", extrusion));
 		}
 	}
 	scene.wall->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.8, 0.9, 2.9 });
-	check_same(render_culled(fixture, scene, "auto"), render_culled(fixture, scene, "off"));
+	check_equal_masks(render_culled(fixture, scene, "auto"), render_culled(fixture, scene, "off"));
 }
 
 TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the image") {
@@ -170,12 +178,13 @@ TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the image")
 		CAPTURE(round);
 		SmallScene scene(ALL_TYPES[round % 3]);
 		add_random_casters(scene, random);
-		const glm::dvec3 from(draw(random, -3, 3), draw(random, 0.3, 4), draw(random, -3, 3));
-		scene.light->parent_from_node = look_at(from, { draw(random, -1, 1), 0.5, 0 });
+		const glm::dvec3 from(draw_uniform(random, -3, 3), draw_uniform(random, 0.3, 4),
+				draw_uniform(random, -3, 3));
+		scene.light->parent_from_node = look_at(from, { draw_uniform(random, -1, 1), 0.5, 0 });
 		const MaskResult all = render_culled(fixture, scene, "off");
-		check_same(render_culled(fixture, scene, "on"), all);
+		check_equal_masks(render_culled(fixture, scene, "on"), all);
 		const MaskResult known = render_culled(fixture, scene, "on");
-		check_same(known, all);
+		check_equal_masks(known, all);
 		hidden_count += read_hidden_count(known);
 	}
 	MESSAGE("hidden of 1452: ", hidden_count);
@@ -189,15 +198,15 @@ TEST_CASE("[GPU][ShadowVolume] culling rests where hardly a caster is hidden, an
 	const auto move_light = [&](double p_step) {
 		scene.light->parent_from_node = look_at({ 3.2, 2.2, 0.1 + p_step }, { 0, 0.4, 0 });
 	};
-	const auto render_plan = [&](const char *p_wish) {
-		return render_culled(fixture, scene, p_wish).plan.to_text();
+	const auto render_plan = [&](const char *p_mode) {
+		return render_culled(fixture, scene, p_mode).plan.to_text();
 	};
-	const auto has = [](const std::string &p_plan, const char *p_words) {
-		return p_plan.find(p_words) != std::string::npos;
+	const auto has = [](const std::string &p_plan, const char *p_text) {
+		return p_plan.find(p_text) != std::string::npos;
 	};
 	CHECK(has(render_plan("auto"), "occlusion culling, casters: 75"));
 	move_light(0.01);
-	CHECK(has(render_plan("auto"), "hardly a caster was hidden lately"));
+	CHECK(has(render_plan("auto"), "few casters were hidden in recent frames"));
 	CHECK(has(render_plan("on"), "occlusion culling, casters: 75"));
 	for (int frame = 0; frame < 60; ++frame) {
 		move_light(0.01 + 0.001 * frame);
@@ -211,18 +220,18 @@ TEST_CASE("[GPU][ShadowVolume] culling rests where hardly a caster is hidden, an
 	CHECK(has(render_culled(fixture, few, "auto").plan.to_text(), "few casters"));
 }
 
-TEST_CASE("[GPU][ShadowVolume] without conditional rendering hidden casters go a frame later") {
+TEST_CASE("[GPU][ShadowVolume] hidden casters are culled later without conditional rendering") {
 	MaskFixture fixture("", { &DeviceFeatures::conditional_rendering });
 	WallScene scene;
 	const MaskResult all = render_culled(fixture, scene, "off");
 	const MaskResult first = render_culled(fixture, scene, "auto");
 	CHECK(first.plan.to_text().find("needs conditional rendering") != std::string::npos);
-	check_same(first, all);
-	check_same(
-			render_culled(fixture, scene, "auto"), all); // nothing moved: a test is worth its cost
+	check_equal_masks(first, all);
+	check_equal_masks(
+			render_culled(fixture, scene, "auto"), all); // nothing moved: casters are tested
 	const MaskResult known = render_culled(fixture, scene, "auto");
 	CHECK(read_hidden_count(known) > 0);
-	check_same(known, all);
+	check_equal_masks(known, all);
 }
 
 TEST_CASE("[GPU][ShadowVolume] what is known of casters follows them when their order changes") {
@@ -232,32 +241,35 @@ TEST_CASE("[GPU][ShadowVolume] what is known of casters follows them when their 
 	CHECK(read_hidden_count(render_culled(fixture, scene, "on")) > 0);
 	auto &children = scene.scene.root->children;
 	std::reverse(children.begin(), children.end());
-	check_same(render_culled(fixture, scene, "on"), render_culled(fixture, scene, "off"));
+	check_equal_masks(render_culled(fixture, scene, "on"), render_culled(fixture, scene, "off"));
 }
 
-TEST_CASE("[GPU][ShadowVolume] occluders that the light's near plane cuts") {
+TEST_CASE("[GPU][ShadowVolume] occluders that the light's near plane cuts keep the image") {
 	MaskFixture fixture;
 	std::mt19937 random(5);
 	size_t hidden_count = 0;
 	for (int round = 0; round < 9; ++round) {
 		CAPTURE(round);
 		WallScene scene(ALL_TYPES[round % 3]);
-		scene.scene.scene_size_m = 3000.0; // the near plane is 0.3 m before the light
-		const double gap = draw(random, 0.05, 0.5);
+		// A large scene size: near plane 3e-5 m, receiver offset 0.15 m.
+		scene.scene.scene_size_m = 3000.0;
+		const double gap = draw_uniform(random, 0.05, 0.5);
 		scene.light->parent_from_node =
-				look_at({ 0.9 + gap, draw(random, 0.6, 1.6), 0.1 }, { -0.5, 0.1, 0 });
+				look_at({ 0.9 + gap, draw_uniform(random, 0.6, 1.6), 0.1 }, { -0.5, 0.1, 0 });
 		scene.wall->parent_from_node = glm::rotate(glm::translate(glm::dmat4(1.0), { 0.8, 0.9, 0 }),
-				draw(random, -0.4, 0.4), { draw(random, -1, 1), draw(random, -1, 1), 1 });
+				draw_uniform(random, -0.4, 0.4),
+				{ draw_uniform(random, -1, 1), draw_uniform(random, -1, 1), 1 });
 		const MaskResult all = render_culled(fixture, scene, "off");
-		check_same(render_culled(fixture, scene, "on"), all);
+		check_equal_masks(render_culled(fixture, scene, "on"), all);
 		const MaskResult known = render_culled(fixture, scene, "on");
-		check_same(known, all);
+		check_equal_masks(known, all);
 		hidden_count += read_hidden_count(known);
 	}
 	CHECK(hidden_count > 50);
 }
 
-TEST_CASE("[GPU][ShadowVolume] meshes whose vertices are far from their node's origin") {
+TEST_CASE("[GPU][ShadowVolume] meshes whose vertices are far from their node's origin "
+		  "hide no visible caster") {
 	MaskFixture fixture;
 	for (const double offset_m : { 1e2, 1e4, 1e5 }) {
 		CAPTURE(offset_m);
@@ -272,9 +284,10 @@ TEST_CASE("[GPU][ShadowVolume] meshes whose vertices are far from their node's o
 		scene.wall->parent_from_node =
 				glm::translate(scene.wall->parent_from_node, -glm::dvec3(offset));
 		const MaskResult all = render_culled(fixture, scene, "off");
-		check_same(render_culled(fixture, scene, "on"), all);
+		check_equal_masks(render_culled(fixture, scene, "on"), all);
 		const MaskResult known = render_culled(fixture, scene, "on");
-		check_same(known, all);
-		CHECK((read_hidden_count(known) > 0) == (offset_m < 1e4)); // else it is no occluder
+		check_equal_masks(known, all);
+		// With vertices that far away, the wall is not precise enough to be an occluder.
+		CHECK((read_hidden_count(known) > 0) == (offset_m < 1e4));
 	}
 }

@@ -11,7 +11,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Every mesh class, with its name.
+/// Returns named meshes of every class.
 std::map<std::string, Mesh> make_meshes() {
 	Mesh flipped = test_meshes::make_cube(); // one face winds the other way
 	std::swap(flipped.indices[0], flipped.indices[1]);
@@ -29,14 +29,15 @@ std::map<std::string, Mesh> make_meshes() {
 
 using Corner = std::array<float, 4>;
 
-/// Corners where rays end are one point when the light is at infinity.
+/// For a directional light, all corners at infinity are the same point.
 Corner make_key(const glm::vec4 &p_corner, bool p_is_directional) {
 	return p_is_directional && p_corner.w == 0
 			? Corner{ 0, 0, 0, 0 }
 			: Corner{ p_corner.x, p_corner.y, p_corner.z, p_corner.w };
 }
 
-/// Edges that are not gone along as often one way as the other: none when the surface is closed.
+/// Counts edges that triangles do not traverse equally often in both directions. A closed surface
+/// has none.
 size_t count_open_edges(const std::vector<glm::vec4> &p_corners, bool p_is_directional) {
 	std::map<std::pair<Corner, Corner>, int> counts;
 	for (size_t first = 0; first < p_corners.size(); first += 3) {
@@ -56,7 +57,7 @@ size_t count_open_edges(const std::vector<glm::vec4> &p_corners, bool p_is_direc
 
 } // namespace
 
-TEST_CASE("[ShadowVolume] the volume of every kind of mesh is closed, from every side") {
+TEST_CASE("[ShadowVolume] the volume of every mesh class is closed, for lights on every side") {
 	for (const auto &[name, mesh] : make_meshes()) {
 		CAPTURE(name);
 		const MeshTopology topology = build_topology(mesh);
@@ -69,14 +70,14 @@ TEST_CASE("[ShadowVolume] the volume of every kind of mesh is closed, from every
 			const auto corners = build_cpu_volume(topology, light, { not_solid, true });
 			CHECK(corners.size() % 3 == 0);
 			CHECK(count_open_edges(corners, light.w == 0) == 0);
-			// Taken as open, every mesh has a closed volume too.
+			// With all faces robust, the volume is closed too.
 			const auto robust = build_cpu_volume(topology, light, { all, true });
 			CHECK(robust.size() > 0);
 			CHECK(count_open_edges(robust, light.w == 0) == 0);
 			// The far caps are as many triangles as the near ones, the rest are sides.
 			const auto near = build_cpu_volume(topology, light, { not_solid, false });
 			const size_t cap_size = corners.size() - near.size();
-			CHECK((cap_size > 0 || corners.empty())); // empty: seen from inside
+			CHECK((cap_size > 0 || corners.empty())); // empty: no face is light-facing from inside
 			CHECK(cap_size % 3 == 0);
 			CHECK((near.size() - cap_size) % 6 == 0);
 		}
@@ -121,7 +122,7 @@ TEST_CASE("[ShadowVolume] only the open part of a mesh has a volume for each of 
 	}
 }
 
-TEST_CASE("[ShadowVolume] a light that is nowhere has no volume") {
+TEST_CASE("[ShadowVolume] a light whose position is not finite gives no volume") {
 	const MeshTopology topology = build_topology(test_meshes::make_cube());
 	for (const double value : { double(NAN), double(INFINITY) }) {
 		const VolumeShape shape = { VolumeFaces::ALL, true };

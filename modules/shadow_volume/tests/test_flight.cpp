@@ -1,4 +1,4 @@
-// A camera flown through shadow volumes, walls and casters.
+// Tests frames of a camera that flies through shadow volumes, walls and casters.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 const size_t FRAME_COUNT = 300;
 
-/// A recorded flight: where the camera was every 25 frames, and what it looked at.
+/// The camera's position and the point it looks at, for every 25th frame of the flight.
 struct Pose {
 	glm::dvec3 position, target;
 };
@@ -29,9 +29,10 @@ const std::array<Pose, 13> FLIGHT = { {
 		{ { 1.2, 2.9, 0.7 }, { 0.0, 0.3, -0.1 } },	  // past the light
 } };
 
-/// Catmull-Rom through four positions, p_share of the way from the second to the third.
-glm::dvec3 blend(const std::array<glm::dvec3, 4> &p_positions, double p_share) {
-	const double s = p_share;
+/// Evaluates a Catmull-Rom spline through four positions; p_fraction: 0 at the second, 1 at the
+/// third.
+glm::dvec3 blend(const std::array<glm::dvec3, 4> &p_positions, double p_fraction) {
+	const double s = p_fraction;
 	const auto &[a, b, c, d] = p_positions;
 	return 0.5 *
 			(2.0 * b + (c - a) * s + (2.0 * a - 5.0 * b + 4.0 * c - d) * (s * s) +
@@ -39,16 +40,16 @@ glm::dvec3 blend(const std::array<glm::dvec3, 4> &p_positions, double p_share) {
 }
 
 glm::dmat4 find_pose(size_t p_frame) {
-	const double way = double(p_frame) * (FLIGHT.size() - 1) / (FRAME_COUNT - 1);
-	const size_t first = std::min(static_cast<size_t>(way), FLIGHT.size() - 2);
+	const double path_position = double(p_frame) * (FLIGHT.size() - 1) / (FRAME_COUNT - 1);
+	const size_t first = std::min(static_cast<size_t>(path_position), FLIGHT.size() - 2);
 	std::array<glm::dvec3, 4> positions, targets;
 	for (size_t i = 0; i < 4; ++i) {
 		const size_t pose = std::clamp(first + i, size_t(1), FLIGHT.size()) - 1;
 		positions[i] = FLIGHT[pose].position;
 		targets[i] = FLIGHT[pose].target;
 	}
-	const double share = way - double(first);
-	return look_at(blend(positions, share), blend(targets, share));
+	const double fraction = path_position - double(first);
+	return look_at(blend(positions, fraction), blend(targets, fraction));
 }
 
 struct FlightScene : SmallScene {
@@ -74,33 +75,33 @@ TEST_CASE("[GPU][ShadowVolume] 300 frames through volumes, walls and casters, wr
 				 Leg{ LightType::DIRECTIONAL, 5 } }) {
 		CAPTURE(std::string(get_light_type_name(leg.type)));
 		FlightScene scene(leg.type);
-		size_t by_z_fail = 0;
-		size_t mixed = 0;
+		size_t z_fail_count = 0;
+		size_t mixed_count = 0;
 		size_t receiver_count = 0;
 		size_t wrong_count = 0;
 		for (size_t frame = 0; frame < FRAME_COUNT; frame += leg.step) {
 			CAPTURE(frame);
 			scene.camera->parent_from_node = find_pose(frame);
-			const VolumeWishes wishes = {
+			const VolumeSettingValues setting_values = {
 				{ "extrusion", std::string(frame % 2 == 0 ? "compute" : "auto") },
 				{ "culling", std::string("on") }
 			};
 			const MaskResult result =
-					render_volumes(fixture, scene, wishes, "shadow_volume", glm::uvec2(80));
+					render_volumes(fixture, scene, setting_values, "shadow_volume", glm::uvec2(80));
 			const std::string plan = result.plan.to_text();
 			const bool has_z_fail = plan.find("by z-fail") != std::string::npos;
-			by_z_fail += has_z_fail ? 1 : 0;
-			mixed += has_z_fail && plan.find("by z-pass") != std::string::npos ? 1 : 0;
+			z_fail_count += has_z_fail ? 1 : 0;
+			mixed_count += has_z_fail && plan.find("by z-pass") != std::string::npos ? 1 : 0;
 			const HardDifference difference = HardReference(scene).compare(result);
 			CHECK(difference.unexplained_count == 0);
 			CHECK(difference.wrong_count <= 3 + difference.receiver_count / 500);
 			receiver_count += difference.receiver_count;
 			wrong_count += difference.wrong_count;
 		}
-		CHECK(by_z_fail > 10);
-		CHECK(mixed > 10);
+		CHECK(z_fail_count > 10);
+		CHECK(mixed_count > 10);
 		CHECK(wrong_count <= receiver_count / 5000);
 		MESSAGE(wrong_count, " of ", receiver_count,
-				" receivers differ from rays; frames with z-fail: ", by_z_fail);
+				" receivers differ from rays; frames with z-fail: ", z_fail_count);
 	}
 }

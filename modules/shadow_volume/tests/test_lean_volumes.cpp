@@ -1,4 +1,4 @@
-// What shadow volumes skip: caps that z-pass spares, and edges that are known already.
+// Tests what shadow volumes skip: far caps with z-pass, and the search for edges that are cached.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"
 
@@ -22,7 +22,8 @@ bool finds_edges(const MaskResult &p_result) {
 			[](const PassTiming &p_timing) { return p_timing.name == "Light: find edges"; });
 }
 
-const VolumeWishes COMPUTE = { { "extrusion", std::string("compute") } };
+const VolumeSettingValues COMPUTE = { { "extrusion", std::string("compute") } };
+const bool SKIP_NOTHING = false; // value of p_may_skip of render_volumes
 
 } // namespace
 
@@ -33,48 +34,53 @@ TEST_CASE("[GPU][ShadowVolume] far caps are skipped where z-pass is safe, and no
 		scene.ground->casts_shadow = false;
 		const glm::uvec2 size_px(96);
 		const MaskResult lean = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
-		const MaskResult all = render_volumes(fixture, scene, {}, "shadow_volume", size_px, false);
+		const MaskResult all =
+				render_volumes(fixture, scene, {}, "shadow_volume", size_px, SKIP_NOTHING);
 		CHECK(lean.visibility == all.visibility);
 		CHECK(lean.plan.is_skipped("Light", "far caps of 1 casters"));
 		CHECK_FALSE(all.plan.is_skipped("Light", "far caps of 1 casters"));
-		// In the box's shadow the near plane is hidden: caps are needed.
+		// The camera is in the box's shadow, so its near plane is inside the shadow volume: caps
+		// are needed.
 		scene.camera->parent_from_node = look_at({ -0.05, 0.5, -0.05 }, { -0.6, 0.1, -0.5 });
 		const MaskResult within = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
 		CHECK_FALSE(has_reason(within, "z-pass is safe"));
 		CHECK(within.visibility ==
-				render_volumes(fixture, scene, {}, "shadow_volume", size_px, false).visibility);
+				render_volumes(fixture, scene, {}, "shadow_volume", size_px, SKIP_NOTHING)
+						.visibility);
 	}
 }
 
-TEST_CASE("[GPU][ShadowVolume] edges of lights and casters at rest are found once, with one mask") {
+TEST_CASE("[GPU][ShadowVolume] edges are cached while light and casters rest, with the same mask") {
 	MaskFixture caching;
 	MaskFixture fresh;
 	SmallScene scene;
-	const auto render = [&](bool p_is_known) {
+	// Draws a frame and checks whether it uses cached edges. After a change two frames search the
+	// edges, and the second, in which all is at rest, stores them.
+	const auto check_frame = [&](bool p_is_cached) {
 		const MaskResult result = render_volumes(caching, scene, COMPUTE);
-		const MaskResult all =
-				render_volumes(fresh, scene, COMPUTE, "shadow_volume", glm::uvec2(128), false);
+		const MaskResult all = render_volumes(
+				fresh, scene, COMPUTE, "shadow_volume", glm::uvec2(128), SKIP_NOTHING);
 		CHECK(result.visibility == all.visibility);
 		CHECK(finds_edges(all));
-		CHECK(finds_edges(result) != p_is_known);
-		CHECK(has_reason(result, CACHED) == p_is_known);
+		CHECK(finds_edges(result) != p_is_cached);
+		CHECK(has_reason(result, CACHED) == p_is_cached);
 	};
-	render(false);
-	render(false); // it is at rest: from here on they are cached
-	render(true);
-	render(true);
+	check_frame(false);
+	check_frame(false);
+	check_frame(true);
+	check_frame(true);
 	scene.camera->parent_from_node[3].x += 0.2; // the camera may move
-	render(true);
+	check_frame(true);
 	scene.light->parent_from_node[3].x += 0.2;
-	render(false);
-	render(false);
-	render(true);
+	check_frame(false);
+	check_frame(false);
+	check_frame(true);
 	scene.box->parent_from_node[3].y += 0.1;
-	render(false);
+	check_frame(false);
 	scene.box->parent_from_node[3].y += 0.1;
-	render(false);
-	render(false);
-	render(true);
+	check_frame(false);
+	check_frame(false);
+	check_frame(true);
 	scene.box->casts_shadow = false;
-	render(false);
+	check_frame(false);
 }

@@ -1,5 +1,5 @@
-// Do predicates really decide what is drawn? Images alone would not show it: what is culled is
-// hidden.
+// Tests that predicates decide which volumes are drawn. Images of culled scenes cannot show it,
+// because the shadows of culled casters are within those of others anyway.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"
 #include "modules/shadow_volume/volume_passes.h"
@@ -8,10 +8,10 @@ using namespace gnomon;
 
 namespace {
 
-/// Draws the volumes of all casters, of which no predicate is set.
-class NothingSeen : public ShadowTechnique {
+/// Draws the volumes of all casters with all predicates 0.
+class NothingDrawn : public ShadowTechnique {
 public:
-	static inline VolumeMaker maker = VolumeMaker::COMPUTE;
+	static inline VolumeExtruder extruder = VolumeExtruder::COMPUTE;
 
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 			const PropertyValues & /*p_properties*/,
@@ -23,7 +23,7 @@ public:
 	}
 	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override {
 		VolumeSettings settings;
-		settings.maker = maker;
+		settings.extruder = extruder;
 		casters = build_volume_casters(p_inputs, settings, instances);
 		CHECK(casters.casters.size() == 2);
 		DrawPredicates predicates;
@@ -49,7 +49,7 @@ private:
 
 } // namespace
 
-TEST_CASE("[GPU][ShadowVolume] casters whose predicate is 0 are not drawn, however they are made") {
+TEST_CASE("[GPU][ShadowVolume] casters whose predicate is 0 are not drawn, for every extrusion") {
 	MaskFixture fixture;
 	if (!fixture.device->get_features().conditional_rendering) {
 		MESSAGE("this device has no conditional rendering");
@@ -58,11 +58,12 @@ TEST_CASE("[GPU][ShadowVolume] casters whose predicate is 0 are not drawn, howev
 	ShadowTechniqueInfo info = *ShadowRegistry::find("shadow_volume");
 	info.id = "nothing_seen";
 	info.color = "#010101";
-	info.make = [] { return std::make_unique<NothingSeen>(); };
+	info.make = [] { return std::make_unique<NothingDrawn>(); };
 	ShadowRegistry::add(info);
 	SmallScene scene;
-	for (const VolumeMaker maker : { VolumeMaker::COMPUTE, VolumeMaker::GEOMETRY_SHADER }) {
-		NothingSeen::maker = maker;
+	for (const VolumeExtruder extruder :
+			{ VolumeExtruder::COMPUTE, VolumeExtruder::GEOMETRY_SHADER }) {
+		NothingDrawn::extruder = extruder;
 		const MaskResult frame = fixture.render_mask(scene, "nothing_seen");
 		CHECK(frame.visibility == frame.receiver); // lit wherever there is a receiver
 	}

@@ -1,4 +1,4 @@
-// Whole frames against rays, and each way to make and count volumes against the others.
+// Compares whole frames with ray tracing, and all extrusion and stencil methods with each other.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"
 
@@ -42,14 +42,14 @@ TEST_CASE("[GPU][ShadowVolume] all ways to make and count volumes give the same 
 					{ { "extrusion", std::string(extrusion) }, { "scissor", false } }));
 		}
 		check_same(render_volumes(fixture, scene, {}, "shadow_volume", glm::uvec2(128), false));
-		// In double a face in the light's plane may be decided otherwise.
+		// In double precision, a face in the light's plane may be classified differently.
 		const MaskResult on_cpu = render_volumes(fixture, scene, {}, "shadow_volume_cpu");
 		CHECK(compute_mask_difference(first, on_cpu) < 1e-4);
 		check_against_rays(scene, on_cpu);
 	}
 }
 
-TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its border") {
+TEST_CASE("[GPU][ShadowVolume] a camera in a shadow, near it or on its border matches rays") {
 	MaskFixture fixture;
 	SmallScene scene;
 	add_meshes(scene);
@@ -57,9 +57,10 @@ TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its bo
 	for (int step = 0; step < 24; ++step) {
 		CAPTURE(step);
 		// Through the box's shadow and the box itself.
-		const double way = -1.0 + step / 12.0;
+		const double path_position = -1.0 + step / 12.0;
 		scene.camera->parent_from_node =
-				look_at({ -0.3 + 1.2 * way, 0.5 + 0.1 * step, -0.1 + way }, { 0.6, 0, 1.4 - way });
+				look_at({ -0.3 + 1.2 * path_position, 0.5 + 0.1 * step, -0.1 + path_position },
+						{ 0.6, 0, 1.4 - path_position });
 		const MaskResult frame = render_volumes(fixture, scene);
 		z_fail_count += frame.plan.to_text().find("by z-fail") != std::string::npos ? 1 : 0;
 		const HardDifference difference = HardReference(scene).compare(frame);
@@ -75,7 +76,7 @@ TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of 
 	const auto place_light = [&](const glm::dvec3 &p_position) {
 		scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), p_position);
 	};
-	place_light({ 0.05, 1.02, 0.03 }); // all is hidden
+	place_light({ 0.05, 1.02, 0.03 }); // inside the box: every receiver is hidden
 	const MaskResult inside = render_volumes(fixture, scene);
 	CHECK(HardReference(scene).compare(inside).wrong_count == 0);
 	CHECK(HardReference(scene).compare(inside).hidden_count == count_receivers(inside));
@@ -85,7 +86,7 @@ TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of 
 	check_against_rays(scene, render_volumes(fixture, scene));
 }
 
-TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts, one over the other") {
+TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts over one pixel match rays") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const auto plate = make_box_mesh("plate", glm::vec3(0.5f, 0.001f, 0.4f));
@@ -93,6 +94,6 @@ TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts, one over the 
 		add_mesh(scene.scene, text("Plate ", index), plate, { 0, 1.4 + 0.004 * index, 0 });
 	}
 	const MaskResult frame = render_volumes(fixture, scene, { { "culling", std::string("off") } });
-	check_against_rays(scene, frame, 500); // the border is long: each plate has one
+	check_against_rays(scene, frame, 500); // more tolerance: each plate has a border
 	CHECK(frame.plan.to_text().find("groups that the stencil can count: 2") != std::string::npos);
 }

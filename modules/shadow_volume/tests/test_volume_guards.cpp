@@ -1,4 +1,4 @@
-// Hostile lights, casters and receivers: the mask stays that of rays.
+// Tests extreme lights, casters and receivers: the mask must still match ray tracing.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"
 
@@ -6,7 +6,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Small casters behind, next to and before whatever there is, for culling to decide about.
+/// Adds small casters all over the scene, some hidden and some not, for culling to classify.
 void add_probes(SmallScene &r_scene) {
 	const auto probe = make_box_mesh("probe", glm::vec3(0.012f));
 	for (int i = 0; i < 125; ++i) {
@@ -16,7 +16,8 @@ void add_probes(SmallScene &r_scene) {
 	}
 }
 
-/// Every light type against rays, with culling and without; p_arrange changes the scene first.
+/// Compares every light type with ray tracing, with culling and without. p_arrange changes the
+/// scene first.
 template <typename Arrange> void check_for_each_type(Arrange p_arrange) {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
@@ -27,7 +28,8 @@ template <typename Arrange> void check_for_each_type(Arrange p_arrange) {
 		const MaskResult all =
 				render_volumes(fixture, scene, { { "culling", std::string("off") } });
 		check_against_rays(scene, all);
-		for (int frame = 0; frame < 2; ++frame) { // decided on the GPU, then known
+		// First the GPU's predicates cull casters, then the result that was read back.
+		for (int frame = 0; frame < 2; ++frame) {
 			CAPTURE(frame);
 			CHECK(render_volumes(fixture, scene, { { "culling", std::string("on") } }).visibility ==
 					all.visibility);
@@ -41,7 +43,7 @@ void place_light(SmallScene &r_scene, const glm::dvec3 &p_from, const glm::dvec3
 
 } // namespace
 
-TEST_CASE("[GPU][ShadowVolume] scenes of any size and far from the origin") {
+TEST_CASE("[GPU][ShadowVolume] scenes of any size and far from the origin give the same mask") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
@@ -60,14 +62,15 @@ TEST_CASE("[GPU][ShadowVolume] scenes of any size and far from the origin") {
 	}
 }
 
-TEST_CASE("[GPU][ShadowVolume] near and far a million apart, for the camera and for the light") {
+TEST_CASE("[GPU][ShadowVolume] tiny and large distances in one scene still match ray tracing") {
 	check_for_each_type([](SmallScene &r_scene) {
-		r_scene.camera->near_m = 4e-6f;
+		r_scene.camera->near_m = 4e-6f; // 1e-8 of the distance to the far box
 		add_mesh(r_scene.scene, "Far", make_box_mesh("far", { 200.0f, 1.0f, 200.0f }),
 				{ 0, -400, 0 });
 	});
 	check_for_each_type([](SmallScene &r_scene) {
 		place_light(r_scene, { 0.2, 2.0, 0.1 }, { 0, 0, 0 });
+		// 1 cm from the light
 		add_mesh(
 				r_scene.scene, "Mote", make_box_mesh("mote", glm::vec3(1e-5f)), { 0.2, 1.99, 0.1 });
 	});
@@ -78,13 +81,14 @@ TEST_CASE("[GPU][ShadowVolume] casters across the light's planes and next to the
 		add_mesh(r_scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
 				{ 1.22, 3.0, 0.85 });
 	});
-	// The light below the box and next to it: what is above is behind a spot, or behind its cone.
+	// The light is below the box's top and next to it. Casters above are behind a spot light or
+	// outside its cone.
 	check_for_each_type([](SmallScene &r_scene) {
 		place_light(r_scene, { 1.4, 0.9, 0.2 }, { 0, 0.2, 0 });
 	});
 }
 
-TEST_CASE("[GPU][ShadowVolume] slivers, duplicates, collapsed faces and edges of length 0") {
+TEST_CASE("[GPU][ShadowVolume] slivers, duplicates, collapsed faces and edges match ray tracing") {
 	check_for_each_type([](SmallScene &r_scene) {
 		Mesh mesh = test_meshes::make_cube();
 		const uint32_t first = static_cast<uint32_t>(mesh.positions_node.size());
@@ -107,7 +111,7 @@ TEST_CASE("[GPU][ShadowVolume] slivers, duplicates, collapsed faces and edges of
 	});
 }
 
-TEST_CASE("[GPU][ShadowVolume] surfaces that coincide, touch and are in one another") {
+TEST_CASE("[GPU][ShadowVolume] surfaces that coincide, touch or intersect match ray tracing") {
 	check_for_each_type([](SmallScene &r_scene) {
 		const auto box = make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f));
 		add_mesh(r_scene.scene, "Twin", box, { 0, 1.0, 0 });	 // the same box
@@ -142,13 +146,12 @@ TEST_CASE("[GPU][ShadowVolume] seen from the light itself nothing is dark") {
 	}
 }
 
-TEST_CASE(
-		"[GPU][ShadowVolume] an instance scaled to a line has no volume, and the plan reports it") {
+TEST_CASE("[GPU][ShadowVolume] the plan reports an instance that is scaled to a line") {
 	MaskFixture fixture;
 	SmallScene scene;
 	MeshInstance3D &flat =
 			add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.3f)), { 1, 0.5, 0 });
 	flat.parent_from_node = glm::scale(flat.parent_from_node, glm::dvec3(1, 0, 0));
 	const MaskResult frame = render_volumes(fixture, scene);
-	CHECK(frame.plan.to_text().find("a scale of theirs is 0") != std::string::npos);
+	CHECK(frame.plan.to_text().find("collapses them to a line or a point") != std::string::npos);
 }

@@ -13,13 +13,14 @@ namespace gnomon {
 
 inline const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
-using VolumeWishes = std::map<std::string, PropertyValue>;
+using VolumeSettingValues = std::map<std::string, PropertyValue>;
 
+/// Renders the scene's mask. p_setting_values: values of the technique's settings, by name.
 inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
-		const VolumeWishes &p_wishes = {}, const std::string &p_id = "shadow_volume",
+		const VolumeSettingValues &p_setting_values = {}, const std::string &p_id = "shadow_volume",
 		glm::uvec2 p_size_px = glm::uvec2(128), bool p_may_skip = true) {
 	std::vector<std::unique_ptr<SettingScope>> scopes;
-	for (const auto &[name, value] : p_wishes) {
+	for (const auto &[name, value] : p_setting_values) {
 		scopes.push_back(std::make_unique<SettingScope>(p_id, name, format_property(value)));
 	}
 	MaskRequest request;
@@ -34,12 +35,12 @@ inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
 	return result;
 }
 
-/// A mesh of test_meshes as a scene mesh.
+/// Converts a mesh of test_meshes to a scene mesh.
 inline std::shared_ptr<const Mesh> share_mesh(const std::string &p_name, const Mesh &p_mesh) {
 	return make_mesh(p_name, p_mesh.positions_node, {}, p_mesh.indices);
 }
 
-/// Meshes of every class around the box; some cast shadows on each other.
+/// Adds meshes of every class around the box. Some cast shadows on each other.
 inline void add_meshes(SmallScene &r_scene) {
 	const auto add = [&](const char *p_name, const Mesh &p_mesh, const glm::dvec3 &p_position,
 							 double p_scale) {
@@ -64,7 +65,7 @@ inline void add_meshes(SmallScene &r_scene) {
 		position = position * 0.7f + glm::vec3(0.0f, 2.2f, 0.3f);
 	}
 	mixed = join(mixed, join(inside_out, make_moebius(12)));
-	for (size_t i = 24; i < 28; ++i) {
+	for (size_t i = 24; i < 28; ++i) { // the quad's vertices, after three cubes of 8
 		mixed.positions_node[i] = mixed.positions_node[i] * 4.0f - glm::vec3(1.9f, 1.7f, -0.4f);
 	}
 	add("mixed", mixed, { 0.6, 0.5, 1.1 }, 0.15);
@@ -77,13 +78,14 @@ inline MeshInstance3D &add_mirrored_box(SmallScene &r_scene) {
 	return node;
 }
 
-/// p_most_wrong: one in so many receivers may be wrong, at the shadow's border.
+/// Compares the mask with ray tracing. p_receivers_per_error: at most one in this many receivers
+/// may be wrong, and only at a shadow's border.
 inline void check_against_rays(
-		const SmallScene &p_scene, const MaskResult &p_frame, size_t p_most_wrong = 1000) {
+		const SmallScene &p_scene, const MaskResult &p_frame, size_t p_receivers_per_error = 1000) {
 	const HardDifference difference = HardReference(p_scene).compare(p_frame);
 	CHECK(difference.receiver_count > 3000);
 	CHECK(difference.hidden_count > 50);
-	CHECK(difference.wrong_count <= difference.receiver_count / p_most_wrong);
+	CHECK(difference.wrong_count <= difference.receiver_count / p_receivers_per_error);
 	CHECK(difference.unexplained_count == 0);
 }
 

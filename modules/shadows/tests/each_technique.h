@@ -1,4 +1,4 @@
-// Requirements that tests check for each registered technique, without naming one.
+// Helpers of tests that check requirements for every registered technique.
 
 #pragma once
 
@@ -27,9 +27,9 @@ template <typename Function> void for_each_technique_and_type(Function p_functio
 	});
 }
 
-/// Cheap settings for properties that make a technique slow, for tests that check rules and not
-/// precision: few reference rays, small maps. Selected by the name's ending, not by technique.
-inline void make_cheap(Light3D &r_light) {
+/// Sets properties that make a technique slow to cheap values (few reference rays, small maps), for
+/// tests that do not check precision. Finds them by the ending of their names.
+inline void use_cheap_settings(Light3D &r_light) {
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		for (const PropertyInfo &property :
 				ShadowRegistry::get_light_properties(info.id).get_properties()) {

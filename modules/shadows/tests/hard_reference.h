@@ -5,21 +5,22 @@
 
 #include <functional>
 
-// Reference for hard shadows.
+// Compares hard shadows with traced rays.
 
 namespace gnomon {
 
-/// Difference of a mask from the result of rays to the light's centre, over receivers.
+/// Counts of receivers at which a mask differs from rays to the light's centre.
 struct HardDifference {
-	size_t receiver_count = 0;
-	size_t hidden_count = 0;
-	size_t wrong_count = 0;
-	/// Number of wrong receivers that no nearby point would make right: no point within two
-	/// offsets of the surface that a 64th of the pixel covers.
+	size_t receiver_count = 0; // receivers compared
+	size_t hidden_count = 0;   // of them: hidden, according to the rays
+	size_t wrong_count = 0;	   // of them: the mask, rounded to 0 or 1, differs from the rays
+	/// Wrong receivers that rounding does not explain: no probe point near the surface has the
+	/// mask's visibility. Probes are up to two receiver offsets away along each axis, and shifted
+	/// along the view ray by as much as the surface's depth changes over 1/64 of a pixel.
 	size_t unexplained_count = 0;
 };
 
-/// Rays to the light's centre, in double. Images are square.
+/// Traces rays to the light's centre, in double precision. Images must be square.
 class HardReference {
 public:
 	explicit HardReference(const SmallScene &p_scene) : scene(p_scene.snap()) {
@@ -31,9 +32,9 @@ public:
 		}
 	}
 
-	/// p_counts: whether a camera-relative surface point counts. Empty: every receiver counts.
+	/// p_is_compared: returns whether a surface point is compared. Empty: all receivers are.
 	HardDifference compare(const MaskResult &p_frame,
-			const std::function<bool(const SurfacePoint &)> &p_counts = {}) const {
+			const std::function<bool(const SurfacePoint &)> &p_is_compared = {}) const {
 		HardDifference difference;
 		const double offset_m = 5e-5 * scene->scene_size_m;
 		for (size_t index = 0; index < p_frame.visibility.size(); ++index) {
@@ -41,7 +42,7 @@ public:
 				continue;
 			}
 			const SurfacePoint &surface = p_frame.surfaces[index];
-			if (p_counts && !p_counts(surface)) {
+			if (p_is_compared && !p_is_compared(surface)) {
 				continue;
 			}
 			const glm::dvec3 normal = glm::normalize(glm::dvec3(surface.geometric_normal));
@@ -55,7 +56,8 @@ public:
 				continue;
 			}
 			++difference.wrong_count;
-			// The surface's points that are within a 64th of the pixel, and a little off each.
+			// Probe 3 points along the view ray, as far apart as the surface's depth changes over
+			// 1/64 pixel (at most 10 pixel widths), and 27 around each.
 			const double pixel_m = 2 * std::tan(0.5 * scene->camera.vertical_fov_rad) *
 					glm::length(surface.position) / std::sqrt(double(p_frame.visibility.size()));
 			const glm::dvec3 view = glm::normalize(glm::dvec3(surface.position));

@@ -24,8 +24,8 @@
 #include <string>
 #include <vector>
 
-// Small scenes in memory and a device under validation, for the tests of shadows, of every
-// technique and of the renderer.
+// Small scenes in memory and a device with validation enabled, for the tests of the shadow system,
+// the techniques and the renderer.
 
 namespace gnomon {
 
@@ -38,13 +38,13 @@ inline MeshInstance3D &add_mesh(Scene &r_scene, const std::string &p_name,
 	return static_cast<MeshInstance3D &>(*r_scene.root->add_child(std::move(node)));
 }
 
-/// Node transform of something at p_from that looks or shines along -Z towards p_to.
+/// Transform of a camera or light at p_from whose -Z axis points towards p_to.
 inline glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0.1, 1.0, 0.07)));
 }
 
-/// A box above a ground plate that is declared planar, one light of the given type, a camera
-/// that sees the shadow. All lengths are multiplied by p_scale and everything is moved by p_origin.
+/// A box above a ground plate that is declared planar, one light of type p_type, and a camera that
+/// sees the shadow. All lengths are multiplied by p_scale, and everything is moved by p_origin.
 struct SmallScene {
 	Scene scene;
 	Camera3D *camera = nullptr;
@@ -88,7 +88,7 @@ struct SmallScene {
 	std::shared_ptr<const SceneSnapshot> snap() const { return build_snapshot(scene, *camera); }
 };
 
-/// What a test requests.
+/// Inputs of MaskFixture::render.
 struct MaskRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
 	glm::uvec2 size_px = glm::uvec2(64);
@@ -100,7 +100,7 @@ struct MaskRequest {
 	bool wants_surfaces = false;
 	bool may_skip = true;
 	bool may_reuse = true;
-	/// Surfaces that the host does not provide.
+	/// False: the host does not provide normals, or materials.
 	bool has_normals = true;
 	bool has_materials = true;
 };
@@ -110,12 +110,12 @@ struct MaskResult : MaskValues {
 	std::vector<PassTiming> timings;
 	CommandCounts commands;
 	float standard_error = 0;
-	std::map<std::string, MaskValues> masks; // by light
+	std::map<std::string, MaskValues> masks; // by the light's name
 	std::vector<SurfacePoint> surfaces;		 // one per pixel
 	std::vector<float> debug_values;		 // of the debug view, one per texel
 };
 
-/// A device under validation and the smallest host, with a cache folder of their own.
+/// A device with validation enabled, a minimal host and a temporary cache folder.
 struct MaskFixture {
 	TemporaryCache cache;
 	TestDevice device;
@@ -208,7 +208,8 @@ private:
 	}
 };
 
-/// Mean of |a - b| over the pixels that receive in both; 1 when the receivers differ widely.
+/// Mean of |left - right| over the pixels that are receivers in both masks. 1 when there are none,
+/// or when more than 2 % of the pixels are receivers in only one mask.
 inline double compute_mask_difference(const MaskValues &p_left, const MaskValues &p_right) {
 	double sum = 0;
 	size_t count = 0;
@@ -222,7 +223,8 @@ inline double compute_mask_difference(const MaskValues &p_left, const MaskValues
 	return count == 0 || unequal_count > p_left.visibility.size() / 50 ? 1.0 : sum / double(count);
 }
 
-/// True when every value is finite and in 0..1, and 0 where there is no receiver.
+/// True when every value is finite and in 0..1, and 0 where there is no receiver. False for a mask
+/// without pixels.
 inline bool is_valid_mask(const MaskValues &p_result) {
 	for (size_t index = 0; index < p_result.visibility.size(); ++index) {
 		const float value = p_result.visibility[index];

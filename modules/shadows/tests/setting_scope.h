@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// Changes a setting of a technique and restores it.
+/// Changes a setting of a technique, and restores it when destroyed.
 class SettingScope {
 public:
 	SettingScope(std::string p_id, std::string p_name, const std::string &p_text) :

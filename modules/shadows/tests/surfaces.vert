@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/frame_shared.h"
 
-// The host of the tests of shadows: what its camera sees, see surface_host.h.
+// Draws the surfaces that the camera sees, for the minimal host in surface_host.h.
 layout(std140, set = 0, binding = 0) restrict readonly buffer Frame {
 	FrameConstants frame;
 };

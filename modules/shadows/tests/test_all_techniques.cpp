@@ -1,4 +1,4 @@
-// What every technique must do, checked for each one that is registered; none is named here.
+// Requirements on every technique, checked for all that are registered.
 
 #include "modules/core/embedded_shaders.h"
 #include "modules/core/error.h"
@@ -15,7 +15,7 @@ TEST_CASE("[GPU][Techniques] masks are finite, in 0..1, and hold light and shado
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		const MaskResult result = fixture.render_mask(scene, p_info.id);
 		CHECK(is_valid_mask(result));
 		size_t lit_count = 0;
@@ -33,7 +33,7 @@ TEST_CASE("[GPU][Techniques] without casters every receiver sees all of the ligh
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		scene.ground->casts_shadow = false;
 		scene.box->casts_shadow = false;
 		const MaskResult result = fixture.render_mask(scene, p_info.id);
@@ -46,15 +46,16 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
-		scene.box->is_planar_receiver = true; // as the ground
-		// Wide and near the light; below it are all other receivers.
+		use_cheap_settings(*scene.light);
+		// Some techniques shadow only planar receivers. The ground is one already.
+		scene.box->is_planar_receiver = true;
+		// Wide and near the light. All other receivers are below it.
 		add_mesh(
 				scene.scene, "Plate", make_box_mesh("plate", { 9.0f, 0.02f, 9.0f }), { 0, 3.7, 0 });
 		const MaskResult result = fixture.render_mask(scene, p_info.id);
 		CHECK(count_receivers(result) > 0);
 		for (size_t index = 0; index < result.visibility.size(); ++index) {
-			// Less than a step of 8 bits: counted points next to an outline are rounded.
+			// Below one step of 8 bits, not 0: techniques may round counts of samples at edges.
 			CHECK_MESSAGE(result.visibility[index] < 1.0f / 255.0f, "pixel ", index);
 			if (result.visibility[index] >= 1.0f / 255.0f) {
 				break;
@@ -63,41 +64,42 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 	});
 }
 
-TEST_CASE("[GPU][Techniques] what is skipped does not change one bit of the mask") {
+TEST_CASE("[GPU][Techniques] skipping and caching do not change one bit of the mask") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
-		scene.ground->casts_shadow = false; // leaves views without casters
-		const MaskResult all = fixture.render_mask(scene, p_info.id, glm::uvec2(64), false);
+		use_cheap_settings(*scene.light);
+		scene.ground->casts_shadow = false; // so that some views of the light have no casters
+		const MaskResult unskipped =
+				fixture.render_mask(scene, p_info.id, glm::uvec2(64), /*p_may_skip*/ false);
 		const MaskResult first = fixture.render_mask(scene, p_info.id);
-		const MaskResult second = fixture.render_mask(scene, p_info.id); // may keep
-		CHECK(all.visibility == first.visibility);
-		CHECK(all.visibility == second.visibility);
+		const MaskResult second = fixture.render_mask(scene, p_info.id); // may use caches
+		CHECK(unskipped.visibility == first.visibility);
+		CHECK(unskipped.visibility == second.visibility);
 	});
 }
 
-TEST_CASE("[GPU][Techniques] scenes of any size and far from the origin have the same mask") {
+TEST_CASE("[GPU][Techniques] very small, very large and distant scenes have nearly the same mask") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		const MaskResult result = fixture.render_mask(scene, p_info.id);
 		for (double scale : { 1e-3, 1e3 }) {
 			SmallScene scaled(p_type, scale);
-			make_cheap(*scaled.light);
+			use_cheap_settings(*scaled.light);
 			CAPTURE(scale);
 			CHECK(compute_mask_difference(result, fixture.render_mask(scaled, p_info.id)) < 5e-3);
 		}
 		SmallScene moved(p_type, 1.0, { 1e5, -3e4, 7e4 });
-		make_cheap(*moved.light);
+		use_cheap_settings(*moved.light);
 		CHECK(compute_mask_difference(result, fixture.render_mask(moved, p_info.id)) < 5e-3);
 	});
 }
 
 namespace {
 
-/// One thing that is wrong with a scene, or extreme.
+/// An extreme or broken scene.
 struct HostileCase {
 	const char *name;
 	void (*change)(SmallScene &r_scene);
@@ -132,7 +134,7 @@ const HostileCase HOSTILE_CASES[] = {
 				add_mesh(r_scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
 						{ 1.2, 3.0, 0.8 });
 			} },
-	{ "a caster a million times as far as the near plane",
+	{ "a caster at 100 times the scene's size",
 			[](SmallScene &r_scene) {
 				add_mesh(r_scene.scene, "Far", make_box_mesh("far", { 200.0f, 1.0f, 200.0f }),
 						{ 0, -400, 0 });
@@ -152,7 +154,7 @@ const HostileCase HOSTILE_CASES[] = {
 			[](SmallScene &r_scene) {
 				r_scene.light->parent_from_node = look_at({ 0.5, 1.3, 0.4 }, { 0, 0, 0 });
 			} },
-	{ "more casters behind each other than layers",
+	{ "twelve casters behind each other",
 			[](SmallScene &r_scene) {
 				for (int plate = 0; plate < 12; ++plate) {
 					add_mesh(r_scene.scene, text("Plate ", plate),
@@ -187,18 +189,18 @@ TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
 		for (const HostileCase &hostile : HOSTILE_CASES) {
 			CAPTURE(hostile.name);
 			SmallScene scene(p_type);
-			make_cheap(*scene.light);
+			use_cheap_settings(*scene.light);
 			hostile.change(scene);
 			CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, glm::uvec2(32))));
 		}
 	});
 }
 
-TEST_CASE("[GPU][Techniques] where nothing receives the mask is 0") {
+TEST_CASE("[GPU][Techniques] a camera that sees only the sky gets a mask without receivers") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		scene.camera->parent_from_node = look_at({ 0, 9, 0 }, { 0, 20, 0.1 }); // the sky
 		const MaskResult result = fixture.render_mask(scene, p_info.id, glm::uvec2(16));
 		CHECK(count_receivers(result) == 0);
@@ -210,7 +212,7 @@ TEST_CASE("[GPU][Techniques] sixty-four lights are drawn in one frame") {
 	MaskFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		SmallScene scene;
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		const PropertyValues properties = scene.light->properties;
 		for (int index = 1; index < 64; ++index) {
 			const double angle_rad = 0.1 * index;
@@ -223,21 +225,21 @@ TEST_CASE("[GPU][Techniques] sixty-four lights are drawn in one frame") {
 		request.size_px = glm::uvec2(16);
 		request.technique_override = p_info.id;
 		CHECK(fixture.render(request).masks.size() == 64);
-		// One of them answers as it does alone.
+		// A light's mask does not depend on the lights that were drawn before.
 		request.light = "Light 40";
-		const MaskResult among = fixture.render(request);
-		CHECK(is_valid_mask(among));
-		MaskFixture alone;
-		CHECK(alone.render(request).visibility == among.visibility);
+		const MaskResult result = fixture.render(request);
+		CHECK(is_valid_mask(result));
+		MaskFixture new_fixture; // has drawn no other light
+		CHECK(new_fixture.render(request).visibility == result.visibility);
 	});
 }
 
 TEST_CASE(
-		"[GPU][Techniques] a caster pressed flat casts the shadow of one of hardly any thickness") {
+		"[GPU][Techniques] a caster scaled to zero thickness casts the shadow of a very thin one") {
 	MaskFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		SmallScene scene;
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		const glm::dmat4 transform =
 				glm::rotate(scene.box->parent_from_node, 0.4, glm::normalize(glm::dvec3(1, 2, 3)));
 		std::vector<float> masks[2];
@@ -258,11 +260,11 @@ TEST_CASE(
 	});
 }
 
-TEST_CASE("[GPU][Techniques] masks of one pixel and of odd sizes are whole") {
+TEST_CASE("[GPU][Techniques] masks of one pixel and of odd sizes are valid") {
 	MaskFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		SmallScene scene;
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		CHECK(fixture.render_mask(scene, p_info.id, { 1, 1 }).visibility.size() == 1);
 		CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, { 67, 13 })));
 	});
@@ -309,7 +311,7 @@ TEST_CASE("[Techniques] quality settings name properties that exist, with values
 	});
 }
 
-TEST_CASE("[Techniques] each has a colour of its own") {
+TEST_CASE("[Techniques] each technique has its own colour") {
 	std::set<std::string> colors;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		CHECK(p_info.color.size() == 7);

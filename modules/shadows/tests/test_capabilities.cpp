@@ -1,4 +1,4 @@
-// What a device may lack changes no mask.
+// Masks do not depend on optional device features.
 
 #include "modules/shadows/tests/each_technique.h"
 
@@ -6,8 +6,9 @@ using namespace gnomon;
 
 namespace {
 
-/// Three lights at once, so that transient textures have memory to share, and two frames, so that
-/// what is cached between frames is used. Two of them draw from 1 view, one from 6.
+/// Renders three lights at once, so that transient textures have memory to share, and two frames,
+/// so that what is cached between frames is used. Two of the lights have 1 view, the omni light has
+/// 6.
 std::map<std::string, MaskValues> render_lights(
 		MaskFixture &r_fixture, const std::string &p_technique) {
 	SmallScene scene(LightType::SPOT);
@@ -15,13 +16,13 @@ std::map<std::string, MaskValues> render_lights(
 	Light3D &sun =
 			scene.add_light("Sun", LightType::DIRECTIONAL, { 0.5, 4.0, -1.0 }, { 0, 0.3, 0 });
 	for (Light3D *light : { scene.light, &omni, &sun }) {
-		make_cheap(*light);
+		use_cheap_settings(*light);
 	}
 	MaskRequest request;
 	request.scene = scene.snap();
 	request.size_px = glm::uvec2(48);
 	request.technique_override = p_technique;
-	request.has_normals = false; // all that a device without geometry shaders has
+	request.has_normals = false; // devices without geometry shaders cannot draw them
 	r_fixture.render(request);
 	return r_fixture.render(request).masks;
 }
@@ -61,7 +62,7 @@ TEST_CASE("[GPU][Techniques] without depth bounds every technique has the same m
 }
 
 TEST_CASE("[GPU][Techniques] without storage texel buffers every technique has the same masks") {
-	check_each_technique({ &DeviceFeatures::storage_texel_buffers });
+	check_each_technique({ &DeviceFeatures::storage_and_texel_buffers });
 }
 
 TEST_CASE("[GPU][Techniques] without copies to textures every technique has the same masks") {

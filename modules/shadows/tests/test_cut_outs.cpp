@@ -1,4 +1,4 @@
-// Cut-out casters with every technique: what their texture leaves of them casts, and nothing else.
+// Alpha-tested (cut-out) casters with every technique: only their opaque texels cast shadows.
 
 #include "modules/scene/cut_mesh.h"
 #include "modules/shadows/tests/each_technique.h"
@@ -9,7 +9,7 @@ using namespace gnomon;
 
 namespace {
 
-/// A card with round holes above the ground, which the camera does not see.
+/// A card with round holes above the ground. The camera sees its shadow, but not the card.
 struct CardScene : SmallScene {
 	std::shared_ptr<const Mesh> card;
 	std::shared_ptr<const Material> material;
@@ -18,6 +18,7 @@ struct CardScene : SmallScene {
 		std::vector<uint8_t> texels;
 		for (int y = 0; y < 64; ++y) {
 			for (int x = 0; x < 64; ++x) {
+				// Signed distance from the hole's rim, positive outside.
 				const double depth_px =
 						glm::distance(glm::dvec2(x % 32, y % 32), glm::dvec2(15.5)) - 11;
 				const double alpha = std::clamp(0.5 + 0.5 * depth_px, 0.0, 1.0);
@@ -47,23 +48,23 @@ struct CardScene : SmallScene {
 };
 
 double compute_mean_difference(
-		const MaskResult &p_one, const MaskResult &p_other, double &r_greatest) {
+		const MaskResult &p_one, const MaskResult &p_other, double &r_max_difference) {
 	double sum = 0;
 	double count = 0;
-	r_greatest = 0;
+	r_max_difference = 0;
 	for (size_t i = 0; i < p_one.visibility.size(); ++i) {
 		if (p_one.receiver[i] > 0.5f) {
 			const double difference = std::abs(double(p_one.visibility[i]) - p_other.visibility[i]);
 			sum += difference;
 			count += 1;
-			r_greatest = std::max(r_greatest, difference);
+			r_max_difference = std::max(r_max_difference, difference);
 		}
 	}
 	CHECK(count > 500);
 	return sum / std::max(count, 1.0);
 }
 
-/// What the card casts under the scene's light.
+/// The mesh that the card casts instead of its own, for the scene's light.
 std::shared_ptr<const Mesh> find_caster_mesh(const CardScene &p_scene) {
 	const auto snapshot = build_snapshot(p_scene.scene, *p_scene.camera);
 	const auto selected = snapshot->select_casters(snapshot->lights[0]);
@@ -78,34 +79,33 @@ std::shared_ptr<const Mesh> find_caster_mesh(const CardScene &p_scene) {
 
 } // namespace
 
-TEST_CASE(
-		"[GPU][CutOuts] a cut-out caster casts what a mesh with the same holes casts, to the bit") {
+TEST_CASE("[GPU][CutOuts] a cut-out caster has exactly the shadow of a mesh with the same holes") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		if (p_info.is_reference) {
-			return; // looks the alpha up by itself
+			return; // the reference samples the alpha texture itself
 		}
 		CardScene cut_out(p_type);
 		cut_out.add_card(cut_out.card, cut_out.material);
-		make_cheap(*cut_out.light);
+		use_cheap_settings(*cut_out.light);
 		CardScene holes(p_type);
 		holes.add_card(find_caster_mesh(cut_out), nullptr);
-		make_cheap(*holes.light);
+		use_cheap_settings(*holes.light);
 		CardScene whole(p_type);
 		whole.add_card(whole.card, nullptr);
-		make_cheap(*whole.light);
+		use_cheap_settings(*whole.light);
 		const MaskResult found = fixture.render_mask(cut_out, p_info.id);
 		const MaskResult expected = fixture.render_mask(holes, p_info.id);
 		CHECK(is_valid_mask(found));
 		CHECK(found.receiver == expected.receiver);
 		CHECK(found.visibility == expected.visibility);
-		double greatest = 0;
-		compute_mean_difference(found, fixture.render_mask(whole, p_info.id), greatest);
-		CHECK(greatest > 0.3); // the holes are seen
+		double max_difference = 0;
+		compute_mean_difference(found, fixture.render_mask(whole, p_info.id), max_difference);
+		CHECK(max_difference > 0.3); // the holes have an effect
 	});
 }
 
-TEST_CASE("[GPU][CutOuts] the default technique's shadow of a cut-out caster is that of rays") {
+TEST_CASE("[GPU][CutOuts] the default technique's shadow of a cut-out matches the reference") {
 	const ShadowTechniqueInfo *reference = nullptr;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		reference = info.is_reference ? &info : reference;
@@ -120,22 +120,22 @@ TEST_CASE("[GPU][CutOuts] the default technique's shadow of a cut-out caster is 
 		CardScene scene(type);
 		scene.add_card(scene.card, scene.material);
 		scene.light->properties["reference_samples"] = int64_t(1024);
-		double greatest = 0;
+		double max_difference = 0;
 		const double mean = compute_mean_difference(
 				fixture.render_mask(scene, ShadowRegistry::find_default()->id),
-				fixture.render_mask(scene, reference->id), greatest);
+				fixture.render_mask(scene, reference->id), max_difference);
 		CHECK(mean < 0.004);
-		CHECK(greatest < 0.08);
+		CHECK(max_difference < 0.08);
 	}
 }
 
-TEST_CASE("[GPU][CutOuts] a caster that is nowhere casts nothing, and lets no plan fail") {
+TEST_CASE("[GPU][CutOuts] a caster that is transparent everywhere casts no shadow") {
 	MaskFixture fixture;
 	CardScene scene(LightType::SPOT);
 	Material gone = *scene.material;
 	gone.alpha = 0.1f;
 	scene.add_card(scene.card, std::make_shared<const Material>(gone));
-	make_cheap(*scene.light);
+	use_cheap_settings(*scene.light);
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		const MaskResult result = fixture.render_mask(scene, p_info.id);
 		for (size_t i = 0; i < result.visibility.size(); ++i) {

@@ -1,4 +1,4 @@
-// Casters that poses deform, with every technique: they cast as the same shape would at rest.
+// Deformed casters with every technique: they cast the same shadow as a rigid mesh of that shape.
 
 #include "modules/mesh_tools/topology.h"
 #include "modules/scene/mesh_pose.h"
@@ -12,7 +12,8 @@ namespace {
 
 const int RINGS = 13;
 const int SIDES = 10;
-const double MOST_OF_CHANGE = 0.5; // between two poses
+// Maximum fraction of wrong pixels, relative to the fraction that changes between two poses.
+const double MAX_ERROR_PER_CHANGE = 0.5;
 
 /// A closed tube along y from 0 to 1.2 with caps, which follows two joints, and a morph target that
 /// makes it thicker at the top.
@@ -23,11 +24,11 @@ std::shared_ptr<const Mesh> make_tube(bool p_is_open = false) {
 	rig.influence_count = 4;
 	MorphTarget &target = rig.targets.emplace_back();
 	const auto add = [&](const glm::vec3 &p_position) {
-		const float share = p_position.y / 1.2f;
+		const float fraction = p_position.y / 1.2f;
 		positions.push_back(p_position);
 		rig.joints.insert(rig.joints.end(), { 0, 1, 0, 0 });
-		rig.weights.insert(rig.weights.end(), { 1 - share, share, 0, 0 });
-		target.positions.emplace_back(p_position.x * share, 0, p_position.z * share);
+		rig.weights.insert(rig.weights.end(), { 1 - fraction, fraction, 0, 0 });
+		target.positions.emplace_back(p_position.x * fraction, 0, p_position.z * fraction);
 	};
 	for (int ring = 0; ring < RINGS; ++ring) {
 		for (int side = 0; side < SIDES; ++side) {
@@ -55,7 +56,8 @@ std::shared_ptr<const Mesh> make_tube(bool p_is_open = false) {
 	return make_mesh("tube", positions, {}, indices, attributes);
 }
 
-/// The small scene with a tube instead of its box, whose upper joint an animation turns.
+/// The small scene with a tube instead of its box. pose() rotates and moves the tube's upper joint,
+/// and sets the weight of its morph target.
 struct TubeScene : SmallScene {
 	Node3D *joint = nullptr;
 	MeshInstance3D *tube = nullptr;
@@ -63,7 +65,7 @@ struct TubeScene : SmallScene {
 	explicit TubeScene(LightType p_type, const std::shared_ptr<const Mesh> &p_mesh = make_tube()) :
 			SmallScene(p_type) {
 		scene.root->remove_child(*box);
-		tube = &add_mesh(scene, "Tube", p_mesh, { 9, 9, 9 }); // where a skin does not look
+		tube = &add_mesh(scene, "Tube", p_mesh, { 9, 9, 9 }); // a skinned mesh ignores it
 		auto base = std::make_unique<Node3D>();
 		base->file_index = 0;
 		base->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0.5, 0));
@@ -85,7 +87,7 @@ struct TubeScene : SmallScene {
 		tube->posed_morph_weights = std::vector<float>{ p_weight };
 	}
 
-	/// The same shape as a mesh of its own.
+	/// The scene with the posed tube replaced by a rigid mesh of the same shape.
 	std::shared_ptr<const SceneSnapshot> bake() const {
 		auto baked = std::make_shared<SceneSnapshot>(*snap());
 		for (InstanceSnapshot &instance : baked->instances) {
@@ -103,21 +105,22 @@ struct TubeScene : SmallScene {
 	}
 };
 
-double compute_difference(const MaskResult &p_one, const MaskResult &p_other, double &r_share) {
-	double greatest = 0;
+/// Returns the maximum difference. r_fraction: fraction of receivers that differ by more than 0.02.
+double compute_difference(const MaskResult &p_one, const MaskResult &p_other, double &r_fraction) {
+	double max_difference = 0;
 	double different = 0;
 	double count = 0;
 	for (size_t i = 0; i < p_one.visibility.size(); ++i) {
 		if (p_one.receiver[i] > 0.5f && p_other.receiver[i] > 0.5f) {
 			const double difference = std::abs(double(p_one.visibility[i]) - p_other.visibility[i]);
-			greatest = std::max(greatest, difference);
+			max_difference = std::max(max_difference, difference);
 			different += difference > 0.02 ? 1 : 0;
 			count += 1;
 		}
 	}
 	CHECK(count > 500);
-	r_share = different / std::max(count, 1.0);
-	return greatest;
+	r_fraction = different / std::max(count, 1.0);
+	return max_difference;
 }
 
 MaskRequest make_request(
@@ -132,11 +135,11 @@ MaskRequest make_request(
 
 } // namespace
 
-TEST_CASE("deformed casters: every technique casts the shape that the pose has now") {
+TEST_CASE("deformed casters: every technique draws the shadow of the current pose") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		TubeScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		MaskResult before;
 		for (const double angle : { 0.0, 0.9, -1.4 }) {
 			CAPTURE(angle);
@@ -144,17 +147,17 @@ TEST_CASE("deformed casters: every technique casts the shape that the pose has n
 			const MaskResult deformed = fixture.render(make_request(scene.snap(), p_info.id));
 			MaskFixture other;
 			const MaskResult baked = other.render(make_request(scene.bake(), p_info.id));
-			double share = 0;
-			compute_difference(deformed, baked, share);
+			double fraction = 0;
+			compute_difference(deformed, baked, fraction);
 			if (angle == 0) {
-				CHECK(share < 0.004); // rounding moves single pixels at hard edges
+				CHECK(fraction < 0.004); // rounding moves single pixels at hard edges
 			} else {
-				// Bounds of joints are wider than those of vertices, so that maps have other
+				// The bounds of joints are wider than those of vertices, so the maps have different
 				// texels.
 				double changed = 0;
 				compute_difference(deformed, before, changed);
 				CHECK(changed > 0.005);
-				CHECK(share < std::max(0.004, MOST_OF_CHANGE * changed));
+				CHECK(fraction < std::max(0.004, MAX_ERROR_PER_CHANGE * changed));
 			}
 			before = deformed;
 		}
@@ -168,6 +171,7 @@ TEST_CASE("deformed casters: cut-outs follow, and several instances keep their o
 	std::vector<uint8_t> texels;
 	for (int y = 0; y < 32; ++y) {
 		for (int x = 0; x < 32; ++x) {
+			// Signed distance from the hole's rim in texels, positive outside.
 			const double depth = glm::distance(glm::dvec2(x % 16, y % 16), glm::dvec2(7.5)) - 4.5;
 			texels.insert(texels.end(),
 					{ 255, 255, 255,
@@ -179,32 +183,32 @@ TEST_CASE("deformed casters: cut-outs follow, and several instances keep their o
 	MaskFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		TubeScene scene(LightType::SPOT, make_tube(true));
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		scene.tube->surfaces[0].material = shared_material;
 		scene.pose(1.1);
-		double share = 0;
+		double fraction = 0;
 		double changed = 0;
 		const MaskResult posed = fixture.render(make_request(scene.snap(), p_info.id));
-		compute_difference(posed, fixture.render(make_request(scene.bake(), p_info.id)), share);
+		compute_difference(posed, fixture.render(make_request(scene.bake(), p_info.id)), fraction);
 		scene.pose(0);
 		compute_difference(posed, fixture.render(make_request(scene.snap(), p_info.id)), changed);
-		CHECK(share < std::max(0.004, MOST_OF_CHANGE * changed));
+		CHECK(fraction < std::max(0.004, MAX_ERROR_PER_CHANGE * changed));
 		scene.pose(1.1);
 		// Another instance of the same mesh, at rest next to it.
 		MeshInstance3D &second =
 				add_mesh(scene.scene, "Second", scene.tube->surfaces[0].mesh, { -0.9, 0.2, 0.3 });
 		second.surfaces[0].material = shared_material;
 		compute_difference(fixture.render(make_request(scene.snap(), p_info.id)),
-				fixture.render(make_request(scene.bake(), p_info.id)), share);
-		CHECK(share < std::max(0.004, MOST_OF_CHANGE * changed));
+				fixture.render(make_request(scene.bake(), p_info.id)), fraction);
+		CHECK(fraction < std::max(0.004, MAX_ERROR_PER_CHANGE * changed));
 	});
 }
 
-TEST_CASE("deformed casters: a pose that rests is cached, and the mask stays the same") {
+TEST_CASE("deformed casters: an unchanged pose is cached, and the mask stays the same") {
 	MaskFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		TubeScene scene(LightType::SPOT);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		scene.pose(0.6);
 		const MaskResult first = fixture.render(make_request(scene.snap(), p_info.id));
 		CHECK(first.plan.to_text().find("deform, meshes: 1") != std::string::npos);
@@ -224,35 +228,35 @@ TEST_CASE("deformed casters: a pose that rests is cached, and the mask stays the
 	});
 }
 
-TEST_CASE("deformed casters: a pose reaches into views that the mesh at rest is outside of") {
+TEST_CASE("deformed casters: a pose casts into views that the mesh at rest is outside of") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		TubeScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		// At rest far below the ground; both joints lift it above.
 		scene.joint->parent->parent_from_node[3].y = -50;
 		const MaskResult without = fixture.render(make_request(scene.snap(), p_info.id));
 		const glm::dmat4 lifted = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0.5, 0));
 		scene.joint->parent->posed_parent_from_node = lifted;
 		const MaskResult posed = fixture.render(make_request(scene.snap(), p_info.id));
-		double share = 0;
-		compute_difference(without, posed, share);
-		CHECK(share > 0.005);
+		double fraction = 0;
+		compute_difference(without, posed, fraction);
+		CHECK(fraction > 0.005);
 		for (const bool may_skip : { true, false }) {
 			MaskRequest request = make_request(scene.snap(), p_info.id);
 			request.may_skip = may_skip;
 			const MaskResult all = fixture.render(request);
-			compute_difference(all, posed, share);
-			CHECK(share < 0.001);
+			compute_difference(all, posed, fraction);
+			CHECK(fraction < 0.001);
 		}
 	});
 }
 
-TEST_CASE("deformed casters: joints that press the mesh flat or to a point leave masks valid") {
+TEST_CASE("deformed casters: joints that flatten a mesh or shrink it to a point give valid masks") {
 	MaskFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		TubeScene scene(LightType::OMNI);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		for (const glm::dvec3 &scale :
 				{ glm::dvec3(0), glm::dvec3(1, 0, 1), glm::dvec3(-1, 1, 1), glm::dvec3(1e-9) }) {
 			scene.joint->posed_parent_from_node = glm::scale(glm::dmat4(1.0), scale);
@@ -280,9 +284,9 @@ TEST_CASE("topology: vertices of different joints, weights or targets are not we
 	attributes.rig = make_mesh_rig(std::move(rig), positions, "mesh");
 	const auto mesh = make_mesh("mesh", positions, {}, { 0, 1, 2, 3, 5, 4 }, attributes);
 	const auto topology = get_topology(mesh);
-	CHECK(topology->welded_positions_node.size() == 5); // 0 and 3 alone are one
+	CHECK(topology->welded_positions_node.size() == 5); // only 0 and 3 are welded
 	CHECK(topology->is_deformable);
-	// Unused joints, another order and a joint that is named twice move a vertex alike.
+	// Unused joints, their order and repeated joints make no difference.
 	MeshRig alike;
 	alike.influence_count = 4;
 	alike.joints = { 2, 3, 0, 0, 3, 2, 7, 1, 2, 2, 3, 5 };
@@ -290,7 +294,7 @@ TEST_CASE("topology: vertices of different joints, weights or targets are not we
 	const auto made = make_mesh_rig(alike, std::vector<glm::vec3>(3), "mesh");
 	CHECK(made->compute_vertex_hash(0) == made->compute_vertex_hash(1));
 	CHECK(made->compute_vertex_hash(0) == made->compute_vertex_hash(2));
-	// A flat quad bends: its diagonal is never skipped.
+	// A flat quad may bend when it deforms, so its diagonal must not count as coplanar.
 	const auto quad = make_mesh("quad", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, {},
 			{ 0, 1, 2, 0, 2, 3 });
 	const auto count_flat = [](const Mesh &p_mesh) {

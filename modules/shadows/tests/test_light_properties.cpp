@@ -9,7 +9,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[LightProperties] a light has the properties of the technique that it has") {
+TEST_CASE("[LightProperties] a light has the properties of its technique") {
 	REQUIRE_FALSE(ShadowRegistry::get_all().empty());
 	Light3D light;
 	for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_all()) {
@@ -39,17 +39,17 @@ TEST_CASE("[LightProperties] a light has the properties of the technique that it
 	}
 }
 
-TEST_CASE("[LightProperties] a flat light and an unknown technique are shown as they are") {
+TEST_CASE("[LightProperties] a light with a singular transform or an unknown technique is listed") {
 	Light3D light;
 	light.parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0.0));
 	light.properties["shadow_technique"] = std::string("of_another_build");
 	CHECK_NOTHROW(list_node_properties(light));
-	light.properties["shadow_technique"] = 3.0; // a file may hold anything
+	light.properties["shadow_technique"] = 3.0; // files may have values of any type
 	CHECK_NOTHROW(list_node_properties(light));
 	CHECK_NOTHROW(list_node_properties(MeshInstance3D()));
 }
 
-TEST_CASE("[LightProperties] without techniques there is nothing to choose from") {
+TEST_CASE("[LightProperties] without techniques shadow_technique is a plain string") {
 	const std::vector<ShadowTechniqueInfo> all = ShadowRegistry::get_all();
 	for (const ShadowTechniqueInfo &technique : all) {
 		ShadowRegistry::remove(technique.id);

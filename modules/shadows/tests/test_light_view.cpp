@@ -72,9 +72,9 @@ TEST_CASE("[LightView] a box outside or behind a view is not seen by it") {
 	CHECK_FALSE(view.may_see(Bounds()));
 }
 
-TEST_CASE("[LightView] a turned caster is seen as its own box, not as the box around it") {
+TEST_CASE("[LightView] a rotated caster is culled by its oriented box, not by its world bounds") {
 	SmallScene scene;
-	// A long rod along the view's side, outside of it; the box around it reaches into the view.
+	// A long rod along the view's side, outside of it. Its world bounds reach into the view.
 	MeshInstance3D &rod = add_mesh(
 			scene.scene, "Rod", make_box_mesh("rod", { 2.0f, 0.01f, 0.01f }), { 1.3, 0, 2 });
 	rod.parent_from_node =
@@ -85,7 +85,7 @@ TEST_CASE("[LightView] a turned caster is seen as its own box, not as the box ar
 	view.half_extent = glm::vec2(0.5f);
 	CHECK(view.may_see(instance.bounds_world));
 	CHECK_FALSE(view.may_see(instance));
-	view.caster_margin_m = 1.0f; // now it is near enough
+	view.caster_margin_m = 1.0f; // the margin reaches the rod
 	CHECK(view.may_see(instance));
 	view.caster_margin_m = 0.0f;
 	rod.parent_from_node[3] = glm::dvec4(0, 0, 2, 1);
@@ -93,13 +93,13 @@ TEST_CASE("[LightView] a turned caster is seen as its own box, not as the box ar
 	// Along the view.
 	rod.parent_from_node = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 3)),
 			glm::radians(45.0), glm::dvec3(0, 1, 0));
-	const auto turned = scene.snap();
-	const glm::dvec2 range_m = view.compute_distance_range_m(turned->instances.back());
+	const auto rotated = scene.snap();
+	const glm::dvec2 range_m = view.compute_distance_range_m(rotated->instances.back());
 	CHECK(range_m.x == doctest::Approx(3 - (2.0 + 0.01) * std::sqrt(0.5)));
 	CHECK(range_m.y == doctest::Approx(3 + (2.0 + 0.01) * std::sqrt(0.5)));
 }
 
-TEST_CASE("[LightView] a margin lists casters outside the view, and a directional view holds it") {
+TEST_CASE("[LightView] a margin lists casters outside a view, and widens a directional view") {
 	SmallScene scene;
 	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
 	LightView view = build_light_views(snapshot->lights[0], *snapshot, 512, 1, 0.5f).at(0);
@@ -121,7 +121,7 @@ TEST_CASE("[LightView] a margin lists casters outside the view, and a directiona
 	CHECK(wide.far_m - wide.near_m == doctest::Approx(narrow.far_m - narrow.near_m + 1.0f));
 }
 
-TEST_CASE("[LightView] a shifted camera draws a point where its pixel's position is read from") {
+TEST_CASE("[LightView] with a camera shift, pixel to position and back gives the same pixel") {
 	SmallScene scene;
 	SceneSnapshot snapshot = *scene.snap();
 	const glm::uvec2 size_px(80, 60);

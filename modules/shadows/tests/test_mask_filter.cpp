@@ -12,7 +12,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Replaces every mask by a quarter of the light; leaves it alone when set to.
+/// Replaces every mask by a constant, 0.25 by default. Changes nothing while is_needed is false.
 class QuarterFilter : public MaskFilter {
 public:
 	static inline bool is_needed = true;
@@ -38,11 +38,11 @@ public:
 
 } // namespace
 
-TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the plan reports when "
-		  "not") {
+TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the plan reports when it "
+		  "is skipped") {
 	MaskFixture fixture;
 	SmallScene scene;
-	// Any technique will do; which there are depends on the build.
+	// Any technique will do. The build decides which ones exist.
 	const std::string any = ShadowRegistry::get_all().at(0).id;
 	const MaskResult before = fixture.render_mask(scene, any);
 	MaskFilterRegistry::add({ "quarter", "Quarter", "test", "#000000",

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-// Whichever technique is the reference of this build.
+// Tests the ReferenceSource of the build's reference technique, if it has one.
 
 using namespace gnomon;
 
@@ -15,7 +15,7 @@ const int64_t SAMPLE_COUNT = 64;
 struct TracedScene {
 	SmallScene scene;
 	MaskResult result;
-	ReferenceQuestion question;
+	ReferenceRequest trace_request;
 
 	TracedScene(MaskFixture &r_fixture, const ShadowTechniqueInfo &p_reference, LightType p_type) :
 			scene(p_type) {
@@ -27,15 +27,14 @@ struct TracedScene {
 		request.light = scene.light->name;
 		request.wants_surfaces = true;
 		result = r_fixture.render(request);
-		question = { request.scene, request.scene->lights.front(), request.size_px, result.surfaces,
-			result.receiver, find_surface_spread() };
+		trace_request = { request.scene, request.scene->lights.front(), request.size_px,
+			result.surfaces, result.receiver, find_surface_spread() };
 	}
 };
 
 } // namespace
 
-TEST_CASE(
-		"[GPU] The reference traced in parallel with the frames is the technique's, bit for bit") {
+TEST_CASE("[GPU] ReferenceSource gives the same mask as the reference technique, bit for bit") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return; // a build without one
@@ -46,19 +45,19 @@ TEST_CASE(
 		CAPTURE(int(type));
 		const TracedScene traced(fixture, *reference, type);
 		float last_progress = 0;
-		const ReferenceAnswer answer =
-				reference->make_reference_source(traced.question)
+		const ReferenceResult cpu_result =
+				reference->make_reference_source(traced.trace_request)
 						->trace(uint32_t(SAMPLE_COUNT), std::atomic<bool>(false),
-								[&](float p_share) { last_progress = p_share; });
-		CHECK(answer.is_complete);
-		CHECK(answer.visibility == traced.result.visibility);
-		CHECK(answer.standard_error == traced.result.standard_error);
-		CHECK(answer.penumbra_pixel_count > 20);
+								[&](float p_fraction) { last_progress = p_fraction; });
+		CHECK(cpu_result.is_complete);
+		CHECK(cpu_result.visibility == traced.result.visibility);
+		CHECK(cpu_result.standard_error == traced.result.standard_error);
+		CHECK(cpu_result.penumbra_pixel_count > 20);
 		CHECK(last_progress == 1.0f);
 	}
 }
 
-TEST_CASE("[GPU] A cancelled reference reports that it is not complete, and a later one is") {
+TEST_CASE("[GPU] A cancelled reference is not complete, and a later run is") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return;
@@ -66,12 +65,12 @@ TEST_CASE("[GPU] A cancelled reference reports that it is not complete, and a la
 	MaskFixture fixture;
 	const TracedScene traced(fixture, *reference, LightType::SPOT);
 	const std::unique_ptr<ReferenceSource> source =
-			reference->make_reference_source(traced.question);
+			reference->make_reference_source(traced.trace_request);
 	CHECK(!source->trace(16, std::atomic<bool>(true), {}).is_complete);
 	CHECK(source->trace(16, std::atomic<bool>(false), {}).is_complete);
 }
 
-TEST_CASE("The hash of a reference follows what the mask depends on, and nothing else") {
+TEST_CASE("The hash of a reference depends on size, light, casters and camera, not on technique") {
 	SmallScene scene;
 	const glm::uvec2 SIZE_PX(64);
 	const auto hash = [&](glm::uvec2 p_size_px) {

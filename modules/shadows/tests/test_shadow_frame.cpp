@@ -1,4 +1,4 @@
-// What a host gets of shadows, and what it may leave to them.
+// The interface of ShadowFrame for hosts: surfaces, masks of all lights, layers, shared meshes.
 
 #include "modules/shadows/tests/each_technique.h"
 
@@ -18,7 +18,7 @@ MaskRequest make_request(const SmallScene &p_scene) {
 	return request;
 }
 
-/// An array that outlives a frame, with a layer for each light of the scene.
+/// A texture array that outlives a frame, with p_count layers.
 struct HeldMasks {
 	OwnedTexture texture;
 	HeldMasks(RenderingDevice &p_device, Format p_format, uint32_t p_count) :
@@ -29,7 +29,8 @@ struct HeldMasks {
 							true })) {}
 };
 
-/// Draws all lights of the scene into the layers, then reads them back; 4 or 1 halves a texel.
+/// Copies the masks of all lights into layers of an array, and returns each layer's values: 4 per
+/// texel for RGBA16_SFLOAT, 1 for R16_SFLOAT.
 std::vector<std::vector<float>> hold_masks(
 		MaskFixture &r_fixture, const SmallScene &p_scene, Format p_format) {
 	const std::shared_ptr<const SceneSnapshot> scene = p_scene.snap();
@@ -66,7 +67,7 @@ std::vector<std::vector<float>> hold_masks(
 
 } // namespace
 
-TEST_CASE("[GPU][Shadows] normals made from depth are those of the faces, but for single pixels") {
+TEST_CASE("[GPU][Shadows] normals from depth equal the face normals at 99.5 % of the pixels") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(get_light_type_name(type));
@@ -74,30 +75,31 @@ TEST_CASE("[GPU][Shadows] normals made from depth are those of the faces, but fo
 		request.wants_surfaces = true;
 		const MaskResult drawn = fixture.render(request);
 		request.has_normals = false;
-		const MaskResult made = fixture.render(request);
-		CHECK_FALSE(made.plan.is_skipped("", "normals from depth"));
-		CHECK(is_valid_mask(made));
+		const MaskResult reconstructed = fixture.render(request);
+		CHECK_FALSE(reconstructed.plan.is_skipped("", "normals from depth"));
+		CHECK(is_valid_mask(reconstructed));
 		size_t count = 0;
-		size_t other_normal_count = 0;
-		size_t other_mask_count = 0;
+		size_t wrong_normal_count = 0;
+		size_t wrong_mask_count = 0;
 		for (size_t index = 0; index < drawn.surfaces.size(); ++index) {
 			const SurfacePoint &before = drawn.surfaces[index];
-			if (!before.is_there) {
+			if (!before.is_valid) {
 				continue;
 			}
 			++count;
-			other_normal_count += glm::distance(before.geometric_normal,
-										  made.surfaces[index].geometric_normal) > 2e-3f;
-			other_mask_count += drawn.receiver[index] != made.receiver[index] ||
-					std::abs(drawn.visibility[index] - made.visibility[index]) > 1.0f / 255;
+			wrong_normal_count += glm::distance(before.geometric_normal,
+										  reconstructed.surfaces[index].geometric_normal) > 2e-3f;
+			wrong_mask_count += drawn.receiver[index] != reconstructed.receiver[index] ||
+					std::abs(drawn.visibility[index] - reconstructed.visibility[index]) >
+							1.0f / 255;
 		}
 		CHECK(count > 5000);
-		CHECK(other_normal_count <= count / 200);
-		CHECK(other_mask_count <= count / 200);
+		CHECK(wrong_normal_count <= count / 200);
+		CHECK(wrong_mask_count <= count / 200);
 	}
 }
 
-TEST_CASE("[GPU][Shadows] normals made from depth are finite and towards the viewer at any size") {
+TEST_CASE("[GPU][Shadows] normals from depth are finite and face the viewer at any image size") {
 	MaskFixture fixture;
 	SmallScene scene;
 	for (const glm::uvec2 size_px :
@@ -107,18 +109,18 @@ TEST_CASE("[GPU][Shadows] normals made from depth are finite and towards the vie
 		request.size_px = size_px;
 		request.has_normals = false;
 		request.wants_surfaces = true;
-		const MaskResult made = fixture.render(request);
-		for (const SurfacePoint &surface : made.surfaces) {
-			CHECK((!surface.is_there ||
+		const MaskResult reconstructed = fixture.render(request);
+		for (const SurfacePoint &surface : reconstructed.surfaces) {
+			CHECK((!surface.is_valid ||
 					(glm::length(surface.geometric_normal) > 0.99f &&
 							glm::dot(surface.geometric_normal, surface.position) <= 0.0f)));
 		}
-		CHECK(std::all_of(made.visibility.begin(), made.visibility.end(),
+		CHECK(std::all_of(reconstructed.visibility.begin(), reconstructed.visibility.end(),
 				[](float p_value) { return p_value >= 0.0f && p_value <= 1.0f; }));
 	}
 }
 
-TEST_CASE("[GPU][Shadows] masks of all lights are held in the layers of an array") {
+TEST_CASE("[GPU][Shadows] hold() copies the masks of all lights into the layers of an array") {
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.add_light("Second", LightType::OMNI, { -2, 3, 1 }, { 0, 0, 0 });
@@ -143,7 +145,7 @@ TEST_CASE("[GPU][Shadows] masks of all lights are held in the layers of an array
 	}
 }
 
-TEST_CASE("[GPU][Shadows] a coloured mask is held in colours, or as its luminance") {
+TEST_CASE("[GPU][Shadows] hold() copies a coloured mask as colours, or as its luminance") {
 	MaskFixture fixture;
 	SmallScene scene;
 	auto glass = std::make_shared<Material>();
@@ -185,7 +187,7 @@ TEST_CASE("[GPU][Shadows] a host without materials gets masks in which nothing s
 	}
 }
 
-TEST_CASE("[GPU][Shadows] a frame that did not end leaves nothing that is cached") {
+TEST_CASE("[GPU][Shadows] a frame that was not ended leaves no cached data") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const std::vector<float> expected = fixture.render(make_request(scene)).visibility;
@@ -201,11 +203,11 @@ TEST_CASE("[GPU][Shadows] a frame that did not end leaves nothing that is cached
 	CHECK(fixture.render(make_request(scene)).visibility == expected);
 }
 
-TEST_CASE("[GPU][Shadows] what is on none of a light's caster layers casts none of its shadow") {
+TEST_CASE("[GPU][Shadows] a mesh on none of a light's caster layers casts no shadow of it") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
-		make_cheap(*scene.light);
+		use_cheap_settings(*scene.light);
 		Light3D &other = scene.add_light("Other", p_type, { 1.2, 4.0, 0.8 }, { 0, 0.3, 0 });
 		other.properties = scene.light->properties;
 		auto snapshot = std::make_shared<SceneSnapshot>(*scene.snap());
@@ -225,7 +227,7 @@ TEST_CASE("[GPU][Shadows] what is on none of a light's caster layers casts none 
 	});
 }
 
-TEST_CASE("[GPU][Shadows] two cameras draw in turn with meshes that they share") {
+TEST_CASE("[GPU][Shadows] two cameras that draw alternately share meshes and get their masks") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const std::vector<float> first = fixture.render(make_request(scene)).visibility;

@@ -10,7 +10,7 @@ using namespace gnomon;
 
 namespace {
 
-/// A technique that adds its setting to the mask's name in the plan.
+/// A technique that adds the value of its setting `way` to the plan.
 class SettingProbe : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override {
@@ -51,7 +51,7 @@ std::string catch_message(const std::function<void()> &p_function) {
 
 } // namespace
 
-TEST_CASE("[GPU][TechniqueSettings] reach the technique in the next frame, for all lights") {
+TEST_CASE("[GPU][TechniqueSettings] a setting applies to the technique from the next frame on") {
 	const ProbeScope probe;
 	MaskFixture fixture;
 	const SmallScene scene;
@@ -75,7 +75,7 @@ TEST_CASE("[TechniqueSettings] a wrong id, name or value is an error that lists 
 			"auto");
 }
 
-TEST_CASE("[TechniqueSettings] a project sets them, and warns of what this build does not know") {
+TEST_CASE("[TechniqueSettings] a project sets them; unknown ids and names only cause warnings") {
 	const ProbeScope probe;
 	const CaughtLog log;
 	apply_technique_settings(Project::parse(

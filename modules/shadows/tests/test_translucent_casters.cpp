@@ -25,7 +25,7 @@ TranslucentCasters find_casters(const SmallScene &p_scene) {
 	return find_translucent_casters(*snapshot, snapshot->lights.at(0));
 }
 
-/// A thin pane that hangs level.
+/// Adds a thin horizontal pane.
 MeshInstance3D &add_pane(SmallScene &r_scene, const std::string &p_name, const glm::vec3 &p_color,
 		const glm::dvec3 &p_position) {
 	MeshInstance3D &pane = add_mesh(
@@ -44,7 +44,7 @@ std::vector<std::string> list_technique_ids() {
 
 } // namespace
 
-TEST_CASE("[TranslucentCasters] casters of one colour share a group where no ray meets two") {
+TEST_CASE("[TranslucentCasters] casters of one colour share a group when no ray hits two of them") {
 	SmallScene scene;
 	CHECK(find_casters(scene).is_empty());
 	scene.box->surfaces[0].material = make_glass(RED);
@@ -60,13 +60,12 @@ TEST_CASE("[TranslucentCasters] casters of one colour share a group where no ray
 	behind.casts_shadow = false;
 	CHECK(find_casters(scene).groups.size() == 1);
 	behind.casts_shadow = true;
-	behind.surfaces[0].material = make_glass(glm::vec3(1.0f)); // all goes through: it casts nothing
+	behind.surfaces[0].material = make_glass(glm::vec3(1.0f)); // casts no shadow
 	CHECK(find_casters(scene).groups.size() == 1);
 	CHECK_FALSE(find_casters(scene).is_empty());
 }
 
-TEST_CASE(
-		"[TranslucentCasters] a caster about the light, and any pair that may overlap, are apart") {
+TEST_CASE("[TranslucentCasters] casters around the light or with overlapping shadows stay apart") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		CAPTURE(get_light_type_name(type));
 		SmallScene scene(type);
@@ -75,7 +74,7 @@ TEST_CASE(
 		add_pane(scene, "Far", RED,
 				has_position ? glm::dvec3(2.9, 0.6, -2.4) : glm::dvec3(1.9, 0.6, -1.2));
 		CHECK(find_casters(scene).groups.size() == 1);
-		scene.light->properties["light_size"] = 3.0; // so wide that it sees past the other's edge
+		scene.light->properties["light_size"] = 3.0; // so wide that the shadows overlap
 		scene.light->properties["light_angular_distance"] = 90.0;
 		CHECK(find_casters(scene).groups.size() == 2);
 	}
@@ -87,7 +86,7 @@ TEST_CASE(
 	CHECK(find_casters(scene).groups.size() == 2);
 }
 
-TEST_CASE("[TranslucentCasters] a slanting ray meets two that are far apart along the light") {
+TEST_CASE("[TranslucentCasters] casters far apart along a directional light may share a ray") {
 	SmallScene scene(LightType::DIRECTIONAL);
 	scene.light->parent_from_node = look_at({ 0, 50, 0 }, { 0, 0, 0 });
 	scene.light->properties["light_angular_distance"] = 10.0;
@@ -95,12 +94,12 @@ TEST_CASE("[TranslucentCasters] a slanting ray meets two that are far apart alon
 	add_pane(scene, "Near", RED, { 2.4, 1.0, 0.0 });
 	CHECK(find_casters(scene).groups.size() == 1);
 	MeshInstance3D &above = add_pane(scene, "Above", RED, { 2.4, 21.0, 0.0 });
-	CHECK(find_casters(scene).groups.size() == 2); // though S is 4 m
+	CHECK(find_casters(scene).groups.size() == 2); // although the scene size is only 4 m
 	above.parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(-6.0, 21.0, 0.0));
 	CHECK(find_casters(scene).groups.size() == 1);
 }
 
-TEST_CASE("[TranslucentCasters] too many colours share the nearest, and are counted") {
+TEST_CASE("[TranslucentCasters] above the maximum of groups, casters join the nearest colour") {
 	SmallScene scene;
 	for (int i = 0; i < 12; ++i) {
 		add_pane(scene, "Pane " + std::to_string(i), glm::vec3(0.05f + 0.07f * float(i)),
@@ -108,11 +107,11 @@ TEST_CASE("[TranslucentCasters] too many colours share the nearest, and are coun
 	}
 	const TranslucentCasters casters = find_casters(scene);
 	CHECK(casters.groups.size() == TranslucentCasters::MAX_GROUP_COUNT);
-	CHECK(casters.forced_count == 4);
+	CHECK(casters.merged_count == 4);
 	CHECK(casters.groups.back().instances.size() == 5); // the four lightest are nearest to it
 }
 
-TEST_CASE("[TranslucentCasters] what is no number lets nothing through") {
+TEST_CASE("[TranslucentCasters] a material with NaN transmits no light") {
 	const float nan = std::numeric_limits<float>::quiet_NaN();
 	Material material = *make_glass(RED, nan);
 	CHECK(material.compute_transmittance(1.0f) == glm::vec3(0.0f));
@@ -143,13 +142,13 @@ TEST_CASE("[GPU][TranslucentCasters] every technique's shadow gets the caster's 
 		size_t dark_count = 0;
 		for (size_t index = 0; index < tinted.colors.size(); ++index) {
 			const float before = open.visibility[index];
-			const float share = before > 0
+			const float fraction = before > 0
 					? std::clamp(1.0f - hidden.visibility[index] / before, 0.0f, 1.0f)
 					: 0.0f;
-			const glm::vec3 expected = before * (1.0f - share * (1.0f - RED));
+			const glm::vec3 expected = before * (1.0f - fraction * (1.0f - RED));
 			const glm::vec3 difference = glm::abs(tinted.colors[index] - expected);
 			worst = std::max({ worst, difference.x, difference.y, difference.z });
-			dark_count += share > 0.9f;
+			dark_count += fraction > 0.9f;
 		}
 		CHECK(worst < 0.002f); // half floats; the reference's own rounding
 		CHECK(dark_count > 20);
@@ -193,7 +192,7 @@ TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, 
 	CHECK_FALSE(result.plan.is_skipped("Light", "translucent 2: light view 0"));
 }
 
-TEST_CASE("[GPU][TranslucentCasters] a soft coloured shadow is the reference's") {
+TEST_CASE("[GPU][TranslucentCasters] a soft coloured shadow matches the reference") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	REQUIRE(reference != nullptr);
 	MaskFixture fixture;
@@ -218,7 +217,7 @@ TEST_CASE("[GPU][TranslucentCasters] a soft coloured shadow is the reference's")
 	CHECK(expected.standard_error > 0);
 }
 
-TEST_CASE("[GPU][TranslucentCasters] glass that comes and goes leaves opaque frames as they were") {
+TEST_CASE("[GPU][TranslucentCasters] adding and removing glass does not change opaque frames") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const std::string id = ShadowRegistry::find_default()->id;
@@ -234,7 +233,7 @@ TEST_CASE("[GPU][TranslucentCasters] glass that comes and goes leaves opaque fra
 		CHECK(again.colors.empty());
 		CHECK(again.visibility == before.visibility);
 	}
-	// Nothing is skipped that would show.
+	// Skipping changes nothing.
 	scene.box->surfaces[0].material = make_glass(RED);
 	CHECK(fixture.render_mask(scene, id).colors ==
 			fixture.render_mask(scene, id, glm::uvec2(64), false).colors);
@@ -258,9 +257,9 @@ TEST_CASE("[GPU][TranslucentCasters] a translucent receiver spreads coloured lig
 		const glm::vec3 color = soft.colors[index];
 		between_count += color.z > 0.2f && color.z < 0.9f;
 		if (soft.receiver[index] > 0) {
-			// On the line from the glass's colour to white.
-			const float share = (color.z - RED.z) / (1.0f - RED.z);
-			CHECK(glm::distance(color, glm::mix(RED, glm::vec3(1.0f), share)) < 0.01f);
+			// The colour is between the glass's colour and white.
+			const float fraction = (color.z - RED.z) / (1.0f - RED.z);
+			CHECK(glm::distance(color, glm::mix(RED, glm::vec3(1.0f), fraction)) < 0.01f);
 		}
 	}
 	CHECK(between_count > 50);

@@ -7,7 +7,7 @@ using namespace gnomon;
 
 namespace {
 
-/// A directional view over a ground of 200 m, to be fitted to a box about p_center.
+/// A directional view over a ground of 200 m. fit() narrows it to receivers in a box at p_center.
 struct FittedScene {
 	SmallScene scene = SmallScene(LightType::DIRECTIONAL);
 	std::shared_ptr<const SceneSnapshot> snapshot;
@@ -35,7 +35,7 @@ struct FittedScene {
 
 } // namespace
 
-TEST_CASE("[LightView] a directional view is narrowed to the receivers and what reaches them") {
+TEST_CASE("[LightView] a directional view is narrowed to the receivers plus the reach") {
 	const FittedScene scene;
 	for (const glm::dvec3 &center :
 			{ glm::dvec3(0.0), glm::dvec3(31.0, 0.0, -17.0), glm::dvec3(-90.0, 0.0, 80.0) }) {
@@ -55,7 +55,7 @@ TEST_CASE("[LightView] a directional view is narrowed to the receivers and what 
 	}
 }
 
-TEST_CASE("[LightView] a narrowed view stays while what is seen moves a little") {
+TEST_CASE("[LightView] a narrowed view stays the same while the receivers move a little") {
 	const FittedScene scene;
 	int change_count = 0;
 	LightView last = scene.fit(glm::dvec3(0.0), 2.0);
@@ -67,7 +67,7 @@ TEST_CASE("[LightView] a narrowed view stays while what is seen moves a little")
 	CHECK(change_count <= 2);
 }
 
-TEST_CASE("[LightView] a view of which most is seen, or nothing, and a spot's stay as they are") {
+TEST_CASE("[LightView] mostly visible and invisible views, and spot views, are not narrowed") {
 	const FittedScene scene;
 	CHECK(scene.fit(glm::dvec3(0.0), 90.0) == scene.whole);
 	CHECK(scene.fit(glm::dvec3(0.0), 2.0, 1000.0) == scene.whole);
@@ -83,7 +83,7 @@ TEST_CASE("[LightView] a view of which most is seen, or nothing, and a spot's st
 	CHECK(view == before);
 }
 
-TEST_CASE("[LightView] a view reaches as far from receivers as the light and its widths do") {
+TEST_CASE("[LightView] the reach grows with the light's angle and with its penumbra widths") {
 	const FittedScene scene;
 	LightSnapshot light = scene.snapshot->lights[0];
 	light.light_angular_distance_deg = 2.0f;

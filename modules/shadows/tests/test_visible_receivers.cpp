@@ -12,13 +12,13 @@ namespace {
 
 using Random = std::mt19937;
 
-double draw(Random &r_random, double p_least, double p_most) {
-	return std::uniform_real_distribution<double>(p_least, p_most)(r_random);
+double random_value(Random &r_random, double p_min, double p_max) {
+	return std::uniform_real_distribution<double>(p_min, p_max)(r_random);
 }
 
-glm::dvec3 draw_point(Random &r_random, double p_reach) {
-	return { draw(r_random, -p_reach, p_reach), draw(r_random, -p_reach, p_reach),
-		draw(r_random, -p_reach, p_reach) };
+glm::dvec3 random_point(Random &r_random, double p_reach) {
+	return { random_value(r_random, -p_reach, p_reach), random_value(r_random, -p_reach, p_reach),
+		random_value(r_random, -p_reach, p_reach) };
 }
 
 bool is_in(const Bounds &p_bounds, const glm::dvec3 &p_point) {
@@ -33,25 +33,26 @@ bool is_seen(const CameraSnapshot &p_camera, const glm::dvec3 &p_point) {
 	return position.z < 0 && std::abs(position.x) <= reach && std::abs(position.y) <= reach;
 }
 
-/// A receiver as receivers.comp decides, were it to face the light.
+/// Whether receivers.comp would mark a point that faces the light as a receiver.
 bool is_lit(const LightSnapshot &p_light, const glm::dvec3 &p_point) {
-	const glm::dvec3 way = p_point - p_light.position_world;
-	const double distance = glm::length(way);
+	const glm::dvec3 to_point = p_point - p_light.position_world;
+	const double distance = glm::length(to_point);
 	return (p_light.range_m <= 0 || distance <= p_light.range_m) &&
 			(p_light.type != LightType::SPOT ||
-					glm::dot(way, p_light.get_direction_world()) >=
+					glm::dot(to_point, p_light.get_direction_world()) >=
 							std::cos(double(p_light.outer_cone_rad)) * distance);
 }
 
 SceneSnapshot make_random_scene(Random &r_random) {
 	SceneSnapshot scene;
 	scene.scene_size_m = 4;
-	scene.camera.position_world = draw_point(r_random, 3);
-	scene.camera.world_from_camera = glm::dmat3(look_at(glm::dvec3(0.0), draw_point(r_random, 1)));
-	scene.camera.vertical_fov_rad = static_cast<float>(draw(r_random, 0.1, 2.5));
+	scene.camera.position_world = random_point(r_random, 3);
+	scene.camera.world_from_camera =
+			glm::dmat3(look_at(glm::dvec3(0.0), random_point(r_random, 1)));
+	scene.camera.vertical_fov_rad = static_cast<float>(random_value(r_random, 0.1, 2.5));
 	InstanceSnapshot instance;
-	const glm::dvec3 centre = draw_point(r_random, 3);
-	const glm::dvec3 half = glm::abs(draw_point(r_random, 2));
+	const glm::dvec3 centre = random_point(r_random, 3);
+	const glm::dvec3 half = glm::abs(random_point(r_random, 2));
 	instance.bounds_world.add(centre - half);
 	instance.bounds_world.add(centre + half);
 	scene.instances.push_back(instance);
@@ -60,17 +61,18 @@ SceneSnapshot make_random_scene(Random &r_random) {
 
 LightSnapshot make_random_light(Random &r_random) {
 	LightSnapshot light;
-	light.type = draw(r_random, 0, 1) < 0.5 ? LightType::SPOT : LightType::OMNI;
-	light.position_world = draw_point(r_random, 4);
-	light.world_from_light = glm::dmat3(look_at(glm::dvec3(0.0), draw_point(r_random, 1)));
-	light.range_m = draw(r_random, 0, 1) < 0.3 ? 0.0f : float(draw(r_random, 0.2, 6.0));
-	light.outer_cone_rad = static_cast<float>(draw(r_random, 0.02, 1.57));
+	light.type = random_value(r_random, 0, 1) < 0.5 ? LightType::SPOT : LightType::OMNI;
+	light.position_world = random_point(r_random, 4);
+	light.world_from_light = glm::dmat3(look_at(glm::dvec3(0.0), random_point(r_random, 1)));
+	light.range_m =
+			random_value(r_random, 0, 1) < 0.3 ? 0.0f : float(random_value(r_random, 0.2, 6.0));
+	light.outer_cone_rad = static_cast<float>(random_value(r_random, 0.02, 1.57));
 	return light;
 }
 
 } // namespace
 
-TEST_CASE("[Renderer] bounds of what is visible hold every point of the box in the view, tightly") {
+TEST_CASE("[Renderer] visible bounds contain the visible points of a box and are often smaller") {
 	Random random(3);
 	size_t seen_count = 0;
 	size_t smaller_count = 0;
@@ -83,7 +85,8 @@ TEST_CASE("[Renderer] bounds of what is visible hold every point of the box in t
 		bool is_any_seen = false;
 		for (int index = 0; index < 300; ++index) {
 			const glm::dvec3 point = glm::mix(box.minimum, box.maximum,
-					glm::dvec3(draw(random, 0, 1), draw(random, 0, 1), draw(random, 0, 1)));
+					glm::dvec3(random_value(random, 0, 1), random_value(random, 0, 1),
+							random_value(random, 0, 1)));
 			if (is_seen(scene.camera, point)) {
 				is_any_seen = true;
 				REQUIRE(receivers.list.size() == 1);
@@ -96,10 +99,10 @@ TEST_CASE("[Renderer] bounds of what is visible hold every point of the box in t
 				receivers.list[0].bounds_world.get_diagonal() < 0.9 * box.get_diagonal();
 	}
 	CHECK(seen_count > 300);
-	CHECK(smaller_count > 300); // a rule that skips nothing would hold every point too
+	CHECK(smaller_count > 300); // returning the whole box would also pass the checks above
 }
 
-TEST_CASE("[Renderer] a light is reported to miss a box only when it lights no point of it") {
+TEST_CASE("[Renderer] may_light_reach is false only for boxes of which no point is lit") {
 	Random random(5);
 	size_t lit_count = 0;
 	size_t missed_count = 0;
@@ -107,14 +110,14 @@ TEST_CASE("[Renderer] a light is reported to miss a box only when it lights no p
 		CAPTURE(round);
 		const LightSnapshot light = make_random_light(random);
 		Bounds box;
-		box.add(draw_point(random, 3));
-		box.add(box.minimum + glm::abs(draw_point(random, 2)));
+		box.add(random_point(random, 3));
+		box.add(box.minimum + glm::abs(random_point(random, 2)));
 		bool is_any_lit = false;
 		for (int index = 0; index < 200 && !is_any_lit; ++index) {
 			is_any_lit = is_lit(light,
 					glm::mix(box.minimum, box.maximum,
-							glm::dvec3(
-									draw(random, 0, 1), draw(random, 0, 1), draw(random, 0, 1))));
+							glm::dvec3(random_value(random, 0, 1), random_value(random, 0, 1),
+									random_value(random, 0, 1))));
 		}
 		lit_count += is_any_lit;
 		missed_count += !may_light_reach(light, box);
@@ -124,7 +127,7 @@ TEST_CASE("[Renderer] a light is reported to miss a box only when it lights no p
 	CHECK(missed_count > 1000);
 }
 
-TEST_CASE("[Renderer] a box at the edge of a light's range or cone is taken to be reached") {
+TEST_CASE("[Renderer] may_light_reach is true for a box that touches the light's range or cone") {
 	LightSnapshot light;
 	light.range_m = 2.0f;
 	Bounds box;
@@ -133,7 +136,7 @@ TEST_CASE("[Renderer] a box at the edge of a light's range or cone is taken to b
 	CHECK(may_light_reach(light, box));
 	light.range_m = 1.99f;
 	CHECK_FALSE(may_light_reach(light, box));
-	light.type = LightType::SPOT; // along -Z, away from all of the next box but its side
+	light.type = LightType::SPOT; // shines along -Z; its cone just touches the next box's side
 	light.range_m = 0;
 	light.outer_cone_rad = 0.785398163f;
 	Bounds neighbour;

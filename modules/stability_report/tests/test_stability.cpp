@@ -30,14 +30,15 @@ ReportOptions make_options(const std::vector<std::string> &p_sweeps) {
 	return options;
 }
 
-Report run(const ReportOptions &p_options, ScriptedMasks &r_masks) {
+Report run(const ReportOptions &p_options, ScriptedMaskSource &r_masks) {
 	const TemporaryFolder folder;
 	RecordStore store(folder.path);
 	return run_report(
 			make_report_plan(p_options, {}, make_scripted_techniques()), r_masks, store, {});
 }
 
-/// One technique's points of one sweep of the light's size, with these errors.
+/// Returns a report with the first points of the sweep light_size for one technique, with these
+/// errors.
 Report make_light_size_report(const std::vector<double> &p_errors) {
 	Report report;
 	report.techniques.push_back({ "soft", "Soft", "Test", "#ff0000", false });
@@ -64,7 +65,7 @@ Report make_light_size_report(const std::vector<double> &p_errors) {
 
 } // namespace
 
-TEST_CASE("[Stability] sweeps have their centre and their quick values, and scenes for all") {
+TEST_CASE("[Stability] sweeps contain their centre and quick values, whose scenes can be built") {
 	std::set<std::string> ids;
 	for (const StabilitySweep &sweep : get_stability_sweeps()) {
 		CAPTURE(sweep.id);
@@ -80,8 +81,8 @@ TEST_CASE("[Stability] sweeps have their centre and their quick values, and scen
 		for (const double value : sweep.quick_values) {
 			CHECK(contains(sweep.values, value));
 			for (const LightType type : sweep.types) {
-				const StabilityCase point =
-						make_stability_case(sweep, type, value, ReportExtent::QUICK);
+				const StabilitySetup point =
+						make_stability_setup(sweep, type, value, ReportExtent::QUICK);
 				const auto snapshot =
 						build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front());
 				REQUIRE(snapshot->find_light(point.light) != nullptr);
@@ -93,9 +94,9 @@ TEST_CASE("[Stability] sweeps have their centre and their quick values, and scen
 	CHECK(find_stability_sweep("no such sweep") == nullptr);
 }
 
-TEST_CASE("[Stability] a scaled scene has every length scaled, a moved one every position moved") {
+TEST_CASE("[Stability] the sweep scale multiplies lengths, and offset moves what the scene has") {
 	const auto snap = [](const char *p_sweep, double p_value) {
-		const StabilityCase point = make_stability_case(
+		const StabilitySetup point = make_stability_setup(
 				*find_stability_sweep(p_sweep), LightType::SPOT, p_value, ReportExtent::QUICK);
 		return build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front());
 	};
@@ -107,25 +108,25 @@ TEST_CASE("[Stability] a scaled scene has every length scaled, a moved one every
 	CHECK(glm::distance(large->lights[0].position_world, 1e3 * start->lights[0].position_world) <
 			1e-6);
 	const auto moved = snap("offset", 1e6);
-	const glm::dvec3 way = moved->camera.position_world - start->camera.position_world;
-	CHECK(glm::length(way) == doctest::Approx(1e6));
-	CHECK(glm::distance(moved->lights[0].position_world - way, start->lights[0].position_world) <
+	const glm::dvec3 offset = moved->camera.position_world - start->camera.position_world;
+	CHECK(glm::length(offset) == doctest::Approx(1e6));
+	CHECK(glm::distance(moved->lights[0].position_world - offset, start->lights[0].position_world) <
 			1e-8);
 	for (size_t index = 0; index < start->instances.size(); ++index) {
-		CHECK(glm::distance(glm::dvec3(moved->instances[index].world_from_node[3]) - way,
+		CHECK(glm::distance(glm::dvec3(moved->instances[index].world_from_node[3]) - offset,
 					  glm::dvec3(start->instances[index].world_from_node[3])) < 1e-8);
 	}
 }
 
-TEST_CASE("[Stability] the light moves by a thousandth of its radius, and only that light") {
+TEST_CASE("[Stability] move_light moves the light by a thousandth of its radius") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
-		const StabilityCase point =
-				make_stability_case(get_stability_sweeps()[0], type, 0.05, ReportExtent::QUICK);
-		const MaskQuestion question = { build_snapshot(*point.scene,
-												*point.scene->find_nodes<Camera3D>().front()),
+		const StabilitySetup point =
+				make_stability_setup(get_stability_sweeps()[0], type, 0.05, ReportExtent::QUICK);
+		const MaskTask task = { build_snapshot(
+										*point.scene, *point.scene->find_nodes<Camera3D>().front()),
 			point.light, point.size_px };
-		const MaskQuestion moved = move_light(question);
-		const LightSnapshot &before = question.scene->lights[0];
+		const MaskTask moved = move_light(task);
+		const LightSnapshot &before = task.scene->lights[0];
 		const LightSnapshot &after = moved.scene->lights[0];
 		if (type == LightType::DIRECTIONAL) {
 			const double angle = std::acos(std::min(
@@ -136,11 +137,11 @@ TEST_CASE("[Stability] the light moves by a thousandth of its radius, and only t
 			CHECK(glm::distance(before.position_world, after.position_world) ==
 					doctest::Approx(1e-3 * before.light_size_m));
 		}
-		CHECK(moved.scene->camera.position_world == question.scene->camera.position_world);
+		CHECK(moved.scene->camera.position_world == task.scene->camera.position_world);
 	}
 }
 
-TEST_CASE("[Stability] a curve breaks where its error is twice the centre's, on either side") {
+TEST_CASE("[Stability] a curve breaks where its error exceeds twice that of the centre") {
 	// Values 1e-6 .. 1, the centre 0.05 is the seventh of 13.
 	std::vector<double> errors(13, 0.01);
 	errors[2] = 0.03;
@@ -159,7 +160,7 @@ TEST_CASE("[Stability] a curve breaks where its error is twice the centre's, on 
 	const nlohmann::ordered_json json = StabilityPart().to_json(report);
 	CHECK(json[0]["series"][0]["break_after"] == "0.5");
 	CHECK(json[0]["series"][0]["points"][10]["state"] == "doubled");
-	// What no image of 8 bits shows is no break.
+	// An error that an 8-bit image does not show is no break.
 	CHECK_FALSE(find_stability_plots(make_light_size_report({ 0, 0, 0, 0, 0, 0, 1e-5, 1e-3 }))[0]
 						.curves[0]
 						.break_after);
@@ -168,7 +169,7 @@ TEST_CASE("[Stability] a curve breaks where its error is twice the centre's, on 
 TEST_CASE("[Stability] nonsense, refusals and failures are distinguished") {
 	Report report = make_light_size_report({ 0.01, 0.01 });
 	ReportCell &cell = report.cells[0];
-	const auto judge = [&] { return judge_stability(cell, {}, &report.cells[1]); };
+	const auto judge = [&] { return classify_stability(cell, {}, &report.cells[1]); };
 	CHECK(judge() == StabilityState::OK);
 	cell.stability->wrong_share = 0.05;
 	CHECK(judge() == StabilityState::NONSENSE);
@@ -180,8 +181,8 @@ TEST_CASE("[Stability] nonsense, refusals and failures are distinguished") {
 	CHECK(judge() == StabilityState::MISSING);
 }
 
-TEST_CASE("[Stability] a run measures every point, and keeps what it found") {
-	ScriptedMasks masks;
+TEST_CASE("[Stability] a run measures every point and stores its results") {
+	ScriptedMaskSource masks;
 	masks.warnings = { "that is wide" };
 	const Report report = run(make_options({ "light_size", "guards" }), masks);
 	CHECK(report.count(ReportStatus::OK) > 40);
@@ -193,7 +194,7 @@ TEST_CASE("[Stability] a run measures every point, and keeps what it found") {
 		CHECK(cell.stability->warnings == masks.warnings);
 		CHECK(cell.stability->temporal_rmse == 0.0); // scripted: nothing moves
 	}
-	// The file holds the same, and is read again.
+	// The saved report can be loaded again.
 	const TemporaryFolder folder;
 	const auto path = folder.path / "report.json";
 	save_file_atomically(path, dump_json(to_json(report)));
@@ -201,25 +202,25 @@ TEST_CASE("[Stability] a run measures every point, and keeps what it found") {
 	CHECK(to_json(read) == to_json(report));
 }
 
-TEST_CASE("[Stability] values that are no visibility, and validation messages, fail the point") {
+TEST_CASE("[Stability] visibility outside 0..1 and validation messages are failures") {
 	for (const float value : { std::numeric_limits<float>::quiet_NaN(), -0.01f, 1.01f }) {
-		ScriptedMasks masks;
-		masks.spoiled_value = value;
+		ScriptedMaskSource masks;
+		masks.invalid_value = value;
 		const Report report = run(make_options({ "scale" }), masks);
 		for (const ReportCell &cell : report.cells) {
 			CHECK(cell.status == ReportStatus::FAILED);
 			CHECK(cell.message.find("not finite or outside 0..1") != std::string::npos);
 		}
 	}
-	ScriptedMasks noisy;
+	ScriptedMaskSource noisy;
 	noisy.validation_message_count = 3;
 	const Report report = run(make_options({ "scale" }), noisy);
 	CHECK(report.cells.front().status == ReportStatus::FAILED);
 	CHECK(report.cells.front().message == "3 validation messages.");
 }
 
-TEST_CASE("[Stability] a technique that refuses is no failure, and its message is preserved") {
-	ScriptedMasks masks;
+TEST_CASE("[Stability] an Error of the technique is a refusal with its message, not a failure") {
+	ScriptedMaskSource masks;
 	masks.failing_technique = "soft";
 	const Report report = run(make_options({ "scale" }), masks);
 	CHECK(report.count(ReportStatus::FAILED) == 0);
@@ -230,15 +231,15 @@ TEST_CASE("[Stability] a technique that refuses is no failure, and its message i
 	CHECK(find_stability_plots(report)[0].curves[1].points[0].state == StabilityState::REFUSED);
 }
 
-TEST_CASE("[Stability] a lost device is no refusal: the run ends, and a resume measures the rest") {
+TEST_CASE("[Stability] a lost device ends the run, and a resumed run measures the rest") {
 	const TemporaryFolder folder;
 	RecordStore store(folder.path);
 	const ReportPlan plan =
 			make_report_plan(make_options({ "scale" }), {}, make_scripted_techniques());
-	ScriptedMasks masks;
-	masks.lose_after_drawn_count = 2;
+	ScriptedMaskSource masks;
+	masks.lose_device_after_draw_count = 2;
 	CHECK_THROWS_AS(run_report(plan, masks, store, {}), DeviceLost);
-	ScriptedMasks rest;
+	ScriptedMaskSource rest;
 	const Report report = run_report(plan, rest, store, { true, 0, 1 });
 	CHECK(report.count(ReportStatus::OK) > 5);
 	CHECK(report.count(ReportStatus::MISSING) == 0);
@@ -248,14 +249,14 @@ TEST_CASE("[Stability] a lost device is no refusal: the run ends, and a resume m
 	}
 }
 
-TEST_CASE("[Stability] shards take whole curves, whose centres they need") {
+TEST_CASE("[Stability] each curve is measured by a single shard") {
 	const ReportPlan plan = make_report_plan(
 			make_options({ "light_size", "scale", "offset" }), {}, make_scripted_techniques());
 	std::map<std::pair<std::string, std::string>, std::set<size_t>> shards;
 	for (uint32_t shard = 0; shard < 3; ++shard) {
 		const TemporaryFolder folder;
 		RecordStore store(folder.path);
-		ScriptedMasks masks;
+		ScriptedMaskSource masks;
 		const Report report = run_report(plan, masks, store, { false, shard, 3 });
 		for (const ReportCell &cell : report.cells) {
 			const ReportConfiguration &at = report.configurations[cell.configuration_index];
@@ -270,12 +271,12 @@ TEST_CASE("[Stability] shards take whole curves, whose centres they need") {
 	}
 }
 
-TEST_CASE("[Stability] scenes of the project are drawn with each of their lights, as they are") {
+TEST_CASE("[Stability] the sweep scenes has a point per light of the project's scenes") {
 	ReportOptions options = make_options({ PROJECT_SCENES_SWEEP });
 	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} },
 		{ "gone", nullptr, "the file is not there" },
 		{ "hall", make_scaling_scene({ 1100, 1, 0.3 }), {} } };
-	ScriptedMasks masks;
+	ScriptedMaskSource masks;
 	const Report report = run(options, masks);
 	REQUIRE(report.configurations.size() == 4);
 	CHECK(report.configurations[0].id == "stability/scenes/spot/yard/Light 1");
@@ -286,7 +287,7 @@ TEST_CASE("[Stability] scenes of the project are drawn with each of their lights
 	CHECK(report.configurations[3].light_size_m == doctest::Approx(0.3));
 	CHECK(report.count(ReportStatus::OK) == 6 + 3); // cells and references
 
-	// Without a centre an error alone is no break; nonsense still is.
+	// Without a centre no error counts as doubled.
 	const std::vector<StabilityPlot> plots = find_stability_plots(report);
 	REQUIRE(plots.size() == 1);
 	REQUIRE(plots[0].curves.size() == 2);
@@ -301,7 +302,7 @@ TEST_CASE("[Stability] scenes of the project are drawn with each of their lights
 	CHECK(json[0]["series"][1]["points"][2]["label"] == "hall/Light 1");
 }
 
-TEST_CASE("[Stability] scenes of the project are drawn only where their sweep is requested") {
+TEST_CASE("[Stability] scenes of the project are drawn only if the sweep scenes is requested") {
 	ReportOptions options = make_options({ "scale" });
 	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} } };
 	for (const ReportConfiguration &configuration :

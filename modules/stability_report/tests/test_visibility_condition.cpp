@@ -10,7 +10,8 @@ using namespace gnomon;
 
 namespace {
 
-/// A wide plate at a height above the origin whose edge is at x = 0, and a light above it.
+/// A light 2 m above the origin, and a plate 1 m above the origin that covers x > 0: its edge is at
+/// x = 0.
 struct HalfPlane {
 	SceneSnapshot scene;
 
@@ -36,18 +37,18 @@ const glm::dvec3 UP(0, 1, 0);
 
 } // namespace
 
-TEST_CASE("[Condition] visibility in double is the share of the disc next to a half plane") {
+TEST_CASE("[Condition] behind a half plane, visibility is the visible fraction of the disc") {
 	const HalfPlane small(0.2);
 	const DoubleVisibility exact(small.scene, small.get_light());
 	CHECK(exact.compute({ -1, 0, 0 }, UP) == 1.0);
 	CHECK(exact.compute({ 1, 0, 0 }, UP) == 0.0);
-	// The edge halves the way from the receiver: at x the light is hidden beyond -x.
+	// The edge is halfway between receiver and light: from x, the light is hidden beyond -x.
 	for (const double x : { -0.15, -0.05, 0.0, 0.1 }) {
-		const double d = -x / 0.2; // of the disc's centre, over R
+		const double d = -x / 0.2; // distance of the edge from the disc's centre, in R
 		const double seen = (std::acos(-d) + d * std::sqrt(1 - d * d)) / std::numbers::pi;
 		CHECK(exact.compute({ x, 0, 0 }, UP) == doctest::Approx(seen).epsilon(0.04));
 	}
-	// Far from the origin nothing is lost.
+	// No precision is lost far from the origin.
 	const glm::dvec3 offset(3e6, -2e6, 1e6);
 	const HalfPlane far(0.2, offset);
 	CHECK(DoubleVisibility(far.scene, far.get_light())
@@ -55,7 +56,7 @@ TEST_CASE("[Condition] visibility in double is the share of the disc next to a h
 			exact.compute({ -0.05, 0, 0 }, UP));
 }
 
-TEST_CASE("[Condition] the number is the slope of visibility, and separates rounding from method") {
+TEST_CASE("[Condition] the condition number separates rounding errors from method errors") {
 	// Soft: v changes by about 1 over 0.4 m, 2 m from the light.
 	const HalfPlane soft(0.2);
 	const ConditionPoint point = { { -0.01f, 0, 0 }, UP, 0.53, 0.3 };
@@ -66,7 +67,7 @@ TEST_CASE("[Condition] the number is the slope of visibility, and separates roun
 	CHECK(smooth.reference_error < 0.03);
 	CHECK(smooth.error == 0.3);
 	CHECK(smooth.cause == ErrorCause::METHOD);
-	// So sharp that rounding alone moves a receiver from light to shadow.
+	// A penumbra so narrow that rounding alone moves a receiver from light to shadow.
 	const HalfPlane sharp(1e-7);
 	const ConditionPoint edge = { { -1e-7f, 0, 0 }, UP, 1.0, 1.0 };
 	const VisibilityCondition stiff =
@@ -74,9 +75,9 @@ TEST_CASE("[Condition] the number is the slope of visibility, and separates roun
 	CHECK(stiff.number > 1e5);
 	CHECK(stiff.rounding == 1.0);
 	CHECK(stiff.cause == ErrorCause::ROUNDING);
-	// A reference that is dark where all is lit.
-	const ConditionPoint lied = { { -1.0f, 0, 0 }, UP, 0.0, 1.0 };
-	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), { &lied, 1 }).cause ==
-			ErrorCause::REFERENCE);
+	// A wrong reference: dark at a lit point.
+	const ConditionPoint wrong_reference = { { -1.0f, 0, 0 }, UP, 0.0, 1.0 };
+	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), { &wrong_reference, 1 })
+					.cause == ErrorCause::REFERENCE);
 	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), {}).error == 0.0);
 }

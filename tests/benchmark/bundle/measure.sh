@@ -1,5 +1,5 @@
 #!/bin/sh
-# Measures this machine's device; see usage.
+# Measures errors and times of the techniques on this machine's device; see usage below.
 set -eu
 
 usage() {
@@ -9,8 +9,8 @@ Usage: ./measure.sh [--quick | --all] [options]
   --all           the same, and times at 1920 x 1080 and 3840 x 2160 in the study's scenes and courtyard
   --out DIR       where the results go (default: results, next to this script)
   --device NAME   Vulkan device, by name or index
-  --scenes A,B    of the ten scenes these only
-  --size WxH      of their images
+  --scenes A,B    only these of the ten scenes
+  --size WxH      size of their images (default: 512x512)
 Writes DIR/results.json, one file to send, and DIR/report/index.html, a page with plots.
 TEXT
 }
@@ -50,7 +50,7 @@ while [ $# -gt 0 ]; do
     shift
 done
 mkdir -p "$out"
-# References that the bundle brings; others are traced once and stored there too.
+# References are cached next to this script: the bundle contains those of --quick, and others are traced once.
 if [ -w "$here" ]; then
     GNOMON_CACHE_DIR=$here/references
     mkdir -p "$GNOMON_CACHE_DIR"
@@ -87,7 +87,7 @@ list_times() {
             for technique in edge_count pcss penumbra_fins outer_fins shadow_volume jittered_pcf shadow_map views; do
                 add_time $scene $pixels $technique ""
             done
-            # What Sun et al. 2010 compare: three peels over one shadow map, and the frame with fins over the frame with the map.
+            # The two settings that correspond to Sun et al. 2010: three depth peels, and fins from a geometry shader.
             add_time $scene $pixels penumbra_fins technique.penumbra_fins.peeling=passes
             add_time $scene $pixels penumbra_fins technique.penumbra_fins.method=geometry_shader
         done

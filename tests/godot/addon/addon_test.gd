@@ -1,10 +1,11 @@
 class_name AddonTest
 extends Node
-## A test's scene, and what it checks.
+## Base class of the add-on's tests: makes study scenes, reads masks and collects failed checks.
 
 var failures := PackedStringArray()
 
 
+## Adds a failure with the text `what` unless the condition holds.
 func check(condition: bool, what: String) -> void:
 	if not condition:
 		failures.append(what)
@@ -16,7 +17,7 @@ func add_study(light := "omni", caster := "box") -> StudyScene:
 	return scene
 
 
-## Ends a study scene at once.
+## Removes a study scene from the tree at once, and frees it.
 func remove(scene: Node) -> void:
 	scene.get_parent().remove_child(scene)
 	scene.queue_free()
@@ -27,17 +28,18 @@ func draw_frames(count := 1) -> void:
 		await RenderingServer.frame_post_draw
 
 
-## The mask of the next frame.
+## Reads the mask of the next frame.
 func read(scene: StudyScene) -> Image:
 	return await MaskReader.new(scene.shadow).read()
 
 
+## Draws three frames, after which nothing changes any more, and reads the mask of the next one.
 func read_settled(scene: StudyScene) -> Image:
 	await draw_frames(3)
 	return await read(scene)
 
 
-## How many pixels differ by more than `tolerance`.
+## Returns how many pixels differ by more than `tolerance`. If the sizes differ, all of them count.
 static func count_different(left: Image, right: Image, tolerance := 0.0) -> int:
 	if left.get_size() != right.get_size():
 		return maxi(left.get_data_size(), right.get_data_size())
@@ -49,7 +51,7 @@ static func count_different(left: Image, right: Image, tolerance := 0.0) -> int:
 	return count
 
 
-## Receivers below the value.
+## Returns how many receivers have a visibility below `value`.
 static func count_darker(mask: Image, value := 0.5) -> int:
 	var count := 0
 	for visibility in mask.get_data().to_float32_array():

@@ -2,7 +2,7 @@ extends AddonTest
 ## Which nodes cast shadows, and which do not.
 
 
-## The mask of a study scene whose caster was replaced by what `change` adds.
+## Returns the mask of a study scene after `change` has modified it.
 func _render(change: Callable) -> Image:
 	var scene := add_study()
 	change.call(scene)
@@ -19,6 +19,7 @@ func _render_with_caster() -> Image:
 	return await _render(func(_scene: StudyScene) -> void: pass)
 
 
+## Checks that the mask after `change` equals that of the unchanged scene or, if no shadow is expected, of the scene without its caster.
 func _check_same(change: Callable, what: String, expects_shadow := true) -> void:
 	var expected: Image
 	if expects_shadow:
@@ -30,7 +31,7 @@ func _check_same(change: Callable, what: String, expects_shadow := true) -> void
 	var a := expected.get_data().to_float32_array()
 	var b := found.get_data().to_float32_array()
 	for index in a.size():
-		# Where only one has the caster's own surface in view, nothing is compared.
+		# Pixels that only one mask has as receivers, those on the caster itself, are not compared.
 		count += int(a[index] >= 0.0 and b[index] >= 0.0 and absf(a[index] - b[index]) > 1.0 / 255.0)
 	check(count < 50, "%s: %d pixels differ" % [what, count])
 	if expects_shadow:
@@ -44,7 +45,7 @@ func test_hidden_and_switched_off_casters_cast_nothing() -> void:
 	await _check_same(off, "cast_shadow off", false)
 
 
-func test_casters_of_shadows_only_and_of_both_sides_cast() -> void:
+func test_shadows_only_and_double_sided_casters_cast() -> void:
 	var both := func(scene: StudyScene) -> void: scene.caster.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_DOUBLE_SIDED
 	await _check_same(both, "double-sided")
 	# Seen from a camera that does not draw the caster, both look the same.
@@ -57,7 +58,7 @@ func test_casters_of_shadows_only_and_of_both_sides_cast() -> void:
 	check(count_different(expected, await _render(only)) == 0, "shadows only")
 
 
-func test_layers_choose_the_casters() -> void:
+func test_the_shadow_caster_mask_selects_casters_by_layer() -> void:
 	var other := func(scene: StudyScene) -> void:
 		scene.light.shadow_caster_mask = 1
 		scene.caster.layers = 2
@@ -68,7 +69,7 @@ func test_layers_choose_the_casters() -> void:
 	await _check_same(both, "a caster on a chosen layer")
 
 
-## A texture whose alpha is that of each column.
+## Makes a texture with these alphas, one per column.
 func _make_alpha_texture(columns: Array[float]) -> ImageTexture:
 	var image := Image.create_empty(columns.size(), 4, false, Image.FORMAT_RGBA8)
 	for x in columns.size():
@@ -84,7 +85,7 @@ func _make_cut_out(columns: Array[float], kind := BaseMaterial3D.TRANSPARENCY_AL
 	return material
 
 
-func test_cut_out_materials_cast_no_holes() -> void:
+func test_holes_of_cut_out_materials_cast_nothing() -> void:
 	for kind: BaseMaterial3D.Transparency in [BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR, BaseMaterial3D.TRANSPARENCY_ALPHA_HASH]:
 		var use := func(columns: Array[float]) -> Callable:
 			return func(scene: StudyScene) -> void: scene.caster.material_override = _make_cut_out(columns, kind)
@@ -98,19 +99,19 @@ func test_cut_out_materials_cast_no_holes() -> void:
 	check(striped > 100 and striped != whole, "%d darker pixels with stripes, %d of the whole box" % [striped, whole])
 
 
-func test_changes_of_cut_out_materials_are_followed() -> void:
+func test_changes_of_cut_out_materials_update_the_mask() -> void:
 	var scene := add_study()
 	var material := _make_cut_out([0.4, 0.4] as Array[float])
 	scene.caster.material_override = material
 	check(count_darker(await read_settled(scene)) == 0, "0.4 is below the threshold of 0.5")
 	material.alpha_scissor_threshold = 0.3
-	check(count_darker(await read_settled(scene)) > 500, "and above one of 0.3")
+	check(count_darker(await read_settled(scene)) > 500, "0.4 is above the threshold of 0.3")
 	material.albedo_color.a = 0.5
 	check(count_darker(await read_settled(scene)) == 0, "the colour's alpha multiplies it")
 	material.albedo_texture = _make_alpha_texture([1.0, 1.0] as Array[float])
-	check(count_darker(await read_settled(scene)) > 500, "another texture")
+	check(count_darker(await read_settled(scene)) > 500, "an opaque texture casts a shadow")
 	(material.albedo_texture as ImageTexture).update(_make_alpha_texture([0.1, 0.1] as Array[float]).get_image())
-	check(count_darker(await read_settled(scene)) == 0, "other texels")
+	check(count_darker(await read_settled(scene)) == 0, "changed texels below the threshold cast none")
 	remove(scene)
 
 

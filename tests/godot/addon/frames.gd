@@ -1,5 +1,5 @@
 extends AddonTest
-## What changes is right in the frame in which it changes.
+## Changes have their full effect on the mask in the frame in which they are made.
 
 
 func _check_change(scene: StudyScene, change: Callable, what: String) -> void:
@@ -68,6 +68,6 @@ func test_the_size_of_a_primitive_mesh_that_changes_is_followed() -> void:
 	var scene := add_study()
 	var before := await read_settled(scene)
 	scene.caster.mesh.size = Vector3(2, 0.5, 1)
-	await get_tree().process_frame  # Godot makes the mesh at the end of a frame
+	await get_tree().process_frame  # Godot rebuilds the mesh at the end of a frame
 	var after := await read_settled(scene)
 	check(count_different(before, after) > 100, "a wider box changes the mask")

@@ -1,11 +1,11 @@
 extends AddonTest
-## What masks do to the image: each light by its own mask, together with Godot's own shadows.
+## How masks change the image: each light uses its own mask, together with Godot's own shadows.
 
 const SIZE := Vector2i(160, 120)
-const ROUNDING := 0.004 # of half floats whose values reach 1 and more
+const ROUNDING := 0.004 # rounding error of half floats with values of 1 and more
 
 
-## A viewport with a world of its own whose image has linear values: one scene, drawn with some of its lights.
+## Adds a viewport that shows the scene in a world of its own, with linear values in its image.
 func _add_linear(scene: StudyScene, size := SIZE) -> SubViewport:
 	var viewport := SubViewport.new()
 	viewport.size = size
@@ -41,7 +41,7 @@ static func _add(left: PackedFloat32Array, right: PackedFloat32Array) -> PackedF
 	return sum
 
 
-## Of all kinds, two of them at one position and some on a line of sight, so that neither position nor direction distinguishes them.
+## Adds eight lights of all types. Two have the same position and some are on one line, so that neither position nor direction identifies one.
 func _add_eight_lights(scene: StudyScene) -> Array[Light3D]:
 	scene.light.free()
 	var lights: Array[Light3D] = []
@@ -87,7 +87,7 @@ func test_another_light_keeps_the_shadow_of_godot() -> void:
 	other.shadow_enabled = true
 	var viewport := _add_linear(scene)
 	var together := await _draw(viewport)
-	for frame in 3: # the other light has a size, therefore a stand-in light
+	for frame in 3: # the other light has a size, so the add-on replaces it by a stand-in light (stand_in_lights.h)
 		check(_find_largest_difference(together, await _draw(viewport, 1)) < ROUNDING, "the image is the same in each frame")
 	other.visible = false
 	var first := await _draw(viewport)
@@ -115,17 +115,17 @@ func test_an_unpatched_receiver_keeps_the_shadow_of_godot() -> void:
 		var original := await _draw(viewport)
 		scene.light.add_child(shadow)
 		var mixed := await _draw(viewport)
-		# The box has our light; the ground Godot's, in both images.
+		# In the second image only the box uses our mask. The ground keeps Godot's shadow.
 		var differing := 0
 		for pixel in range(0, original.size(), 3):
 			differing += int(absf(original[pixel] - mixed[pixel]) > ROUNDING)
-		var share := float(differing) / (SIZE.x * SIZE.y)
-		check(share < 0.02, "%s: %f of the image differ" % [kind, share])
+		var fraction := float(differing) / (SIZE.x * SIZE.y)
+		check(fraction < 0.02, "%s: %f of the image differ" % [kind, fraction])
 		check(scene.light.shadow_enabled and scene.light.light_specular == (1.0 if kind == "directional" else 0.5), "properties stay")
 		viewport.free()
 
 
-## What masks cannot be made for: an orthogonal camera.
+## The add-on makes no masks for orthogonal cameras.
 func test_a_view_without_masks_has_the_shadow_of_godot() -> void:
 	var scene := StudyScene.create("omni", "box")
 	scene.light.shadow_enabled = true
@@ -173,7 +173,7 @@ func test_particles_and_labels_change_nothing_else() -> void:
 	viewport.free()
 
 
-## A uniform with a name of ours, which functions must not hide.
+## The shader has a uniform with the name of one of the add-on's functions, so that it does not compile with them.
 func test_a_shader_that_does_not_compile_with_ours_stays() -> void:
 	var scene := StudyScene.create("directional", "box")
 	var material := ShaderMaterial.new()
@@ -241,7 +241,7 @@ void light() { DIFFUSE_LIGHT += LIGHT_COLOR * GNOMON_ATTENUATION * max(dot(NORMA
 "
 	var images: Array[PackedFloat32Array] = []
 	var plain := code.get_slice("void light", 0).replace("#include", "//")
-	for shader_code: String in [code, plain]: # its own light(), and the one that it gets
+	for shader_code: String in [code, plain]: # with its own light(), and with the one that the add-on adds
 		var material := ShaderMaterial.new()
 		material.shader = Shader.new()
 		material.shader.code = shader_code

@@ -1,12 +1,15 @@
 class_name MaterialLooks
-## Materials whose look has to stay, by name: those with shaders of Godot's own.
+## Makes materials by name. Where all masks are 1 the add-on must not change how they look; materials.gd checks that.
 
+## Names of materials that the add-on patches, so that they read masks. "none": no material, which Godot draws with a default one.
 const READS_MASKS: Array[String] = [
 	"plain", "rough_0.1", "rough_0.3", "rough_1", "specular_0", "specular_1", "metal_0.35", "metal_0.5", "metal_0.8", "metal_1",
 	"half_metal", "lambert", "wrap", "no_specular", "texture", "uv", "triplanar", "normal_map", "height", "detail", "emission",
 	"ambient_occlusion", "vertex_color", "scissor", "hash", "both_sides", "orm", "none", "custom",
 ]
+## Names of materials that the add-on cannot patch. It leaves them unchanged.
 const STAYS: Array[String] = ["toon", "rim", "clearcoat", "anisotropy", "backlight", "subsurface", "per_vertex", "alpha", "own_light"]
+## A shader with fragment(), to which the add-on appends. Its comment is a trap: it must not be taken for the function.
 const STRIPES := "shader_type spatial;
 uniform float count = 12.0;
 varying float height;
@@ -25,6 +28,7 @@ void light() { DIFFUSE_LIGHT += LIGHT_COLOR * ATTENUATION * max(dot(NORMAL, LIGH
 "
 
 
+## Makes the material of that name; null for "none".
 static func make(look: String) -> Material:
 	if look == "none":
 		return null
@@ -117,7 +121,7 @@ static func make(look: String) -> Material:
 	return material
 
 
-## Smooth in all channels, with alphas from 0 to 1.
+## Makes a texture that is smooth in all channels, with alphas from 0 to 1.
 static func make_texture() -> Texture2D:
 	var image := Image.create_empty(64, 64, false, Image.FORMAT_RGBA8)
 	for y in 64:

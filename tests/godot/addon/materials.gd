@@ -1,12 +1,12 @@
 extends AddonTest
-## Materials that read masks look as they do without, where the masks are 1.
+## Materials that read masks look as without the add-on where the masks are 1.
 
 const COLUMNS := 8
 const CELL_PX := 80
 const LIGHTS: Array[String] = ["sun", "sun_with_size", "omni", "omni_with_size", "spot", "spot_with_size"]
 const TOLERANCE := 1.0 / 255.0
 const METAL_TOLERANCE := 2.0 / 255.0
-const MOST_SHARE := 0.005 # of a material's pixels may differ by more
+const MAX_IGNORED_FRACTION := 0.005 # of a material's pixels may differ by more
 
 var _looks: Array[String] = MaterialLooks.READS_MASKS + MaterialLooks.STAYS
 var _viewport: SubViewport
@@ -24,7 +24,7 @@ func test_materials_look_the_same_without_shadows() -> void:
 	_viewport.free()
 
 
-## By light. Shaders change once only.
+## Returns light -> image. Shaders are patched only once, not for each light.
 func _draw_all(has_shadow: bool) -> Dictionary[String, Image]:
 	var images: Dictionary[String, Image] = {}
 	var shadow: Node3D
@@ -99,12 +99,12 @@ func _compare(light: String, original: Image, patched: Image) -> void:
 	for index in _looks.size():
 		@warning_ignore("integer_division")
 		var cell := Rect2i(Vector2i(index % COLUMNS, index / COLUMNS) * CELL_PX, Vector2i(CELL_PX, CELL_PX))
-		var most := _compare_cell(original.get_region(cell), patched.get_region(cell))
+		var difference := _compare_cell(original.get_region(cell), patched.get_region(cell))
 		var tolerance := METAL_TOLERANCE if "metal" in _looks[index] else TOLERANCE
-		check(most <= tolerance, "%s, %s: differs by %.1f / 255" % [_looks[index], light, most * 255])
+		check(difference <= tolerance, "%s, %s: differs by %.1f / 255" % [_looks[index], light, difference * 255])
 
 
-## What all but a few of the pixels that show the sphere differ by at most.
+## Returns the largest difference in the sphere's pixels, after the fraction MAX_IGNORED_FRACTION of the worst ones is ignored.
 func _compare_cell(original: Image, patched: Image) -> float:
 	var differences: Array[float] = []
 	for y in CELL_PX:
@@ -115,4 +115,4 @@ func _compare_cell(original: Image, patched: Image) -> float:
 				var b := patched.get_pixel(x, y)
 				differences.append(maxf(absf(a.r - b.r), maxf(absf(a.g - b.g), absf(a.b - b.b))))
 	differences.sort()
-	return differences[int(differences.size() * (1 - MOST_SHARE))]
+	return differences[int(differences.size() * (1 - MAX_IGNORED_FRACTION))]

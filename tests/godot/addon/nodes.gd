@@ -1,5 +1,5 @@
 extends AddonTest
-## The node itself: properties, warnings, and what it survives.
+## The properties and warnings of the node GnomonShadow3D, and how it reacts to bad values and new parents.
 
 
 func test_the_node_works_only_below_a_light() -> void:
@@ -26,11 +26,11 @@ func test_properties_follow_the_technique() -> void:
 	check(shadow.technique == "default", "the project's technique is the default")
 	var shown := _list_shown(shadow)
 	check("penumbra_outer_width" in shown and "penumbra_inner_width" in shown, "widths are shown")
-	check(not shown.any(func(property: String) -> bool: return property.begins_with("pcss_")), "of PCSS none is shown")
+	check(not shown.any(func(property: String) -> bool: return property.begins_with("pcss_")), "no property of PCSS is shown")
 	shadow.technique = "pcss"
 	shown = _list_shown(shadow)
 	var of_pcss := shown.filter(func(property: String) -> bool: return property.begins_with("pcss_"))
-	check(not of_pcss.is_empty(), "now they are")
+	check(not of_pcss.is_empty(), "the properties of PCSS are shown once it is chosen")
 	for property: String in of_pcss:
 		check(shadow.get(property) == ClassDB.class_get_property_default_value("GnomonShadow3D", property), property + " has its default")
 	shadow.free()
@@ -55,7 +55,7 @@ func test_values_out_of_range_are_refused() -> void:
 	shadow.free()
 
 
-func test_scenes_keep_what_was_set() -> void:
+func test_packed_scenes_store_all_properties_that_were_set() -> void:
 	var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
 	shadow.technique = "pcss"
 	shadow.penumbra_outer_width = 0.25

@@ -1,7 +1,7 @@
 extends Node
-## Frames of room/room.tscn, as a game draws them; the first argument is their number. Prints what Godot holds every 100.
+## Draws frames of room/room.tscn as a game does. First argument: number of frames. Prints Godot's resource counts every 100 frames.
 
-const LOOP_FRAMES := 200  # in which everything was seen once
+const LOOP_FRAMES := 200  # after which the camera has shown everything once
 const STEP_S := 0.1
 
 

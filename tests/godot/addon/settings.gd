@@ -5,7 +5,7 @@ const TECHNIQUE := "rendering/gnomon/default_technique"
 const SCALE := "rendering/gnomon/mask_resolution_scale"
 
 
-func test_the_project_names_the_technique_of_nodes_that_name_none() -> void:
+func test_nodes_without_a_technique_use_the_project_setting() -> void:
 	var scene := add_study()
 	var exact := await read_settled(scene)
 	scene.shadow.technique = "pcss"

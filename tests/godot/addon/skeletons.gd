@@ -1,12 +1,12 @@
 extends AddonTest
-## Skeletons and blend shapes: their casters are where Godot draws them, as meshes are whose vertices are at those positions.
+## Skeletons and blend shapes: the masks equal those of static meshes whose vertices are where Godot draws the deformed ones.
 
-const HEIGHT := 2.0
-const TALL := 12  # rows of quads
+const HEIGHT := 2.0  # of the column, m
+const ROW_COUNT := 12  # rows of quads
 const TOLERANCE := 2.0 / 255.0
 
 
-## A bone whose modifier turns it after all poses.
+## Rotates a bone after all poses are set.
 class Bend:
 	extends SkeletonModifier3D
 
@@ -14,11 +14,11 @@ class Bend:
 		get_skeleton().set_bone_pose_rotation(1, Quaternion(Vector3.BACK, 1.2))
 
 
-## A closed column from y = 0 to HEIGHT whose bones change with its height, `offset` off its position.
+## Returns the arrays of a closed column from y = 0 to HEIGHT, moved by `offset`. Its bones change with the height.
 func _make_arrays(influences := 4, offset := Vector3.ZERO) -> Array:
 	var box := BoxMesh.new()
 	box.size = Vector3(0.5, HEIGHT, 0.3)
-	box.subdivide_height = TALL
+	box.subdivide_height = ROW_COUNT
 	box.subdivide_width = 2
 	var arrays := box.get_mesh_arrays()
 	var positions: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
@@ -26,12 +26,12 @@ func _make_arrays(influences := 4, offset := Vector3.ZERO) -> Array:
 	var weights := PackedFloat32Array()
 	for index in positions.size():
 		positions[index].y += 0.5 * HEIGHT
-		positions[index] = positions[index].snapped(Vector3.ONE / 1024.0)  # faces meet to the last bit
-		var share := smoothstep(0.3, 1.7, positions[index].y)
-		# The tip's bone twice, of which the second is one of the last four where there are eight.
+		positions[index] = positions[index].snapped(Vector3.ONE / 1024.0)  # adjacent faces have exactly the same positions
+		var blend := smoothstep(0.3, 1.7, positions[index].y)
+		# The tip's bone occurs twice. With eight influences the second one is among the last four.
 		var of_vertex := [0, 1, 2, 0, 1, 2, 2, 0].slice(0, influences)
-		var tip := maxf(share - 0.5, 0.0) * 0.8
-		var values := [1.0 - share, share - 2.0 * tip, tip, 0.0, 0.0, tip, 0.0, 0.0].slice(0, influences)
+		var tip := maxf(blend - 0.5, 0.0) * 0.8
+		var values := [1.0 - blend, blend - 2.0 * tip, tip, 0.0, 0.0, tip, 0.0, 0.0].slice(0, influences)
 		if influences == 4:
 			values[2] *= 2.0
 		bones.append_array(PackedInt32Array(of_vertex))
@@ -67,7 +67,7 @@ func _bend(skeleton: Skeleton3D, angle: float) -> void:
 	skeleton.set_bone_pose_rotation(2, Quaternion(Vector3.RIGHT, 0.5 * angle))
 
 
-## The caster of a study scene becomes a bent column; neither it nor its skeleton is at the other's position.
+## Makes the caster of a study scene a bent column. The caster and its skeleton have different transforms.
 func _skin_caster(scene: StudyScene, mesh: Mesh, angle := 0.8) -> Skeleton3D:
 	var skeleton := _make_skeleton()
 	scene.add_child(skeleton)
@@ -79,7 +79,7 @@ func _skin_caster(scene: StudyScene, mesh: Mesh, angle := 0.8) -> Skeleton3D:
 	return skeleton
 
 
-## The arrays of a skinned mesh where Godot's shader takes its vertices; Godot's own baking misses them by the rounding of weights.
+## Returns the arrays of a skinned mesh with its vertices where Godot's shader moves them. Godot's own baking rounds weights differently.
 func _bake_arrays(node: MeshInstance3D) -> Array:
 	var skeleton := node.get_skin_reference().get_skeleton()
 	var arrays := node.mesh.surface_get_arrays(0)
@@ -104,7 +104,7 @@ func _bake_skeleton(node: MeshInstance3D, levels := {}) -> ArrayMesh:
 	return baked
 
 
-## The mask equals that of the mesh that is baked of what is drawn.
+## Checks that the mask equals that of the static mesh that `bake` makes of the drawn caster.
 func _check_as_baked(scene: StudyScene, bake: Callable, what: String) -> void:
 	var found := await read_settled(scene)
 	var material := scene.caster.get_active_material(0)
@@ -133,13 +133,13 @@ func test_a_skinned_mesh_casts_where_it_is_drawn() -> void:
 			await _check_skeleton(scene, "a bent column, %s, %s" % [light, technique])
 
 
-func test_eight_bones_a_vertex_count() -> void:
+func test_all_eight_bones_of_a_vertex_are_used() -> void:
 	var scene := add_study()
 	_skin_caster(scene, _make_mesh(8))
 	await _check_skeleton(scene, "eight bones")
 
 
-func test_modifiers_of_skeletons_count() -> void:
+func test_skeleton_modifiers_are_applied() -> void:
 	var scene := add_study()
 	var skeleton := _skin_caster(scene, _make_mesh(), 0.0)
 	var straight := await read_settled(scene)
@@ -150,7 +150,7 @@ func test_modifiers_of_skeletons_count() -> void:
 	await _check_skeleton(scene, "with a modifier")
 
 
-func test_a_pose_is_right_in_its_frame() -> void:
+func test_a_pose_changes_the_mask_in_the_same_frame() -> void:
 	for technique in ["edge_count", "pcss", "shadow_volume"]:
 		var scene := add_study("spot")
 		var skeleton := _skin_caster(scene, _make_mesh(), 0.1)
@@ -175,7 +175,7 @@ func test_a_figure_that_rests_outside_of_all_views_casts() -> void:
 		await _check_skeleton(scene, "a figure at rest far away, " + light)
 
 
-## There it shows that the weights of a vertex, rounded down to 16 bits, do not sum up to 1.
+## Far away it becomes visible that the weights of a vertex, rounded down to 16 bits, do not add up to 1.
 func test_a_figure_far_from_its_node_casts_where_it_is_drawn() -> void:
 	var scene := add_study()
 	var skeleton := _skin_caster(scene, _make_mesh(), 0.7)
@@ -230,7 +230,7 @@ func test_blend_shapes_come_before_bones() -> void:
 	var skeleton := _skin_caster(scene, _make_blended(Mesh.BLEND_SHAPE_MODE_NORMALIZED, true))
 	scene.caster.set_blend_shape_value(0, 0.5)
 	var found := await read_settled(scene)
-	# The same shape as a mesh of its own, with the same bones.
+	# The same shape as a mesh without blend shapes, with the same bones.
 	var arrays := _make_arrays()
 	var positions: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
 	for index in positions.size():
@@ -267,11 +267,11 @@ func test_holes_follow_the_bones() -> void:
 		await _check_skeleton(scene, "a column with holes, " + technique)
 
 
-## Godot draws the column with fewer triangles; its mask is that of all of them.
+## Godot draws the column with fewer triangles, and its mask equals that of the baked mesh with the same levels.
 func test_levels_of_detail_are_posed() -> void:
 	var arrays := _make_arrays()
 	var indices: PackedInt32Array = arrays[Mesh.ARRAY_INDEX]
-	var levels := {0.2: indices.slice(indices.size() / 9 * 3)}  # with a hole: any other triangles will do
+	var levels := {0.2: indices.slice(indices.size() / 9 * 3)}  # the column with a hole: any other set of triangles would do
 	var mesh := ArrayMesh.new()
 	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays, [], levels)
 	var scene := add_study()

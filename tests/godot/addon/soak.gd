@@ -1,6 +1,6 @@
 extends Node
-## 2,000 frames in which scenes, lights, casters and figures come and go, techniques change and the window is resized. Prints
-## what Godot holds every 100 frames.
+## Draws 2,000 frames in which scenes, lights, casters and figures come and go, techniques change and the window is resized. Prints
+## Godot's resource counts every 100 frames.
 
 const FRAMES := 2000
 const TECHNIQUES: Array[String] = [
@@ -15,7 +15,7 @@ func _ready() -> void:
 	_random.seed = 7
 	_add_permanent_world()
 	for frame in FRAMES:
-		# The same things in each stretch of 100 frames, so that stretches can be compared.
+		# Each 100 frames make the same changes, so that the counts can be compared.
 		await _change(frame % 100)
 		await RenderingServer.frame_post_draw
 		if frame % 100 == 99:
@@ -23,7 +23,7 @@ func _ready() -> void:
 	get_tree().quit()
 
 
-## A light that is always there, so that what the add-on caches is never freed as a whole.
+## Adds a light that is never removed, so that the add-on never frees all its caches.
 func _add_permanent_world() -> void:
 	var viewport := SubViewport.new()
 	viewport.own_world_3d = true
@@ -65,7 +65,7 @@ func _change(step: int) -> void:
 	skeleton.set_bone_pose_rotation(0, Quaternion(Vector3.BACK, 0.05 * (step % 20)))
 
 
-## A box that a bone turns.
+## Adds a box that a bone rotates.
 func _add_figure() -> void:
 	var skeleton := Skeleton3D.new()
 	skeleton.name = "Skeleton"
@@ -87,7 +87,7 @@ func _add_figure() -> void:
 	node.skeleton = node.get_path_to(skeleton)
 
 
-## With the permanent world alone in the tree, so that anything more that is held then was leaked.
+## Reports while only the permanent world is in the tree, so that any growth is a leak.
 func _report(frame: int) -> void:
 	remove_child(_scene)
 	_scene.queue_free()

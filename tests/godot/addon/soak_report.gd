@@ -2,7 +2,7 @@ class_name SoakReport
 extends RefCounted
 
 
-## Prints what Godot holds as "SOAK frame objects nodes resources textures_bytes buffers_bytes video_bytes memory_kib".
+## Prints Godot's resource counts as "SOAK frame objects nodes resources textures_bytes buffers_bytes video_bytes memory_kib".
 static func print_line(frame: int) -> void:
 	var device := RenderingServer.get_rendering_device()
 	print("SOAK %d %d %d %d %d %d %d %d" % [
@@ -17,7 +17,7 @@ static func print_line(frame: int) -> void:
 	])
 
 
-## Of the process, from Linux.
+## Returns the resident memory of the process, from Linux's /proc.
 static func _read_memory_kib() -> int:
 	var file := FileAccess.open("/proc/self/status", FileAccess.READ)
 	while not file.eof_reached():

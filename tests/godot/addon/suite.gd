@@ -1,5 +1,5 @@
 extends Node
-## Runs every test of the add-on: functions named test_* of the scripts below. Prints PASS or FAIL for each.
+## Runs the tests of the add-on: functions named test_* of the scripts below. Arguments: names of tests; none: all. Prints PASS or FAIL for each.
 
 const CASES: Array[GDScript] = [
 	preload("res://tests/frames.gd"),

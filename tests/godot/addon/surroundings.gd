@@ -2,7 +2,7 @@ extends AddonTest
 ## Decals, fog, global illumination, and physics interpolation around lights with masks.
 
 const SIZE := Vector2i(160, 120)
-const ROUNDING := 0.004 # one step of 8 bits
+const ROUNDING := 0.004 # about 1/255, one step of an 8-bit image
 
 
 func _draw(viewport: SubViewport, frames := 4) -> PackedFloat32Array:
@@ -12,7 +12,7 @@ func _draw(viewport: SubViewport, frames := 4) -> PackedFloat32Array:
 	return image.get_data().to_float32_array()
 
 
-## The share of pixels that differ by more than the tolerance.
+## Returns the fraction of pixels that differ by more than the tolerance.
 static func _compare(left: PackedFloat32Array, right: PackedFloat32Array, tolerance: float) -> float:
 	var count := 0
 	for pixel in range(0, left.size(), 3):
@@ -38,7 +38,7 @@ func _get_environment(scene: StudyScene) -> Environment:
 	return (scene.find_children("*", "WorldEnvironment", true, false)[0] as WorldEnvironment).environment
 
 
-## With Godot's shadow alone, and with ours; the light's shadow is on in both.
+## Draws with Godot's shadow only, and with ours. The light's shadow is enabled in both.
 func _draw_both(scene: StudyScene, frames := 4) -> Array[PackedFloat32Array]:
 	scene.light.shadow_enabled = true
 	var viewport := _add_linear(scene)
@@ -97,7 +97,7 @@ func test_reflection_probes_see_the_shadow_of_godot() -> void:
 	probe.position = Vector3(0, 1, 0)
 	scene.add_child(probe)
 	var images := await _draw_both(scene, 16)
-	# Where the shadows themselves differ, along their edges, so do the images.
+	# The shadows differ along their edges, and the images with them.
 	check(_compare(images[0], images[1], 0.05) < 0.05, "%f of the image differ" % _compare(images[0], images[1], 0.05))
 	scene.get_viewport().free()
 
@@ -116,13 +116,13 @@ func test_a_mask_is_made_where_a_surface_reads_it() -> void:
 	var scene := add_study("spot")
 	await draw_frames(3)
 	check(scene.shadow.makes_mask(), "the ground reads it")
-	var toon := StandardMaterial3D.new()
-	toon.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
+	var unshaded := StandardMaterial3D.new()
+	unshaded.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
 	for node in ["Ground", "Caster"]:
-		scene.get_node(node).material_override = toon
+		scene.get_node(node).material_override = unshaded
 	await draw_frames(3)
 	check(not scene.shadow.makes_mask(), "nothing takes light")
-	var larger := SubViewport.new() # than any before: no room is made where there are no masks
+	var larger := SubViewport.new() # larger than any before: without masks no textures of this size are allocated
 	larger.size = Vector2i(640, 480)
 	larger.render_target_update_mode = SubViewport.UPDATE_ALWAYS
 	larger.add_child(scene.camera.duplicate())
@@ -146,7 +146,7 @@ func test_a_mask_is_made_where_a_surface_reads_it() -> void:
 	remove(scene)
 
 
-## With a hidden node in the tree all is as without it: materials do not wait for masks with a light() that knows no sizes.
+## A hidden node changes nothing: materials must not have the add-on's light() already, which ignores sizes of lights.
 func test_a_hidden_node_leaves_materials_as_they_were() -> void:
 	var scene := StudyScene.create("omni", "box")
 	scene.get_node("Ground").material_override = StandardMaterial3D.new()
@@ -165,7 +165,7 @@ func test_a_hidden_node_leaves_materials_as_they_were() -> void:
 	viewport.free()
 
 
-## Between two ticks of physics Godot draws nodes where they are on their way.
+## Between two physics ticks Godot draws nodes at interpolated positions.
 func test_physics_interpolation_moves_masks_too() -> void:
 	var ticks := Engine.physics_ticks_per_second
 	Engine.physics_ticks_per_second = 4
@@ -175,7 +175,7 @@ func test_physics_interpolation_moves_masks_too() -> void:
 	await draw_frames(3)
 	var drawn: Array[Transform3D] = []
 	var found: Image
-	for attempt in 60: # until a frame between two ticks is met
+	for attempt in 60: # until a frame is drawn between two ticks
 		await get_tree().physics_frame
 		var side := 1.0 if attempt % 2 == 0 else -1.0
 		scene.caster.position.x = 0.7 * side

@@ -1,5 +1,5 @@
 extends AddonTest
-## Viewports of every kind.
+## Masks in viewports of every kind: several views, scaling, multisampling, compositors, levels of detail, TAA.
 
 
 class CountingEffect:
@@ -13,7 +13,7 @@ class CountingEffect:
 		calls += 1
 
 
-## All masks that views of the scene show, by size.
+## Returns size -> mask, for all views of the scene.
 func _read_all(scene: StudyScene) -> Dictionary:
 	var masks := {}
 	await draw_frames(2)
@@ -89,7 +89,7 @@ func test_windows_that_stretch_their_content_have_masks() -> void:
 	remove(scene)
 
 
-## The window system may take its time.
+## Resizes the window, and waits up to 60 frames until the window system has done it.
 func _resize(size: Vector2i) -> void:
 	get_window().size = size
 	for frame in 60:
@@ -159,7 +159,7 @@ func test_orthogonal_cameras_are_refused_with_one_message() -> void:
 	check(count_darker(await read_settled(scene)) > 500, "a mask again")
 
 
-## A sphere with simpler meshes for when it is small in the image, as Godot's import makes them.
+## Makes the caster a sphere with levels of detail, as Godot's importer generates them.
 func _add_sphere_with_levels(scene: StudyScene) -> void:
 	var sphere := SphereMesh.new()
 	sphere.radial_segments = 96
@@ -198,7 +198,7 @@ func test_antialiasing_over_time_leaves_the_mask_where_it_is() -> void:
 	get_viewport().use_taa = true
 	for frame in 4:
 		var found := await read(scene)
-		var far := count_different(plain, found, 0.1)  # outlines, and where the box touches its shadow
-		check(far < 600, "frame %d: %d pixels differ by more than 0.1" % [frame, far])
+		var different_count := count_different(plain, found, 0.1)  # outlines, and where the box touches its shadow
+		check(different_count < 600, "frame %d: %d pixels differ by more than 0.1" % [frame, different_count])
 	get_viewport().use_taa = false
 	await draw_frames(2)

@@ -1,6 +1,7 @@
 @tool
 extends EditorPlugin
-## Drives the editor as somebody would: ticks the box of a light, drags its size, undoes, saves. Prints PASS or FAIL for each.
+## Drives the editor as a user would: ticks the box of a light, drags its size, undoes, saves, switches the add-on off and on. Prints PASS or
+## FAIL for each check.
 
 const SCENE := "res://lamp.tscn"
 const SETTLED_FRAMES := 12
@@ -54,7 +55,7 @@ func _run() -> void:
 	get_tree().quit()
 
 
-## What the viewport shows, without the editor's own things, which are in layers of their own.
+## Stores the viewport's images without the editor's gizmos, which are on layers of their own.
 func _store_view() -> void:
 	var viewport := EditorInterface.get_editor_viewport_3d(0)
 	var camera := viewport.get_camera_3d()
@@ -80,7 +81,7 @@ func _select_and_look() -> Image:
 	return await _look()
 
 
-## The 3D viewport, without what the mouse is over.
+## Returns the image of the 3D viewport, after moving the mouse away so that nothing is highlighted.
 func _look() -> Image:
 	_move(Vector2(2, 2))
 	await _draw(SETTLED_FRAMES)

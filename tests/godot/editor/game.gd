@@ -1,6 +1,6 @@
 extends Node
-## Shows the scene that the editor saved: prints its nodes, stores its image as NAME.png in the folder FOLDER, and for the
-## name "game" what LightImages does. Arguments: NAME FOLDER.
+## Shows the scene that the editor saved: prints its nodes and stores its image as NAME.png in the folder FOLDER. For the
+## name "game" it also stores the images of LightImages. Arguments: NAME FOLDER.
 
 
 func _ready() -> void:

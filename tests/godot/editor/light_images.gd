@@ -1,12 +1,12 @@
 @tool
 class_name LightImages
 extends RefCounted
-## What a comparison with the reference needs of a light with a GnomonShadow3D, of one view.
+## Stores the images of one view that are needed to compare the shadow of a light's GnomonShadow3D with the reference.
 
 const SETTLED_FRAMES := 12
 
 
-## Linear float32 images of the red channel, rows from the top: NAME_shadow.f32, NAME_lit.f32 without the shadow, NAME_dark.f32
+## Stores linear float32 images of the red channel, rows from the top: NAME_shadow.f32, NAME_lit.f32 without the shadow, NAME_dark.f32
 ## without the light. NAME.gltf is the scene with a camera ViewCamera that sees what the view does.
 static func store(name: String, viewport: Viewport, scene: Node, light: Light3D) -> void:
 	var shadow: Node3D = light.get_node("GnomonShadow3D")
@@ -20,7 +20,7 @@ static func store(name: String, viewport: Viewport, scene: Node, light: Light3D)
 	shadow.visible = true
 	viewport.use_hdr_2d = false
 	await _settle(viewport)
-	var copy := scene.duplicate(0)  # with what is not saved yet
+	var copy := scene.duplicate(0)  # includes unsaved changes
 	var seen := viewport.get_camera_3d()
 	var camera := Camera3D.new()
 	camera.name = "ViewCamera"
@@ -31,13 +31,13 @@ static func store(name: String, viewport: Viewport, scene: Node, light: Light3D)
 	viewport.add_child(copy)
 	copy.add_child(camera)
 	for node in copy.find_children("*", "", true, false):
-		node.owner = copy  # the editor exports no others
+		node.owner = copy  # nodes without an owner are not exported
 	print("SIZE %s %d %d" % [name, viewport.size.x, viewport.size.y])
 	GltfExport.save(copy, "res://%s.gltf" % name)
 	copy.free()
 
 
-## The editor draws only where something changes: its frames are those of the tree.
+## Waits for process frames, because the editor draws only when something changes.
 static func _settle(viewport: Viewport) -> void:
 	for frame in SETTLED_FRAMES:
 		await viewport.get_tree().process_frame

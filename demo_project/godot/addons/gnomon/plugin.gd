@@ -1,7 +1,7 @@
 @tool
 extends EditorPlugin
-## The add-on's part of the editor: a checkbox in the inspector of lights, a gizmo with their size. The shadows themselves
-## are made by its library, in the game too.
+## The add-on's editor plugin: project settings, a checkbox in the inspector of lights, and a gizmo for their size. The
+## shadows themselves are made by the add-on's library, in the editor and in games.
 
 const ENABLED := "rendering/gnomon/enabled"
 const SETTINGS: Array[Dictionary] = [
@@ -57,7 +57,7 @@ func _enable_plugin() -> void:
 	_set_enabled(true)
 
 
-## All lights get Godot's shadows back, in the editor and in the game.
+## Gives all lights Godot's shadows back, in the editor and in games.
 func _disable_plugin() -> void:
 	_set_enabled(false)
 
@@ -65,10 +65,10 @@ func _disable_plugin() -> void:
 func _set_enabled(is_enabled: bool) -> void:
 	ProjectSettings.set_setting(ENABLED, is_enabled)
 	ProjectSettings.save()
-	RenderingServer.force_draw.call_deferred(false) # the editor draws when something in the scene changes
+	RenderingServer.force_draw.call_deferred(false) # else the editor draws only when the scene changes
 
 
-## Of the lights of a scene that was open before, and takes them away again.
+## Makes the gizmos of lights in the scene that is open already. Once the gizmo plugin is removed, clears them.
 func _make_gizmos() -> void:
 	var root := EditorInterface.get_edited_scene_root()
 	if root:

@@ -1,6 +1,6 @@
 @tool
 extends EditorInspectorPlugin
-## A checkbox in the inspector of lights, below Light3D: whether the light has a GnomonShadow3D.
+## Adds a checkbox to the inspector of lights, below Light3D, which adds a GnomonShadow3D to the light or removes it.
 
 const CLASS := "GnomonShadow3D"
 
@@ -17,7 +17,7 @@ func _parse_category(object: Object, category: String) -> void:
 		editor.light = object
 		editor.undo_redo = undo_redo
 		editor.label = "Gnomon Shadow"
-		add_property_editor_for_multiple_properties("", PackedStringArray(), editor) # of no property that could be reverted
+		add_property_editor_for_multiple_properties("", PackedStringArray(), editor) # without a property, so that it has no revert button
 
 
 class ShadowCheckBox:

@@ -1,13 +1,14 @@
 @tool
 extends EditorNode3DGizmoPlugin
-## The size of a light with a GnomonShadow3D: a sphere of light_size, or the cone of light_angular_distance, with a handle.
+## Draws the size of a light with a GnomonShadow3D, with a handle that changes it: a sphere of radius light_size, or the cone
+## of light_angular_distance.
 
 const CLASS := "GnomonShadow3D"
 const SIZE := "light_size"
 const ANGLE := "light_angular_distance"
 const CIRCLE_POINTS := 48
-const CONE_LENGTH := 2.0 # of a sun's cone, in metres
-const HANDLE := Vector3(0.7071068, -0.7071068, 0) # its direction, clear of the axes by which the light is moved
+const CONE_LENGTH := 2.0 # of a directional light's cone, in metres
+const HANDLE := Vector3(0.7071068, -0.7071068, 0) # its direction, away from the axes of the editor's move gizmo
 
 var undo_redo: EditorUndoRedoManager
 
@@ -75,7 +76,7 @@ func _get_handle_value(gizmo: EditorNode3DGizmo, _handle: int, _secondary: bool)
 	return light.get(_get_property(light))
 
 
-## The handle follows the mouse along its line.
+## Moves the handle along its line to the point closest to the mouse.
 func _set_handle(gizmo: EditorNode3DGizmo, _handle: int, _secondary: bool, camera: Camera3D, mouse: Vector2) -> void:
 	var light: Light3D = gizmo.get_node_3d()
 	var pose := light.global_transform.orthonormalized()
