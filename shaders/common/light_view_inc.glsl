@@ -7,7 +7,9 @@
 /// A receiver in map coordinates, and how w changes over the map on the receiver's plane.
 struct MapPoint {
 	vec2 xy;
-	float w; // 0: behind the light; orthographic: 0 or less beyond the far plane
+	// Perspective: 0 behind the light. Orthographic: 0 or less beyond the far plane, which is behind all casters but not
+	// behind all receivers.
+	float w;
 	vec2 w_slope; // dw/dx, dw/dy on the receiver's plane: exact, since w is linear on a plane
 };
 
@@ -50,6 +52,11 @@ MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_norma
 		point.w_slope = abs(height) < 1e-7 ? vec2(0.0) : n.xy / height;
 	}
 	return point;
+}
+
+/// True when the receiver is behind the light's view, so that no caster hides it.
+bool is_behind_view(LightViewConstants p_view, MapPoint p_point) {
+	return p_view.is_orthographic == 0u && p_point.w <= 0.0;
 }
 
 /// Map coordinates to texel coordinates: texel centres are at integers plus 0.5.

@@ -46,7 +46,7 @@ float hiding_w(LightViewConstants p_view, MapPoint p_point, ivec2 p_texel) {
 /// receivers beyond the far plane, whose w is below 0.
 float compare_texel(
 		LightViewConstants p_view, MapPoint p_point, ivec2 p_texel, float p_stored) {
-	return p_stored > hiding_w(p_view, p_point, p_texel) * p_view.depth_scale ? 0.0 : 1.0;
+	return p_stored > max(hiding_w(p_view, p_point, p_texel) * p_view.depth_scale, 0.0) ? 0.0 : 1.0;
 }
 
 /// Compares with the nearest texel; returns 1 for lit, 0 for hidden. Lit outside the map, where no caster projects.

@@ -29,7 +29,8 @@ MapPoint load_map_point(ivec2 p_pixel, out uint r_view) {
 /// True when the receiver counts as lit without a lookup, because it is behind the view or the view was not drawn.
 /// p_empty_views: bit i is set when view i was not drawn, for lack of casters or receivers.
 bool is_trivially_lit(MapPoint p_point, uint p_view, uint p_empty_views) {
-	return (p_empty_views & (1u << p_view)) != 0u || p_point.w <= 0.0;
+	return (p_empty_views & (1u << p_view)) != 0u ||
+			is_behind_view(light_views.views[p_view], p_point);
 }
 
 #endif

@@ -19,7 +19,8 @@ void main() {
 		const ReceiverPixel receiver = load_receiver(pixel);
 		const uint view = find_view(light_views, receiver.position);
 		const MapPoint point = project_to_map(light_views.views[view], receiver.position, receiver.normal);
-		const bool is_trivially_lit = (light.empty_views & (1u << view)) != 0u || point.w <= 0.0;
+		const bool is_trivially_lit = (light.empty_views & (1u << view)) != 0u ||
+				is_behind_view(light_views.views[view], point);
 		visibility = is_trivially_lit
 				? 1.0
 				: pcss(map_texture, light.empty_views, light_views.views[view], point, light.disc_radius,

@@ -17,10 +17,10 @@ layout(push_constant) uniform Push {
 float find_visibility(ivec2 p_pixel) {
 	uint view_index;
 	const MapPoint point = load_map_point(p_pixel, view_index);
-	if (point.w <= 0.0) {
-		return 1.0; // behind its view, or beyond the far plane
-	}
 	const LightViewConstants view = light_views.views[view_index];
+	if (is_behind_view(view, point)) {
+		return 1.0;
+	}
 	const float margin = hiding_margin(view, point);
 	const vec2 radius = 2.0 * push.radius_uv * view.half_extent;
 	const uvec2 cell = uvec2(p_pixel) % JITTERED_PCF_SETS_PER_SIDE;

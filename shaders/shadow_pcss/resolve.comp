@@ -20,7 +20,7 @@ void main() {
 	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		visibility = point.w <= 0.0 // behind its view, or beyond the far plane
+		visibility = is_behind_view(light_views.views[view], point)
 				? 1.0
 				: pcss(map_texture, push.empty_views, light_views.views[view], point,
 						  push.light_radius, push.nearest_w[view], push.tap_count,

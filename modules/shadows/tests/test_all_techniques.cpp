@@ -29,6 +29,23 @@ TEST_CASE("[GPU][Techniques] masks are finite, in 0..1, and hold light and shado
 	});
 }
 
+TEST_CASE(
+		"[GPU][Techniques] receivers farther from the light than all casters are hidden by them") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		use_cheap_settings(*scene.light);
+		scene.ground->casts_shadow = false;
+		scene.box->parent_from_node[3].y += 0.7; // higher above the ground
+		const MaskResult result = fixture.render_mask(scene, p_info.id);
+		size_t dark_count = 0;
+		for (size_t index = 0; index < result.visibility.size(); ++index) {
+			dark_count += result.receiver[index] > 0 && result.visibility[index] < 0.05f;
+		}
+		CHECK(dark_count > 30);
+	});
+}
+
 TEST_CASE("[GPU][Techniques] without casters every receiver sees all of the light, exactly") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
