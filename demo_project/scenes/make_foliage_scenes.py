@@ -72,7 +72,7 @@ def make_leaves_scene(generator, count):
 
 def make_wall(half_x, half_y, repeats):
     """Return a box for a wall, without its bottom."""
-    mesh = Mesh(is_closed=False, is_manifold=False)
+    mesh = Mesh(is_closed=False)
     card = make_card(half_x, half_y, repeats)
     thickness = 0.08  # half that of the wall
     for turn, depth in ((0.0, thickness), (math.pi, -thickness)):

@@ -84,6 +84,8 @@ void AnimationPart::plan(const ReportOptions &p_options, const AddConfiguration 
 				p_add(configuration,
 						[=, size_px = p_options.size_px, filter_hash = p_options.filter_hash](
 								const PropertyValues &) {
+							// Lights keep their own penumbra widths: an animation is measured as
+							// the project has it.
 							return make_task(item, *animation, light, time_s, size_px, filter_hash);
 						});
 			}
@@ -109,7 +111,7 @@ MaskImage AnimationPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 	}
 	const MaskImage references[] = { p_references[0].mask, p_references[1].mask };
 	cell.error = ReportError{ compute_mask_metrics(references[0], drawn.frames[0]), {} };
-	cell.error->whole_light = cell.error->all; // not measured separately in report parts
+	cell.error->whole_light = cell.error->all; // see doc/report_format.md
 	cell.stability = ReportStability();
 	cell.stability->temporal_rmse =
 			compute_temporal_metrics(references, drawn.frames).penumbra_rmse;

@@ -72,6 +72,9 @@ uint64_t hash_appearance(const SceneSnapshot &p_scene, uint64_t p_hash) {
 		p_hash = compute_value_hash(material.emissive, p_hash);
 		p_hash = compute_value_hash(material.metallic, p_hash);
 		p_hash = compute_value_hash(material.roughness, p_hash);
+		p_hash = compute_value_hash(material.shading_model, p_hash);
+		p_hash = compute_value_hash(material.normal_scale, p_hash);
+		p_hash = compute_value_hash(material.occlusion_strength, p_hash);
 	}
 	return p_hash;
 }

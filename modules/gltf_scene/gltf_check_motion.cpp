@@ -70,7 +70,7 @@ void check_morph_weights(const GltfObject &p_object) {
 				return p_weight.is_number() && std::abs(p_weight.get<double>()) <= FLT_MAX;
 			});
 	if (!is_good) {
-		p_object.report_value("weights", "a list of numbers", "0");
+		p_object.report_value("weights", "a list of finite numbers", "the default");
 		p_object.erase("weights");
 	}
 }

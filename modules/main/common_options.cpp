@@ -117,11 +117,11 @@ glm::uvec2 parse_size(const std::string &p_text) {
 }
 
 glm::uvec2 choose_size(const std::optional<std::string> &p_text, const fs::path &p_scene_path) {
+	const std::string from_project =
+			find_project_default(p_scene_path, "size").value_or(DEFAULT_SIZE);
 	if (p_text) {
 		return parse_size(*p_text);
 	}
-	const std::string from_project =
-			find_project_default(p_scene_path, "size").value_or(DEFAULT_SIZE);
 	const std::optional<glm::uvec2> size_px = try_parse_size(from_project);
 	if (!size_px) {
 		fail("The project of ", p_scene_path, ": size in [defaults] is \"", from_project,

@@ -148,12 +148,19 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	request.antialiasing = p_options.antialiasing.value_or(1); // `gnomon run` has set it
 	request.mode = RenderGraph::Mode::QUEUE;
 	const std::shared_ptr<const ReferenceMask> &reference = p_options.reference;
+	request.debug_view = p_options.debug_view;
+	request.needs_debug_view = true;
+	request.reference = reference;
 	GameState state{ r_scene, request, p_options.playback, reference != nullptr };
 	RenderResult result;
 	Clock::time_point last = Clock::now();
 	uint32_t drawn_count = 0;
 	const bool has_files = !p_options.capture.empty() || !p_options.dot.empty();
 	bool has_drawn_last = false;
+	// Also for a window that is closed before its first frame.
+	fly_camera.apply(camera);
+	state.playback.advance(r_scene, 0.0);
+	request.scene = build_snapshot(r_scene, camera);
 	while (window.poll()) {
 		const Clock::time_point now = Clock::now();
 		const double seconds = std::chrono::duration<double>(now - last).count();
@@ -197,7 +204,6 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	if (has_files && !has_drawn_last) {
 		// The window was closed. That its last frame was the last is known only now: it is drawn
 		// again for the files.
-		request.scene = build_snapshot(r_scene, camera);
 		request.size_px = r_size_px;
 		request.acquire_window_image = nullptr;
 		request.wants_image = !p_options.capture.empty();

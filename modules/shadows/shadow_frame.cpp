@@ -299,7 +299,7 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 	for (LightView &view : views) {
 		if (r_technique.queries_receivers_only()) {
 			fit_to_receivers(view, p_work.lit_receivers,
-					compute_fit_reach_m(view, p_work.light, p_work.scene));
+					compute_fit_reach_m(view, p_work.light, p_work.scene, p_work.lit_receivers));
 		}
 		casters.push_back(cull_casters(p_work.scene, p_casts, view, options.may_skip));
 		// While debug views are shown, every view counts as having receivers, so that its map is

@@ -15,13 +15,18 @@ const double MAX_FILL = 0.75;
 
 } // namespace
 
-double compute_fit_reach_m(
-		const LightView &p_view, const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
+double compute_fit_reach_m(const LightView &p_view, const LightSnapshot &p_light,
+		const SceneSnapshot &p_scene, const VisibleReceivers &p_receivers) {
 	const double widest_m =
 			std::max({ p_light.penumbra_outer_width_m, p_light.penumbra_inner_width_m, 0.0f });
 	const double tangent =
 			std::max(double(p_light.get_disc_radius()), widest_m / p_scene.scene_size_m);
-	const double depth_m = double(p_view.far_m) - p_view.near_m;
+	double farthest_m = p_view.far_m;
+	for (const VisibleReceiver &receiver : p_receivers.list) {
+		farthest_m = std::max(farthest_m,
+				double(transform_bounds(receiver.bounds_world, p_view.view_from_world).maximum.z));
+	}
+	const double depth_m = farthest_m - p_view.near_m;
 	return tangent * depth_m + widest_m + p_view.caster_margin_m + 1e-3 * p_scene.scene_size_m;
 }
 

@@ -6,8 +6,9 @@ namespace gnomon {
 
 /// Upper bound of the distance, in metres across the view, from a receiver to any caster that may
 /// hide the directional light from it, and to any texel that a technique samples for its penumbra.
-double compute_fit_reach_m(
-		const LightView &p_view, const LightSnapshot &p_light, const SceneSnapshot &p_scene);
+/// Receivers may be beyond the view's far plane.
+double compute_fit_reach_m(const LightView &p_view, const LightSnapshot &p_light,
+		const SceneSnapshot &p_scene, const VisibleReceivers &p_receivers);
 
 /// Narrows a directional view, which holds all casters, to the receivers plus p_reach_m on each
 /// side, so that texels are not spent on ground that the camera does not see. The view's size is

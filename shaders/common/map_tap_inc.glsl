@@ -54,8 +54,9 @@ bool is_hidden_at(texture2DArray p_map, uint p_empty_views, LightViewConstants p
 			(floor(texels_from_map(p_view, p_xy)) + 0.5) * extent - p_view.half_extent;
 	const float plane_w = p_point.w + dot(p_point.w_slope, centre - p_point.xy);
 	r_w = lookup_w(p_map, p_empty_views, p_view, p_xy);
+	const float min_plane_w = min(p_point.w, p_point.w * MIN_PLANE_W_RATIO);
 	// An empty texel, whose w is 0, hides nothing, also for receivers beyond the far plane.
-	return r_w > max(max(plane_w, p_point.w * MIN_PLANE_W_RATIO) + p_margin, 0.0);
+	return r_w > max(max(plane_w, min_plane_w) + p_margin, 0.0);
 }
 
 #endif

@@ -14,8 +14,12 @@ float pcss(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, 
 	// A blocker with map coordinate w, at map offset o from the receiver, hides the point o / (w - w_receiver) of the
 	// light's disc. So blockers are at most p_radius * (w - w_receiver) away.
 	const vec2 extent = texel_extent(p_view);
-	const float search_radius = min(p_radius * max(p_nearest_w - p_point.w, 0.0),
-			max(p_view.half_extent.x, p_view.half_extent.y));
+	// No caster is farther away than the map reaches. A directional view is fitted to the casters, so a receiver may be
+	// outside of it.
+	const float map_reach = p_view.is_orthographic != 0u
+			? length(abs(p_point.xy) + p_view.half_extent)
+			: max(p_view.half_extent.x, p_view.half_extent.y);
+	const float search_radius = min(p_radius * max(p_nearest_w - p_point.w, 0.0), map_reach);
 	float blocker_w = 0.0;
 	uint blocker_count = 0u;
 	for (uint i = 0u; i < p_tap_count; ++i) {

@@ -89,8 +89,14 @@ TEST_CASE("[LightView] the reach grows with the light's angle and with its penum
 	light.light_angular_distance_deg = 2.0f;
 	light.penumbra_outer_width_m = light.penumbra_inner_width_m = 0.0f;
 	const double depth_m = scene.whole.far_m - scene.whole.near_m;
-	const double narrow_m = compute_fit_reach_m(scene.whole, light, *scene.snapshot);
+	const double narrow_m = compute_fit_reach_m(scene.whole, light, *scene.snapshot, {});
 	CHECK(narrow_m >= depth_m * std::tan(glm::radians(1.0)));
+	// A receiver far behind all casters, along the light's direction.
+	const glm::dvec3 far_world(
+			glm::inverse(scene.whole.view_from_world) * glm::dvec4(0.0, 0.0, 10.0 * depth_m, 1.0));
+	CHECK(compute_fit_reach_m(
+				  scene.whole, light, *scene.snapshot, scene.make_receivers(far_world, 0.1)) >=
+			9.0 * depth_m * std::tan(glm::radians(1.0)));
 	light.penumbra_outer_width_m = 1.0f;
-	CHECK(compute_fit_reach_m(scene.whole, light, *scene.snapshot) > narrow_m);
+	CHECK(compute_fit_reach_m(scene.whole, light, *scene.snapshot, {}) > narrow_m);
 }
