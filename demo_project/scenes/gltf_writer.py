@@ -147,7 +147,7 @@ class Mesh:
         self.triangles += [(a, b, c), (a, c, d)]
 
     def add_mesh(self, other, rotation=(0.0, 0.0, 0.0, 1.0), translation=(0.0, 0.0, 0.0)):
-        """Append a copy that is rotated, then translated."""
+        """Append a copy that is rotated, then translated. Joints, weights and morph targets are not copied."""
         first = len(self.positions)
         for position, normal in zip(other.positions, other.normals):
             self.add_vertex(add(rotate(rotation, position), translation), rotate(rotation, normal))

@@ -148,7 +148,8 @@ DrawnMasks RenderedMaskSource::draw(
 	for (const MaskTask &task : p_tasks) {
 		RenderRequest request = make_request(task, p_technique);
 		if (task.scene->lights.size() > 1) {
-			// Also draws all lights in one frame, not only the light that is measured.
+			// Also draws all lights in one frame: it must end without validation messages, and its
+			// warnings belong to the cell.
 			RenderRequest whole_frame = request;
 			whole_frame.mask_light.clear();
 			whole_frame.wants_mask = false;

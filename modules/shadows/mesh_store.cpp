@@ -22,7 +22,7 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 	};
 	const BufferUsage usage = BufferUsage::VERTEX | BufferUsage::STORAGE |
 			(p_mesh->rest ? BufferUsage::COPY_SOURCE
-						  : BufferUsage::VERTEX); // hosts may read it back
+						  : BufferUsage::VERTEX); // deformed vertices can be read back
 	mesh.positions = upload("positions", usage, std::span<const glm::vec3>(p_mesh->positions_node));
 	mesh.normals = upload("normals", usage, std::span<const glm::vec3>(p_mesh->normals_node));
 	mesh.indices = rest_indices ? rest_indices

@@ -23,7 +23,7 @@ struct GpuMesh {
 	OwnedBuffer tangents;	 // only of a deformed mesh, once requested: four floats each
 	BufferRID rest_tangents; // tangents at rest, from which `tangents` are computed
 	uint32_t index_count = 0;
-	uint64_t pose_hash = 0; // hash of the pose that the vertices have; 0: at rest
+	uint64_t pose_hash = 0; // hash of the pose that the vertices have; 0: deform them again
 	std::weak_ptr<const Mesh> mesh;
 };
 

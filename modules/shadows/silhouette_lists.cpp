@@ -10,7 +10,8 @@ namespace gnomon {
 
 namespace {
 
-// With up to twelve vertices per edge, vertex indices still fit into 32 bits.
+// Of all casters of a light, so that sums of edges and their vertices (up to twelve each) fit into
+// 32 bits.
 constexpr uint32_t MAX_EDGE_COUNT = 300'000'000;
 
 uint32_t divide_up(uint32_t p_value, uint32_t p_divisor) {

@@ -17,7 +17,7 @@ layout(push_constant) uniform Push {
 const float SURFACE_TOLERANCE = 1e-3;
 
 // Resizes the masks: averages the four mask pixels around this pixel with bilinear weights, which are reduced for
-// pixels that are not on this pixel's surface. A mask below 0 marks a surface that faces away from the light and is not
+// pixels that are not on this pixel's surface. A mask below 0 marks a pixel that is no receiver of the light and is not
 // averaged: the result is -1 if the pixel with the largest weight has such a mask.
 void main() {
 	const ivec3 item = ivec3(gl_GlobalInvocationID);
@@ -37,7 +37,7 @@ void main() {
 	for (int corner = 0; corner < 4; ++corner) {
 		const ivec2 tap = clamp(first + ivec2(corner & 1, corner >> 1), ivec2(0), last);
 		const vec2 offset = vec2(tap) - position;
-		const vec2 bilinear = max(1.0 - abs(offset), 1e-3); // above 0, so that weight_sum is never 0
+		const vec2 bilinear = max(1.0 - abs(offset), 1e-3); // above 0, so that each tap on the surface counts
 		const float tap_depth = texelFetch(depth_texture, tap, 0).r;
 		const float relative_error = abs(tap_depth - depth - dot(slope, offset)) / max(depth, 1e-20) / SURFACE_TOLERANCE;
 		const float weight = bilinear.x * bilinear.y /
