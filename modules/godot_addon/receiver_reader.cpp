@@ -56,7 +56,7 @@ void ReceiverReader::read_other(const SceneBody &p_body, const Bounds &p_bounds_
 	} else if (const auto cpu_particles = godot::cast<godot::CPUParticles3D>(p_body.node)) {
 		const godot::Ref<godot::Mesh> mesh = cpu_particles.get_mesh();
 		read_mesh(p_body, mesh, p_bounds_world);
-	} else {
+	} else if (p_body.is_drawn) {
 		const auto sprite = godot::cast<godot::SpriteBase3D>(p_body.node);
 		const auto label = godot::cast<godot::Label3D>(p_body.node);
 		const bool is_unlit = (sprite && !sprite.get_draw_flag(godot::SpriteBase3D::FLAG_SHADED)) ||

@@ -183,7 +183,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		// In the first frame an unknown debug view is an Error. Later a view may disappear because
 		// the technique or the lights change; then the lit image is shown.
 		request.needs_debug_view = drawn_count == 0;
-		// Likewise, a reference mask of another size is an Error in the first frame and is ignored
+		// A reference mask of another size, too, is an Error in the first frame and is ignored
 		// after the window was resized.
 		const bool fits = reference && (drawn_count == 0 || reference->size_px == size_px);
 		request.reference = fits ? reference : nullptr;

@@ -2,6 +2,7 @@
 
 #include "modules/core/progress.h"
 #include "modules/mesh_tools/caster_counts.h"
+#include "modules/shadows/mesh_store.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,17 +23,22 @@ const char *const LIGHTING_PASS = "lighting"; // not counted, since it is not pa
 /// empty.
 std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {
 	std::vector<PassCost> passes;
+	bool has_deform = false;
 	for (const LightSnapshot &light : p_request.scene->lights) {
 		if (!p_request.mask_light.empty() && light.name != p_request.mask_light) {
 			continue;
 		}
 		for (const PassTiming &timing : p_result.find_light_passes(light.name)) {
-			if (timing.name == LIGHTING_PASS) {
+			// The lights share one deform pass.
+			const bool is_deform = timing.name == DEFORM_PASS_NAME;
+			if (timing.name == LIGHTING_PASS || (is_deform && has_deform)) {
 				continue;
 			}
+			has_deform = has_deform || is_deform;
 			// With all lights, the light's name keeps their passes apart.
-			const std::string name =
-					p_request.mask_light.empty() ? light.name + ": " + timing.name : timing.name;
+			const std::string name = p_request.mask_light.empty() && !is_deform
+					? light.name + ": " + timing.name
+					: timing.name;
 			passes.push_back({ name, timing.gpu_ms, timing.wall_ms, timing.is_on_host });
 		}
 	}

@@ -71,6 +71,15 @@ class AnimationTest(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("their pose is the same", result.stdout)
 
+    def test_times_of_all_lights_hold_their_common_deform_pass_once(self):
+        times = self.path("times.json")
+        result = run("run", COURTYARD, "--headless", "--size", "64x64", "--at", "0.5", "--time", times)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(times, encoding="utf-8") as file:
+            names = [item["name"] for item in json.load(file)["passes"]]
+        self.assertEqual(names.count("deform"), 1)
+        self.assertTrue(any(name.startswith("Lamp: ") for name in names) and any(name.startswith("Sun: ") for name in names))
+
     def test_bad_arguments_are_refused(self):
         words = ("visibility", COURTYARD, "--technique", self.get_fallback(), *SMALL, "--out", self.path("mask.exr"))
         self.assert_refused(run(*words, "--animation", "Run"), "courtyard.gltf", 'no animation "Run"', '"Walk"')

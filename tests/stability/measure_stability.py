@@ -141,7 +141,7 @@ def build_causes(report):
 
 def describe_run(report, date):
     machine = report["machines"][0]
-    return "%s: %s, %s; %s. %d reference rays a pixel." % (
+    return "%s: %s, %s; %s. %d reference rays per pixel." % (
         date.isoformat(), machine["cpu"], machine["device"], machine["driver"], report["samples"]
     )  # fmt: skip
 

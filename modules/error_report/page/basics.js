@@ -6,7 +6,7 @@
 	const report = {};
 	window.GnomonReport = report;
 
-	// Filled symbols of d3 that can be told apart at 9 pixels. Shapes distinguish techniques of similar colour.
+	// Filled symbols of d3 that are distinguishable at 9 pixels. Shapes distinguish techniques of similar colour.
 	const SYMBOLS = ["circle", "square", "triangle", "diamond", "star", "cross", "wye"];
 	const NO_VALUE = "–";
 

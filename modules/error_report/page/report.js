@@ -15,7 +15,7 @@
 		const facts = data.machines.flatMap((machine, index) => [
 			[data.machines.length > 1 ? `machine ${index + 1}` : "device", `${machine.device}, driver ${machine.driver}`],
 			["CPU", `${machine.cpu}, ${machine.threads} threads`]]);
-		facts.push(["images", `${[...sizes].join(", ") || "–"} pixels`], ["reference", `${data.samples} samples a pixel`],
+		facts.push(["images", `${[...sizes].join(", ") || "–"} pixels`], ["reference", `${data.samples} samples per pixel`],
 			["measured", `${report.matrix.length} configurations`]);
 		document.getElementById("facts").append(...facts.map(([name, value]) => make("div", {}, make("dt", {}, name), make("dd", {}, value))));
 		const warning = report.makeWarning(data);
@@ -78,7 +78,7 @@
 		const partial = full.length < rows.length ? make("p", { class: "soft" }, "Hollow dots and marked rows: measured in fewer " +
 			`than ${maxCount} configurations, so their means are over other images. They are not part of the Pareto front and the values next to it.`) : null;
 		report.add(section, make("div", { class: "overview" }, make("div", {}, make("div", { class: "bar-line" },
-			make("p", { class: "soft" }, "One dot a setting. Lower is closer to the reference, further left is faster."), choice), host), tiles),
+			make("p", { class: "soft" }, "One dot per setting. Lower is closer to the reference, further left is faster."), choice), host), tiles),
 		partial, report.makeRankingTable("All settings, means over configurations", data.ranking),
 		data.best_settings.length > 0 && data.best_settings.length < data.ranking.length ? report.makeRankingTable("Best setting chosen for each configuration", data.best_settings) : null);
 		drawOnEverySize(host, draw);
