@@ -16,6 +16,7 @@ namespace gnomon {
 
 namespace {
 
+constexpr uint32_t NONE = ~0u;		  // no triangle
 const double CUTOFF_NEVER_PASSES = 2; // above every alpha
 const double CUTOFF_STEPS = 32;		  // each needs an outline: 0.1 s for 2048 x 2048 texels
 
@@ -40,8 +41,9 @@ glm::vec3 compute_barycentrics(const glm::dvec3 &p_point, const glm::dvec3 &p_a,
 	return is_ab ? glm::vec3(1.0 - fraction, fraction, 0) : glm::vec3(1.0 - fraction, 0, fraction);
 }
 
-/// Cuts the triangles of a mesh one after another. Triangles that stay whole are added last,
-/// because the cuts of their neighbours add points on their sides.
+/// Cuts the triangles of a mesh one after another, in pairs where two are one quadrilateral: their
+/// common edge would only divide the outline. Triangles that stay whole are added last, because the
+/// cuts of their neighbours add points on their sides.
 class MeshCutter {
 public:
 	MeshCutter(const Mesh &p_mesh, const Material &p_material, const OutlineBudget &p_budget,
@@ -53,10 +55,14 @@ public:
 
 private:
 	double compute_cutoff(const uint32_t *p_corners) const;
-	MeshTriangle read_triangle(uint32_t p_triangle) const;
+	MeshPolygon read_triangle(uint32_t p_triangle) const;
 	OutlinedTexture &get_texture(double p_cutoff);
+	void list_side_triangles();
+	/// Joins the polygon with a later triangle that has the same cutoff. Returns that triangle, or
+	/// NONE.
+	uint32_t join_triangle(uint32_t p_triangle, double p_cutoff, MeshPolygon &r_polygon) const;
 	void cut_triangle(uint32_t p_triangle);
-	void add_pieces(const std::vector<ClippedPiece> &p_pieces, const MeshTriangle &p_cut,
+	void add_pieces(const std::vector<ClippedPiece> &p_pieces, const MeshPolygon &p_cut,
 			uint32_t p_triangle);
 	void sort_side_points();
 	void add_uncut(uint32_t p_triangle);
@@ -73,6 +79,9 @@ private:
 	uint32_t block_size_px = 0;
 	std::map<double, OutlinedTexture> textures; // by cutoff
 	std::vector<uint32_t> uncut;				// triangles that no cut changes
+	std::vector<bool> is_joined;				// per triangle: cut together with an earlier one
+	/// The triangles at each edge. Empty if the mesh has a rig: a pose may fold a quadrilateral.
+	std::map<std::pair<PositionBits, PositionBits>, std::vector<uint32_t>> side_triangles;
 	/// Points of cut triangles on the mesh's edges, with their positions along them, 0..1:
 	/// unsorted, and from both triangles at an edge.
 	using SidePoints = std::vector<std::pair<double, glm::vec3>>;
@@ -91,7 +100,7 @@ MeshCutter::MeshCutter(const Mesh &p_mesh, const Material &p_material,
 		tolerance_px(p_tolerance_px) {
 	if (texture.image) {
 		for (uint32_t triangle = 0; triangle < mesh.get_triangle_count(); ++triangle) {
-			const MeshTriangle read = read_triangle(triangle);
+			const MeshPolygon read = read_triangle(triangle);
 			if (read.has_area()) {
 				coverage.add(read);
 			}
@@ -123,8 +132,8 @@ double MeshCutter::compute_cutoff(const uint32_t *p_corners) const {
 							 : std::max(std::round(fraction * CUTOFF_STEPS), 1.0) / CUTOFF_STEPS;
 }
 
-MeshTriangle MeshCutter::read_triangle(uint32_t p_triangle) const {
-	MeshTriangle triangle;
+MeshPolygon MeshCutter::read_triangle(uint32_t p_triangle) const {
+	MeshPolygon triangle;
 	const std::vector<glm::vec2> &uvs = mesh.attributes.uvs[texture.uv_set];
 	const glm::dmat3x2 transform(texture.transform);
 	for (int corner = 0; corner < 3; ++corner) {
@@ -156,36 +165,73 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 		uncut.push_back(p_triangle);
 		return;
 	}
-	const MeshTriangle triangle = read_triangle(p_triangle);
-	if (!triangle.has_area()) {
-		const glm::dvec2 middle = (triangle.uv[0] + triangle.uv[1] + triangle.uv[2]) / 3.0;
+	MeshPolygon polygon = read_triangle(p_triangle);
+	if (!polygon.has_area()) {
+		const glm::dvec2 middle = (polygon.uv[0] + polygon.uv[1] + polygon.uv[2]) / 3.0;
 		if (std::isfinite(middle.x + middle.y) &&
 				sample_alpha(make_alpha_test(material), middle) >= cutoff) {
 			uncut.push_back(p_triangle);
 		}
 		return;
 	}
+	const uint32_t other = join_triangle(p_triangle, cutoff, polygon);
 	std::vector<ClippedPiece> pieces;
 	double area = 0;
-	for (const OutlinedTexture::Triangle &corners : get_texture(cutoff).list_triangles(triangle)) {
-		ClippedPiece piece(triangle, corners);
+	for (const OutlinedTexture::Triangle &corners : get_texture(cutoff).list_triangles(polygon)) {
+		ClippedPiece piece(polygon, corners);
 		if (!piece.get_points().empty()) {
 			area += std::abs(piece.compute_area());
 			pieces.push_back(std::move(piece));
 		}
 	}
 	const double ROUNDING = 1e-12;
-	if (area >= (1 - ROUNDING) * std::abs(triangle.area)) {
-		uncut.push_back(p_triangle);
+	if (area < (1 - ROUNDING) * std::abs(polygon.area)) {
+		add_pieces(pieces, polygon, p_triangle);
 	} else {
-		add_pieces(pieces, triangle, p_triangle);
+		uncut.push_back(p_triangle);
+		if (other != NONE) {
+			uncut.push_back(other);
+		}
+	}
+	if (other != NONE) {
+		is_joined[other] = true;
 	}
 }
 
-void MeshCutter::add_pieces(
-		const std::vector<ClippedPiece> &p_pieces, const MeshTriangle &p_cut, uint32_t p_triangle) {
-	SidePoints *sides[3];
+void MeshCutter::list_side_triangles() {
+	if (!texture.image || mesh.attributes.rig) {
+		return;
+	}
+	for (uint32_t triangle = 0; triangle < mesh.get_triangle_count(); ++triangle) {
+		const MeshPolygon polygon = read_triangle(triangle);
+		for (int side = 0; side < 3; ++side) {
+			side_triangles[polygon.sides[side].get_key()].push_back(triangle);
+		}
+	}
+}
+
+uint32_t MeshCutter::join_triangle(
+		uint32_t p_triangle, double p_cutoff, MeshPolygon &r_polygon) const {
 	for (int side = 0; side < 3; ++side) {
+		const auto found = side_triangles.find(r_polygon.sides[side].get_key());
+		if (found == side_triangles.end() || found->second.size() != 2) {
+			continue;
+		}
+		for (const uint32_t other : found->second) {
+			if (other > p_triangle && !is_joined[other] &&
+					compute_cutoff(&mesh.indices[3 * size_t(other)]) == p_cutoff &&
+					r_polygon.join(read_triangle(other))) {
+				return other;
+			}
+		}
+	}
+	return NONE;
+}
+
+void MeshCutter::add_pieces(
+		const std::vector<ClippedPiece> &p_pieces, const MeshPolygon &p_cut, uint32_t p_triangle) {
+	SidePoints *sides[4];
+	for (int side = 0; side < p_cut.corner_count; ++side) {
 		sides[side] = &side_points[p_cut.sides[side].get_key()];
 	}
 	std::vector<uint32_t> corners;
@@ -221,7 +267,7 @@ void MeshCutter::sort_side_points() {
 }
 
 void MeshCutter::add_uncut(uint32_t p_triangle) {
-	const MeshTriangle triangle = read_triangle(p_triangle);
+	const MeshPolygon triangle = read_triangle(p_triangle);
 	std::vector<uint32_t> ring;
 	for (int corner = 0; corner < 3; ++corner) {
 		ring.push_back(add_point(triangle.position[corner]));
@@ -268,8 +314,12 @@ void MeshCutter::add_triangle(uint32_t p_a, uint32_t p_b, uint32_t p_c, uint32_t
 }
 
 std::shared_ptr<const Mesh> MeshCutter::cut(const std::shared_ptr<const Mesh> &p_mesh) {
+	is_joined.resize(mesh.get_triangle_count());
+	list_side_triangles();
 	for (uint32_t triangle = 0; triangle < mesh.get_triangle_count(); ++triangle) {
-		cut_triangle(triangle);
+		if (!is_joined[triangle]) {
+			cut_triangle(triangle);
+		}
 	}
 	for (const auto &[cutoff, outlined] : textures) {
 		block_size_px = std::max(block_size_px, outlined.get_block_size_px());

@@ -24,12 +24,12 @@ std::shared_ptr<const Image> make_border_image(const Image &p_image, int p_part_
 	return make_image(p_image.name, size, std::move(texels));
 }
 
-/// Whether all corners of a convex polygon are outside of one side of a triangle.
+/// Whether all corners of a convex polygon are outside of one side of a polygon of the mesh.
 template <size_t COUNT>
-bool is_outside(const MeshTriangle &p_triangle, const std::array<glm::dvec2, COUNT> &p_corners) {
-	for (int side = 0; side < 3; ++side) {
+bool is_outside(const MeshPolygon &p_polygon, const std::array<glm::dvec2, COUNT> &p_corners) {
+	for (int side = 0; side < p_polygon.corner_count; ++side) {
 		if (std::all_of(p_corners.begin(), p_corners.end(), [&](const glm::dvec2 &p_corner) {
-				return p_triangle.compute_side_area(side, p_corner) < 0;
+				return p_polygon.compute_side_area(side, p_corner) < 0;
 			})) {
 			return true;
 		}
@@ -48,12 +48,10 @@ const double REJECTIONS_PER_TILE = 4;
 
 } // namespace
 
-void TileCoverage::add(const MeshTriangle &p_triangle) {
-	const glm::dvec2 low = glm::min(glm::min(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
-	const glm::dvec2 high =
-			glm::max(glm::max(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
+void TileCoverage::add(const MeshPolygon &p_polygon) {
+	const auto [low, high] = p_polygon.find_uv_bounds();
 	const glm::dvec2 size = high - low;
-	area += std::abs(p_triangle.area) / 2;
+	area += std::abs(p_polygon.area) / 2;
 	box_area += size.x * size.y;
 	excess_side_length += std::max(size.x - 1, 0.0) + std::max(size.y - 1, 0.0);
 	longest_side = std::max({ longest_side, size.x, size.y });
@@ -163,10 +161,8 @@ const OutlinedTexture::Tile &OutlinedTexture::get_tile(int p_part_x, int p_part_
 }
 
 std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
-		const MeshTriangle &p_triangle) {
-	const auto &[a, b, c] = p_triangle.uv;
-	const glm::dvec2 minimum = glm::min(glm::min(a, b), c);
-	const glm::dvec2 maximum = glm::max(glm::max(a, b), c);
+		const MeshPolygon &p_polygon) {
+	const auto [minimum, maximum] = p_polygon.find_uv_bounds();
 	std::vector<Triangle> triangles;
 	const std::vector<Interval> columns = list_intervals(test.wrap_u, minimum.x, maximum.x);
 	const std::vector<Interval> rows = list_intervals(test.wrap_v, minimum.y, maximum.y);
@@ -183,7 +179,7 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 			const std::array<glm::dvec2, 4> box = { { { column.begin, row.begin },
 					{ column.end, row.begin }, { column.end, row.end },
 					{ column.begin, row.end } } };
-			if (is_outside(p_triangle, box)) {
+			if (is_outside(p_polygon, box)) {
 				continue;
 			}
 			const Tile &tile = get_tile(column.part, row.part);
@@ -204,7 +200,7 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 				const glm::dvec2 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
 				if (glm::all(glm::lessThanEqual(low, maximum)) &&
 						glm::all(glm::greaterThanEqual(high, minimum)) &&
-						!is_outside(p_triangle, corners)) {
+						!is_outside(p_polygon, corners)) {
 					triangles.push_back(corners);
 				}
 			}

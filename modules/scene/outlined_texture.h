@@ -26,7 +26,7 @@ struct TileCoverage {
 	double longest_side = 0;	   // longest side of those boxes
 	double max_coordinate = 0;	   // largest absolute coordinate
 
-	void add(const MeshTriangle &p_triangle);
+	void add(const MeshPolygon &p_polygon);
 	/// Whether tiles of that size, in repetitions of the texture, are few enough to be visited one
 	/// by one, and distinct in double.
 	bool fits(double p_tile_size, double p_max_tiles) const;
@@ -42,8 +42,8 @@ public:
 	OutlinedTexture(const AlphaTest &p_test, const TileCoverage &p_coverage,
 			const OutlineBudget &p_budget, double p_tolerance_px);
 
-	/// Lists the outline's triangles that may overlap a triangle of the mesh.
-	std::vector<Triangle> list_triangles(const MeshTriangle &p_triangle);
+	/// Lists the outline's triangles that may overlap a polygon of the mesh.
+	std::vector<Triangle> list_triangles(const MeshPolygon &p_polygon);
 	uint32_t get_block_size_px() const { return block_size_px; }
 
 private:

@@ -29,9 +29,9 @@ PositionBits to_position_bits(const glm::vec3 &p_position) {
 	return std::bit_cast<PositionBits>(p_position + 0.0f);
 }
 
-void MeshTriangle::set_up() {
-	for (int i = 0; i < 3; ++i) {
-		const int k = (i + 1) % 3;
+void MeshPolygon::set_up() {
+	for (int i = 0; i < corner_count; ++i) {
+		const int k = get_next(i);
 		MeshSide &side = sides[i];
 		side.is_reversed = to_position_bits(position[k]) < to_position_bits(position[i]);
 		side.uv[0] = side.is_reversed ? uv[k] : uv[i];
@@ -39,10 +39,15 @@ void MeshTriangle::set_up() {
 		side.position[0] = side.is_reversed ? position[k] : position[i];
 		side.position[1] = side.is_reversed ? position[i] : position[k];
 	}
-	area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+	area = compute_corner_area(0);
+	if (corner_count == 4) {
+		area += compute_corner_area(2);
+		return;
+	}
 	double max_length = 0;
 	double max_coordinate = 0;
-	for (const MeshSide &side : sides) {
+	for (int i = 0; i < corner_count; ++i) {
+		const MeshSide &side = sides[i];
 		max_length = std::max(max_length, glm::length(side.uv[1] - side.uv[0]));
 		max_coordinate = std::max({ max_coordinate, std::abs(side.uv[0].x), std::abs(side.uv[0].y),
 				std::abs(side.uv[1].x), std::abs(side.uv[1].y) });
@@ -52,24 +57,90 @@ void MeshTriangle::set_up() {
 	}
 }
 
-double MeshTriangle::compute_side_area(int p_side, const glm::dvec2 &p_uv) const {
+double MeshPolygon::compute_side_area(int p_side, const glm::dvec2 &p_uv) const {
 	const MeshSide &side = sides[p_side];
 	const double left = compute_signed_area(side.uv[0], side.uv[1], p_uv);
 	return side.is_reversed != (area < 0) ? -left : left;
 }
 
-glm::vec3 MeshTriangle::compute_position(const glm::dvec2 &p_uv) const {
-	const glm::dvec2 offset = p_uv - uv[0];
-	// The point is inside, apart from rounding.
-	const double b = std::clamp(cross(offset, uv[2] - uv[0]) / area, 0.0, 1.0);
-	const double c = std::clamp(cross(uv[1] - uv[0], offset) / area, 0.0, 1.0 - b);
-	const glm::dvec3 origin(position[0]);
-	return glm::vec3(origin + (glm::dvec3(position[1]) - origin) * b +
-			(glm::dvec3(position[2]) - origin) * c);
+std::pair<glm::dvec2, glm::dvec2> MeshPolygon::find_uv_bounds() const {
+	std::pair bounds(uv[0], uv[0]);
+	for (int corner = 1; corner < corner_count; ++corner) {
+		bounds.first = glm::min(bounds.first, uv[corner]);
+		bounds.second = glm::max(bounds.second, uv[corner]);
+	}
+	return bounds;
 }
 
-ClippedPiece::ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm::dvec2, 3> &p_uvs) :
-		triangle(p_triangle) {
+/// Returns twice the signed area of the triangle of a corner and its neighbours.
+double MeshPolygon::compute_corner_area(int p_corner) const {
+	const glm::dvec2 &corner = uv[p_corner];
+	return cross(uv[get_next(p_corner)] - corner, uv[get_previous(p_corner)] - corner);
+}
+
+glm::dvec3 MeshPolygon::compute_position(const glm::dvec2 &p_uv) const {
+	const int next = get_next(0);
+	const int previous = get_previous(0);
+	const glm::dvec2 offset = p_uv - uv[0];
+	const double corner_area = compute_corner_area(0);
+	double b = cross(offset, uv[previous] - uv[0]) / corner_area;
+	double c = cross(uv[next] - uv[0], offset) / corner_area;
+	if (corner_count == 3) { // the point is inside, apart from rounding
+		b = std::clamp(b, 0.0, 1.0);
+		c = std::clamp(c, 0.0, 1.0 - b);
+	}
+	const glm::dvec3 origin(position[0]);
+	return origin + (glm::dvec3(position[next]) - origin) * b +
+			(glm::dvec3(position[previous]) - origin) * c;
+}
+
+bool MeshPolygon::join(const MeshPolygon &p_other) {
+	const double ROUNDING = 2.4e-7;		 // of positions, relative to the largest coordinate
+	const double MIN_CORNER_AREA = 1e-6; // of the whole area; below, the corner is nearly straight
+	const auto is_equal = [&](int p_own, int p_others) {
+		return uv[p_own] == p_other.uv[p_others] && position[p_own] == p_other.position[p_others];
+	};
+	for (int own = 0; own < 3; ++own) {
+		for (int other = 0; other < 3; ++other) {
+			if (!is_equal(own, p_other.get_next(other)) || !is_equal(get_next(own), other)) {
+				continue;
+			}
+			// This polygon's corner that the other one lacks, then the common edge around the
+			// other one's corner.
+			MeshPolygon joined;
+			joined.corner_count = 4;
+			const int first = get_previous(own);
+			const int opposite = p_other.get_previous(other);
+			for (const auto &[target, source] :
+					{ std::pair(0, first), std::pair(1, own), std::pair(3, get_next(own)) }) {
+				joined.uv[target] = uv[source];
+				joined.position[target] = position[source];
+			}
+			joined.uv[2] = p_other.uv[opposite];
+			joined.position[2] = p_other.position[opposite];
+			joined.set_up();
+			bool is_convex = true;
+			double largest = 0;
+			for (int corner = 0; corner < 4; ++corner) {
+				is_convex = is_convex &&
+						joined.compute_corner_area(corner) / joined.area > MIN_CORNER_AREA;
+				const glm::dvec3 size = glm::abs(glm::dvec3(joined.position[corner]));
+				largest = std::max({ largest, size.x, size.y, size.z });
+			}
+			const double error = glm::distance(
+					joined.compute_position(joined.uv[2]), glm::dvec3(joined.position[2]));
+			if (!is_convex || !(error <= ROUNDING * largest)) {
+				return false;
+			}
+			*this = joined;
+			return true;
+		}
+	}
+	return false;
+}
+
+ClippedPiece::ClippedPiece(const MeshPolygon &p_polygon, const std::array<glm::dvec2, 3> &p_uvs) :
+		polygon(p_polygon) {
 	for (int i = 0; i < 3; ++i) {
 		const glm::dvec2 &a = p_uvs[i];
 		const glm::dvec2 &b = p_uvs[(i + 1) % 3];
@@ -78,7 +149,7 @@ ClippedPiece::ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm:
 		const bool is_reversed = std::tie(b.x, b.y) < std::tie(a.x, a.y);
 		lines.push_back({ -1, is_reversed ? b : a, is_reversed ? a : b });
 	}
-	for (int side = 0; side < 3 && !points.empty(); ++side) {
+	for (int side = 0; side < polygon.corner_count && !points.empty(); ++side) {
 		clip(side);
 	}
 	const bool is_finite = std::all_of(points.begin(), points.end(),
@@ -94,16 +165,17 @@ ClippedPiece::ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm:
 /// Returns a value above 0 inside of a side, and 0 on it; then it also sets the point's side or
 /// corner.
 double ClippedPiece::locate(int p_side, Point &r_point) const {
-	if (r_point.side == p_side || r_point.corner == p_side || r_point.corner == (p_side + 1) % 3) {
+	if (r_point.side == p_side || r_point.corner == p_side ||
+			r_point.corner == polygon.get_next(p_side)) {
 		return 0;
 	}
-	const double inside = triangle.compute_side_area(p_side, r_point.uv);
+	const double inside = polygon.compute_side_area(p_side, r_point.uv);
 	if (inside == 0 && r_point.corner < 0) {
 		if (r_point.side >= 0) { // on two sides: their corner
-			r_point.corner = r_point.side == (p_side + 1) % 3 ? r_point.side : p_side;
+			r_point.corner = r_point.side == polygon.get_next(p_side) ? r_point.side : p_side;
 			r_point.side = -1;
 		} else {
-			const MeshSide &side = triangle.sides[p_side];
+			const MeshSide &side = polygon.sides[p_side];
 			const glm::dvec2 along = side.uv[1] - side.uv[0];
 			r_point.side = p_side;
 			r_point.fraction = glm::dot(r_point.uv - side.uv[0], along) / glm::dot(along, along);
@@ -115,12 +187,14 @@ double ClippedPiece::locate(int p_side, Point &r_point) const {
 /// Returns the intersection of a side with a line of the piece.
 ClippedPiece::Point ClippedPiece::cross_line(int p_side, const Line &p_line) const {
 	Point point;
-	if (p_line.side >= 0) {
-		point.corner = p_line.side == (p_side + 1) % 3 ? p_line.side : p_side;
-		point.uv = triangle.uv[point.corner];
+	const bool is_next = p_line.side == polygon.get_next(p_side);
+	const bool is_previous = p_line.side == polygon.get_previous(p_side);
+	if (p_line.side >= 0 && (is_next || is_previous)) {
+		point.corner = is_next ? p_line.side : p_side;
+		point.uv = polygon.uv[point.corner];
 		return point;
 	}
-	const MeshSide &side = triangle.sides[p_side];
+	const MeshSide &side = polygon.sides[p_side];
 	const glm::dvec2 along = side.uv[1] - side.uv[0];
 	const glm::dvec2 across = p_line.b - p_line.a;
 	point.side = p_side;
@@ -146,7 +220,8 @@ void ClippedPiece::clip(int p_side) {
 		clipped.push_back(p_point);
 		clipped_lines.push_back(p_line);
 	};
-	const Line along_side{ p_side };
+	const MeshSide &side = polygon.sides[p_side];
+	const Line along_side{ p_side, side.uv[0], side.uv[1] };
 	for (size_t i = 0; i < count; ++i) {
 		const double next = inside[(i + 1) % count];
 		if (inside[i] >= 0) {
@@ -164,10 +239,10 @@ void ClippedPiece::clip(int p_side) {
 
 glm::vec3 ClippedPiece::get_position(const Point &p_point) const {
 	if (p_point.corner >= 0) {
-		return triangle.position[p_point.corner];
+		return polygon.position[p_point.corner];
 	}
-	return p_point.side >= 0 ? triangle.sides[p_point.side].get_position(p_point.fraction)
-							 : triangle.compute_position(p_point.uv);
+	return p_point.side >= 0 ? polygon.sides[p_point.side].get_position(p_point.fraction)
+							 : glm::vec3(polygon.compute_position(p_point.uv));
 }
 
 /// Returns twice the signed area.

@@ -2,9 +2,10 @@
 
 #include "modules/rendering_device/tests/device_fixture.h"
 
+#include "tests/test_random.h"
+
 #include <glm/glm.hpp>
 
-#include <cmath>
 #include <vector>
 
 namespace gnomon {
@@ -52,25 +53,6 @@ struct KernelFixture : DeviceFixture {
 		return run(p_kernel, p_input, p_item_count, p_output_per_item,
 				{ { BINDING_CONSTANTS, constants.get() } });
 	}
-};
-
-/// Generates random numbers in 0..1 that are the same on every machine.
-class TestRandom {
-public:
-	double next() {
-		state = state * 6364136223846793005ull + 1442695040888963407ull;
-		return static_cast<double>(state >> 11) / 9007199254740992.0;
-	}
-	double next(double p_low, double p_high) { return p_low + (p_high - p_low) * next(); }
-	glm::dvec3 next_unit() {
-		const double z = next(-1, 1);
-		const double angle_rad = next(0, 2 * 3.141592653589793);
-		const double ring = std::sqrt(1 - z * z);
-		return { ring * std::cos(angle_rad), ring * std::sin(angle_rad), z };
-	}
-
-private:
-	uint64_t state = 1;
 };
 
 } // namespace gnomon

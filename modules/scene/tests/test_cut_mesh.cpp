@@ -2,7 +2,10 @@
 #include "modules/scene/alpha_outline.h"
 #include "modules/scene/cut_mesh.h"
 
+#include "tests/test_random.h"
+
 #include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <map>
@@ -151,6 +154,46 @@ TEST_CASE("[CutMesh] adjacent triangles make the same points: only holes have op
 		CHECK(compute_area(*cut.mesh) ==
 				doctest::Approx(compute_area(*cut_mesh(make_grid(1, 1), material).mesh))
 						.epsilon(1e-5));
+	}
+}
+
+TEST_CASE("[CutMesh] the diagonal of a flat quad does not divide the outline") {
+	// A card with one hole, in several positions; p_lift moves one corner off the plane.
+	std::vector<uint8_t> texels;
+	for (int y = 0; y < 32; ++y) {
+		for (int x = 0; x < 32; ++x) {
+			const double distance = glm::distance(glm::dvec2(x, y), glm::dvec2(15.5));
+			const double alpha = std::clamp(0.5 + 0.2 * (distance - 9), 0.0, 1.0);
+			texels.insert(texels.end(), { 0, 0, 0, uint8_t(std::lround(255 * alpha)) });
+		}
+	}
+	const Material material = make_material(make_image("hole", { 32, 32 }, std::move(texels)));
+	const auto count_edges = [&](const glm::dmat4 &p_transform, double p_lift, float p_last_u) {
+		MeshAttributes attributes;
+		attributes.uvs[0] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { p_last_u, 1 } };
+		std::vector<glm::vec3> positions;
+		for (const glm::dvec3 &corner : { glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0),
+					 glm::dvec3(1, 1, 0), glm::dvec3(0, 1, p_lift) }) {
+			positions.emplace_back(p_transform * glm::dvec4(corner, 1.0));
+		}
+		const auto quad =
+				make_mesh("quad", positions, {}, { 0, 1, 2, 0, 2, 3 }, std::move(attributes));
+		const CutMesh cut = cut_mesh(quad, material);
+		REQUIRE(cut.mesh);
+		CHECK(cut.mesh->bounds_node.get_diagonal() ==
+				doctest::Approx(quad->bounds_node.get_diagonal()));
+		return count_open_edges(*cut.mesh);
+	};
+	const uint32_t flat = count_edges(glm::dmat4(1.0), 0, 0);
+	CHECK(flat > 12);
+	// The hole crosses the diagonal twice.
+	CHECK(count_edges(glm::dmat4(1.0), 0.01, 0) == flat + 2);
+	CHECK(count_edges(glm::dmat4(1.0), 0, 0.02f) > flat); // other texture coordinates beyond it
+	TestRandom random;
+	for (int index = 0; index < 20; ++index) {
+		const glm::dmat4 transform = glm::translate(glm::dmat4(1.0), 5.0 * random.next_unit()) *
+				glm::rotate(glm::dmat4(1.0), random.next(0, 6), random.next_unit());
+		CHECK(count_edges(transform, 0, 0) == flat); // its corners are rounded to float
 	}
 }
 
