@@ -17,8 +17,8 @@ class CutLevels {
 public:
 	/// Tolerance of the outline's simplification (simplify_loops), in texels, from finest to
 	/// coarsest.
-	static constexpr std::array<double, 6> TOLERANCES_PX = { 0.03125, 0.0625, 0.125, 0.25, 0.5,
-		1.0 };
+	static constexpr std::array<double, 8> TOLERANCES_PX = { 0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0,
+		2.0, 4.0 };
 	static constexpr uint32_t BASE_LEVEL = 2; // the level of CutMesh::mesh
 
 	/// p_cut: what cut_mesh makes of the mesh with the default tolerance.
@@ -29,6 +29,13 @@ public:
 	/// of the widest penumbra, measured at the caster, in metres of the node's space. Returns the
 	/// finest level if none qualifies, and BASE_LEVEL for a hard shadow (p_half_width <= 0).
 	uint32_t choose_level(double p_half_width) const;
+	/// Returns a coarser level than p_level for the receivers that see a wide penumbra
+	/// (get_min_half_width), for techniques that can choose a level for each receiver. p_half_width
+	/// as for choose_level. Returns p_level if none is worth it.
+	uint32_t choose_coarse_level(uint32_t p_level, double p_half_width) const;
+	/// Returns half the width of a receiver's own penumbra from which the error of a coarse level
+	/// is negligible, measured at the caster, in metres of the node's space.
+	double get_min_half_width(uint32_t p_level) const;
 	/// Returns a level's mesh, built on first use, from any thread. Null if nothing of the mesh is
 	/// left, or if the source mesh was freed.
 	std::shared_ptr<const Mesh> get_mesh(uint32_t p_level) const;

@@ -1,5 +1,8 @@
 #include "modules/scene/node_transform.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gnomon {
 
 glm::dmat4 NodeTransform::compose() const {
@@ -25,6 +28,16 @@ NodeTransform decompose_transform(const glm::dmat4 &p_matrix) {
 	}
 	parts.rotation = glm::normalize(glm::quat_cast(axes));
 	return parts;
+}
+
+double compute_max_stretch(const glm::dmat4 &p_matrix) {
+	const double ROUNDING = 1e-6;
+	const glm::dmat3 squares = glm::transpose(glm::dmat3(p_matrix)) * glm::dmat3(p_matrix);
+	const double largest = std::max({ squares[0][0], squares[1][1], squares[2][2] });
+	const double shear =
+			std::max({ std::abs(squares[0][1]), std::abs(squares[0][2]), std::abs(squares[1][2]) });
+	const bool is_orthogonal = shear <= ROUNDING * largest;
+	return std::sqrt(is_orthogonal ? largest : squares[0][0] + squares[1][1] + squares[2][2]);
 }
 
 } // namespace gnomon

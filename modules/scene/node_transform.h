@@ -20,4 +20,8 @@ struct NodeTransform {
 /// length 0 or a shear, the result is an approximation. Check compose() where that matters.
 NodeTransform decompose_transform(const glm::dmat4 &p_matrix);
 
+/// Returns the largest factor by which an affine matrix stretches a length. With shear: an upper
+/// bound, at most 1.8 times as large.
+double compute_max_stretch(const glm::dmat4 &p_matrix);
+
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include "modules/scene/cut_levels.h"
 #include "modules/scene/cut_mesh.h"
 #include "modules/scene/mesh_pose.h"
+#include "modules/scene/node_transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,13 +79,9 @@ std::shared_ptr<const Mesh> choose_caster_mesh(const InstanceSnapshot &p_instanc
 	if (!p_instance.caster_levels) {
 		return p_instance.caster_mesh;
 	}
-	const glm::dmat3 axes(p_instance.world_from_node);
-	const double scale =
-			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
-	const double radius =
-			p_light.compute_max_penumbra_half_width(p_instance.bounds_world, p_scene_bounds);
 	const CutLevels &levels = *p_instance.caster_levels;
-	const std::shared_ptr<const Mesh> mesh = levels.get_mesh(levels.choose_level(radius / scale));
+	const std::shared_ptr<const Mesh> mesh = levels.get_mesh(levels.choose_level(
+			p_instance.compute_max_penumbra_half_width(p_light, p_scene_bounds)));
 	if (!mesh) {
 		return p_instance.caster_mesh;
 	}
@@ -233,6 +230,12 @@ float LightSnapshot::get_disc_radius() const {
 		return std::tan(glm::radians(light_angular_distance_deg) * 0.5f);
 	}
 	return light_size_m;
+}
+
+double InstanceSnapshot::compute_max_penumbra_half_width(
+		const LightSnapshot &p_light, const Bounds &p_scene_bounds) const {
+	return p_light.compute_max_penumbra_half_width(bounds_world, p_scene_bounds) /
+			compute_max_stretch(world_from_node);
 }
 
 glm::vec3 InstanceSnapshot::compute_transmittance() const {

@@ -98,6 +98,10 @@ struct InstanceSnapshot {
 	bool is_mirrored() const;
 	/// The fraction of light that passes through it, see Material::compute_transmittance.
 	glm::vec3 compute_transmittance() const;
+	/// Half the width of the widest penumbra that it casts in the scene, in metres of the node's
+	/// space, see LightSnapshot::compute_max_penumbra_half_width.
+	double compute_max_penumbra_half_width(
+			const LightSnapshot &p_light, const Bounds &p_scene_bounds) const;
 	/// Hashes everything that its shadow depends on: mesh content, pose, alpha test, transform,
 	/// casts_shadow and transmittance.
 	uint64_t compute_hash(uint64_t p_seed) const;

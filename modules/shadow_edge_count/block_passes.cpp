@@ -39,6 +39,8 @@ std::vector<PassBinding> make_plain_bindings(
 	bindings.push_back(PassBinding::read(COUNT_BINDING_PLANES, p_passes.light.planes));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_TOTALS, p_passes.light.totals));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_CUT_FACES, p_passes.light.cut_faces));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_BLOCK_RECEIVERS, p_blocks.block_receivers));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_CHAINS, p_blocks.chains));
 	return bindings;
 }
 
@@ -48,8 +50,6 @@ std::vector<PassBinding> make_count_bindings(
 	std::vector<PassBinding> bindings = make_plain_bindings(p_passes, p_blocks);
 	bindings.push_back(PassBinding::read(COUNT_BINDING_EDGES, p_passes.light.edges));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_BUNDLES, p_passes.light.bundles));
-	bindings.push_back(PassBinding::read(COUNT_BINDING_BLOCK_RECEIVERS, p_blocks.block_receivers));
-	bindings.push_back(PassBinding::read(COUNT_BINDING_CHAINS, p_blocks.chains));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_LISTS, p_blocks.lists));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_MASKS, p_passes.masks));
 	return bindings;

@@ -1,12 +1,15 @@
 #include "modules/shadow_edge_count/count_buffers.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 #include "modules/core/text.h"
 #include "modules/shadow_edge_count/fetched_buffers.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
+#include <span>
 
 namespace gnomon {
 
@@ -94,7 +97,13 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	nodes = make("listed faces", view_count * needed.nodes_per_view, sizeof(glm::uvec2),
 			Format::RG32_UINT);
 	cut_faces = make("cut faces", needed.cut_face_count, sizeof(uint32_t), Format::R32_UINT);
-	totals = make("totals", EDGE_COUNT_TOTAL_COUNT, sizeof(uint32_t));
+	const std::array<uint32_t, EDGE_COUNT_TOTAL_COUNT> zeros = {};
+	totals = OwnedBuffer(p_device,
+			p_device.create_buffer_with_data(
+					{ .name = text("totals of ", p_light),
+							.size_bytes = sizeof(zeros),
+							.usage = BufferUsage::STORAGE | BufferUsage::COPY_TARGET },
+					bytes_of(std::span<const uint32_t>(zeros))));
 	capacities = needed;
 	return false;
 }

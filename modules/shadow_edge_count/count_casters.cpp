@@ -1,13 +1,17 @@
 #include "modules/shadow_edge_count/count_casters.h"
 
 #include "modules/core/error.h"
+#include "modules/scene/cut_levels.h"
+#include "modules/scene/node_transform.h"
 #include "modules/shadows/caster_pass.h"
 #include "modules/shadows/mesh_store.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
 #include <numeric>
-#include <set>
 
 namespace gnomon {
 
@@ -82,6 +86,36 @@ bool is_near_light(
 	return glm::length(nearest) <= WIDENING * p_disc_radius;
 }
 
+/// A mesh that an instance casts, one of two if it has levels of detail.
+struct CasterMesh {
+	std::shared_ptr<const Mesh> mesh;
+	double first_half_width_m = 0; // see shader::CountCasterPush
+	double end_half_width_m = std::numeric_limits<double>::infinity();
+};
+
+/// The instance's caster mesh and, for receivers that see a wide penumbra, a coarser level of
+/// detail. Only at rest: a pose moves the pieces of a mesh apart.
+std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
+		const LightSnapshot &p_light, const Bounds &p_scene_bounds) {
+	std::vector<CasterMesh> meshes(1, { p_instance.caster_mesh });
+	if (!p_instance.caster_levels || p_instance.pose || p_light.get_disc_radius() <= 0) {
+		return meshes;
+	}
+	const CutLevels &levels = *p_instance.caster_levels;
+	const double half_width = p_instance.compute_max_penumbra_half_width(p_light, p_scene_bounds);
+	const uint32_t level = levels.choose_level(half_width);
+	const uint32_t coarse_level = levels.choose_coarse_level(level, half_width);
+	std::shared_ptr<const Mesh> mesh =
+			coarse_level > level ? levels.get_mesh(coarse_level) : nullptr;
+	if (mesh) {
+		const double limit_m = levels.get_min_half_width(coarse_level) *
+				compute_max_stretch(p_instance.world_from_node);
+		meshes[0].end_half_width_m = limit_m;
+		meshes.push_back({ std::move(mesh), limit_m });
+	}
+	return meshes;
+}
+
 /// The sum of both. Throws an Error if it exceeds MAX_COUNT.
 uint32_t add_checked(
 		uint32_t p_sum, uint32_t p_count, const char *p_what, const std::string &p_light) {
@@ -90,6 +124,46 @@ uint32_t add_checked(
 				", which is the most for edge_count. Let fewer meshes cast shadows.");
 	}
 	return p_sum + p_count;
+}
+
+/// Bit i is set if view i may see the instance.
+uint32_t find_seeing_views(const ShadowTechnique::Inputs &p_inputs, uint32_t p_instance) {
+	uint32_t views = 0;
+	for (size_t view = 0; view < p_inputs.views.size(); ++view) {
+		const std::vector<uint32_t> &seen = p_inputs.casters[view].instances; // in order
+		views |= std::binary_search(seen.begin(), seen.end(), p_instance) ? 1u << view : 0u;
+	}
+	return views;
+}
+
+/// Adds one mesh of an instance, and uploads it where needed. p_caster has what all its meshes have
+/// in common. False if the mesh has no faces.
+bool add_caster(const ShadowTechnique::Inputs &p_inputs, const CasterMesh &p_level,
+		CountCaster p_caster, CountCasters &r_casters) {
+	const auto &gpu = p_inputs.meshes.get_derived<CountGpuMesh>(
+			p_level.mesh, [&] { return upload_count_mesh(p_inputs.device, p_level.mesh); });
+	if (gpu.face_count == 0) {
+		return false;
+	}
+	p_caster.gpu = &gpu;
+	p_caster.positions =
+			p_inputs.meshes.get_topology(p_level.mesh, TopologyBuffer::POSITIONS).positions.get();
+	p_caster.mesh_id = p_level.mesh->id;
+	p_caster.push.face_count = gpu.face_count;
+	p_caster.push.first_face = r_casters.face_count;
+	p_caster.push.edge_count = gpu.edge_count;
+	p_caster.push.first_word = r_casters.word_count;
+	p_caster.push.first_block = r_casters.block_count;
+	p_caster.push.first_half_width = static_cast<float>(p_level.first_half_width_m);
+	p_caster.push.end_half_width = static_cast<float>(p_level.end_half_width_m);
+	r_casters.face_count =
+			add_checked(r_casters.face_count, gpu.face_count, "triangles", p_inputs.light.name);
+	r_casters.edge_count =
+			add_checked(r_casters.edge_count, gpu.edge_count, "edges", p_inputs.light.name);
+	r_casters.word_count += gpu.word_count;
+	r_casters.block_count += gpu.block_count;
+	r_casters.casters.push_back(p_caster);
+	return true;
 }
 
 } // namespace
@@ -107,7 +181,8 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	std::vector<uint32_t> view_indices(p_inputs.views.size());
 	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
-	std::set<uint32_t> with_faces;
+	const Bounds scene_bounds = p_inputs.scene.compute_bounds();
+	std::map<uint32_t, std::vector<std::shared_ptr<const Mesh>>> with_faces; // by instance
 	bool is_deformed = false; // some mesh is deformed on the GPU, so the CPU has no face positions
 	for (const uint32_t index : collect_casters(p_inputs, view_indices)) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
@@ -116,40 +191,31 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 			++result.collapsed_instance_count;
 			continue;
 		}
-		const auto &gpu = p_inputs.meshes.get_derived<CountGpuMesh>(instance.caster_mesh, [&] {
-			return upload_count_mesh(p_inputs.device, instance.caster_mesh->name,
-					*get_topology(instance.caster_mesh));
-		});
-		if (gpu.face_count == 0) {
-			continue;
-		}
-		with_faces.insert(index);
-		is_deformed = is_deformed || instance.pose;
-		result.may_cut_disc = result.may_cut_disc ||
-				(!is_directional && p_disc_radius > 0 &&
-						is_near_light(instance, first, p_disc_radius));
+		const std::vector<CasterMesh> meshes =
+				list_caster_meshes(instance, p_inputs.light, scene_bounds);
 		CountCaster caster;
-		caster.gpu = &gpu;
-		caster.positions =
-				p_inputs.meshes.get_topology(instance.caster_mesh, TopologyBuffer::POSITIONS)
-						.positions.get();
-		caster.mesh_id = instance.caster_mesh->id;
 		caster.pose_hash = instance.get_pose_hash();
-		caster.push = { glm::mat4(first.view_from_world * instance.world_from_node), gpu.face_count,
-			result.face_count, gpu.edge_count, result.word_count, result.block_count,
-			(volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
-					(is_directional ? EDGE_COUNT_CASTER_DIRECTIONAL : 0u),
-			static_cast<float>(p_disc_radius),
-			static_cast<float>(is_directional
-							? SIDE_TOLERANCE_COSINE
-							: SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m) };
-		result.face_count =
-				add_checked(result.face_count, gpu.face_count, "triangles", p_inputs.light.name);
-		result.edge_count =
-				add_checked(result.edge_count, gpu.edge_count, "edges", p_inputs.light.name);
-		result.word_count += gpu.word_count;
-		result.block_count += gpu.block_count;
-		result.casters.push_back(caster);
+		caster.views = find_seeing_views(p_inputs, index);
+		caster.push.light_from_node = first.view_from_world * instance.world_from_node;
+		caster.push.flags = (volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
+				(is_directional ? EDGE_COUNT_CASTER_DIRECTIONAL : 0u) |
+				(meshes.size() > 1 ? EDGE_COUNT_CASTER_LEVEL : 0u);
+		caster.push.disc_radius = static_cast<float>(p_disc_radius);
+		caster.push.side_tolerance = static_cast<float>(is_directional
+						? SIDE_TOLERANCE_COSINE
+						: SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
+		caster.push.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
+		for (const CasterMesh &level : meshes) {
+			if (add_caster(p_inputs, level, caster, result)) {
+				with_faces[index].push_back(level.mesh);
+			}
+		}
+		if (with_faces.contains(index)) {
+			is_deformed = is_deformed || instance.pose;
+			result.may_cut_disc = result.may_cut_disc ||
+					(!is_directional && p_disc_radius > 0 &&
+							is_near_light(instance, first, p_disc_radius));
+		}
 	}
 	const auto last = std::find_if(result.casters.rbegin(), result.casters.rend(),
 			[](const CountCaster &p_caster) { return p_caster.gpu->edge_count > 0; });
@@ -159,23 +225,23 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	const bool is_bounded = result.face_count <= MAX_BOUNDED_FACES && !is_deformed;
 	for (const uint32_t view : view_indices) {
 		uint64_t bound = 0;
-		uint32_t face_count = 0;
+		bool has_faces = false;
 		for (const uint32_t index : p_inputs.casters[view].instances) {
-			const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-			face_count += with_faces.contains(index)
-					? get_topology(instance.caster_mesh)->get_face_count()
-					: 0;
-		}
-		result.empty_views |= face_count == 0 ? 1u << view : 0u;
-		// All casters, including those outside the view: their faces are listed too.
-		for (const uint32_t index : with_faces) {
-			if (is_bounded) {
-				const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-				bound += compute_max_overlapped_texels(*get_topology(instance.caster_mesh),
-						p_inputs.views[view].compute_clip_from_node(instance.world_from_node),
-						glm::vec2(p_inputs.views[view].size_px));
+			const auto found = with_faces.find(index);
+			if (found == with_faces.end()) {
+				continue;
+			}
+			has_faces = true;
+			const glm::dmat4 &world_from_node = p_inputs.scene.instances[index].world_from_node;
+			for (const std::shared_ptr<const Mesh> &mesh : found->second) {
+				bound += is_bounded
+						? compute_max_overlapped_texels(*get_topology(mesh),
+								  p_inputs.views[view].compute_clip_from_node(world_from_node),
+								  glm::vec2(p_inputs.views[view].size_px))
+						: 0;
 			}
 		}
+		result.empty_views |= has_faces ? 0u : 1u << view;
 		result.max_nodes_per_view =
 				is_bounded ? std::max(result.max_nodes_per_view, bound) : CountCasters::UNBOUNDED;
 	}

@@ -7,19 +7,24 @@
 
 namespace gnomon {
 
-/// One caster of a light.
+/// One caster of a light, or one level of detail of it.
 struct CountCaster {
 	const CountGpuMesh *gpu = nullptr; // lives as long as the mesh, which the scene owns
 	BufferRID positions;			   // vec4 per welded vertex; lives as long as the mesh
 	uint64_t mesh_id = 0;
 	uint64_t pose_hash = 0;
-	shader::CountCasterPush push;
+	uint32_t views = 0; // bit i: view i may see it
+	shader::CountCasterPush push = {};
 	/// Its transform in light space or its pose has changed since the light's faces and edges were
 	/// last found.
 	bool is_moved = true;
+
+	/// Whether it is the coarse one of two levels of detail.
+	bool is_coarse() const { return push.first_half_width > 0; }
 };
 
-/// The casters of all views of a light, each once, and the sizes of all their data together.
+/// The casters of all views of a light, each once (cut-outs also coarse), and the sizes of all
+/// their data together.
 struct CountCasters {
 	std::vector<CountCaster> casters;
 	uint32_t face_count = 0;

@@ -49,20 +49,62 @@ std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
 	return edges;
 }
 
+/// Returns the part of each triangle of the mesh; 0 for degenerate triangles, which have none.
+std::vector<uint32_t> find_part_of_triangles(const Mesh &p_mesh, const MeshTopology &p_topology) {
+	std::vector<uint32_t> parts(p_mesh.get_triangle_count());
+	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
+		parts[p_topology.source_triangles[face]] = p_topology.part_indices[face];
+	}
+	return parts;
+}
+
+/// Returns the centre and radius of a sphere around each part.
+std::vector<glm::vec4> bound_parts(const MeshTopology &p_topology) {
+	const float WIDENING = 1.00001f; // for rounding
+	std::vector<Bounds> bounds(p_topology.parts.size());
+	const auto for_each_corner = [&](auto p_visit) {
+		for (size_t corner = 0; corner < p_topology.triangles.size(); ++corner) {
+			p_visit(p_topology.part_indices[corner / 3],
+					p_topology.welded_positions_node[p_topology.triangles[corner]]);
+		}
+	};
+	for_each_corner(
+			[&](uint32_t p_part, const glm::vec3 &p_position) { bounds[p_part].add(p_position); });
+	std::vector<glm::vec4> spheres;
+	for (const Bounds &part : bounds) {
+		spheres.emplace_back(0.5 * (part.minimum + part.maximum), 0.0);
+	}
+	for_each_corner([&](uint32_t p_part, const glm::vec3 &p_position) {
+		glm::vec4 &sphere = spheres[p_part];
+		sphere.w = std::max(sphere.w, WIDENING * glm::distance(glm::vec3(sphere), p_position));
+	});
+	return spheres;
+}
+
 } // namespace
 
-CountMesh build_count_mesh(const MeshTopology &p_topology) {
+CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_source) {
 	CountMesh mesh;
+	const std::shared_ptr<const Mesh> source = p_source.mesh.lock();
+	const std::shared_ptr<const MeshTopology> source_topology =
+			source ? get_topology(source) : nullptr;
+	mesh.pieces = source_topology ? bound_parts(*source_topology) : std::vector(1, glm::vec4(0.0f));
+	const std::vector<uint32_t> part_of_triangle = source_topology
+			? find_part_of_triangles(*source, *source_topology)
+			: std::vector<uint32_t>();
 	mesh.faces.reserve(p_topology.get_face_count());
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
 		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
+		const uint32_t piece = source_topology
+				? part_of_triangle.at(p_source.triangles.at(p_topology.source_triangles[face]))
+				: 0u;
 		mesh.faces.push_back({ corners[0], corners[1], corners[2],
-				p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u });
+				(p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u) | piece });
 	}
 	for (const MeshEdge &edge : sort_edges(p_topology)) {
 		if (!edge.is_coplanar) {
 			const uint32_t kind = (edge.is_inconsistent ? EDGE_COUNT_INCONSISTENT : 0u) |
-					mesh.faces[edge.face0].kind;
+					(mesh.faces[edge.face0].kind & EDGE_COUNT_DOUBLE_SIDED);
 			mesh.edges.push_back({ edge.a, edge.b, edge.face0 | kind, edge.face1 });
 		}
 	}
@@ -70,23 +112,25 @@ CountMesh build_count_mesh(const MeshTopology &p_topology) {
 }
 
 CountGpuMesh upload_count_mesh(
-		RenderingDevice &p_device, const std::string &p_name, const MeshTopology &p_topology) {
+		RenderingDevice &p_device, const std::shared_ptr<const Mesh> &p_mesh) {
+	const std::shared_ptr<const MeshTopology> topology = get_topology(p_mesh);
 	CountGpuMesh gpu;
-	gpu.face_count = p_topology.get_face_count();
+	gpu.face_count = topology->get_face_count();
 	if (gpu.face_count == 0) {
 		return gpu;
 	}
 	const auto upload = [&](const char *p_what, const auto &p_values) {
 		const auto bytes = bytes_of(std::span(p_values));
-		const BufferDesc desc{ text(p_name, " ", p_what), bytes.size(),
+		const BufferDesc desc{ text(p_mesh->name, " ", p_what), bytes.size(),
 			BufferUsage::STORAGE | BufferUsage::COPY_TARGET };
 		return OwnedBuffer(p_device, p_device.create_buffer_with_data(desc, bytes));
 	};
-	const CountMesh mesh = build_count_mesh(p_topology);
+	const CountMesh mesh = build_count_mesh(*topology, p_mesh->source);
 	gpu.edge_count = static_cast<uint32_t>(mesh.edges.size());
 	gpu.word_count = mesh.get_word_count();
 	gpu.block_count = mesh.get_block_count();
 	gpu.faces = upload("counted faces", mesh.faces);
+	gpu.pieces = upload("pieces", mesh.pieces);
 	if (gpu.edge_count > 0) {
 		gpu.edges = upload("counted edges", mesh.edges);
 	}

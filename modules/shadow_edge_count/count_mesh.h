@@ -17,6 +17,10 @@ struct CountMesh {
 	/// locality, so that bundles of consecutive edges are small, see CountEdgeBundle.
 	std::vector<shader::CountMeshEdge> edges;
 	std::vector<shader::CountMeshFace> faces;
+	/// Centre and radius of a sphere around each piece of the mesh, which is what remains of a
+	/// connected part of the mesh that it was cut out of. All levels of detail of that mesh have
+	/// the same pieces in the same order. One point without extent if it was not cut out.
+	std::vector<glm::vec4> pieces;
 
 	/// Words with one bit per edge.
 	uint32_t get_word_count() const {
@@ -28,13 +32,15 @@ struct CountMesh {
 	}
 };
 
-/// Converts a mesh. Faces retain their order, edges are sorted.
-CountMesh build_count_mesh(const MeshTopology &p_topology);
+/// Converts a mesh. Faces retain their order, edges are sorted. p_source: what the mesh was cut out
+/// of, see Mesh::source.
+CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_source = {});
 
 /// A mesh in GPU memory, in addition to its welded positions (GpuTopology).
 struct CountGpuMesh {
-	OwnedBuffer faces; // shader::CountMeshFace
-	OwnedBuffer edges; // shader::CountMeshEdge
+	OwnedBuffer faces;	// shader::CountMeshFace
+	OwnedBuffer edges;	// shader::CountMeshEdge
+	OwnedBuffer pieces; // glm::vec4, see CountMesh::pieces
 	uint32_t face_count = 0;
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;
@@ -43,6 +49,6 @@ struct CountGpuMesh {
 
 /// Uploads a mesh. If all its triangles are degenerate, the result has no faces and no buffers.
 CountGpuMesh upload_count_mesh(
-		RenderingDevice &p_device, const std::string &p_name, const MeshTopology &p_topology);
+		RenderingDevice &p_device, const std::shared_ptr<const Mesh> &p_mesh);
 
 } // namespace gnomon

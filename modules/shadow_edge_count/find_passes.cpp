@@ -71,6 +71,7 @@ void add_edge_passes(
 			p_device.get_compute_pipeline(
 					{ "bound edges", "shadow_edge_count/bound_edges.comp", {} }),
 			{ PassBinding::read(FIND_BINDING_EDGES, buffers.edges),
+					PassBinding::read(FIND_BINDING_FACES, buffers.faces),
 					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
 					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
 			{ p_passes.capacities.get_bundle_count(), 1, 1 });
@@ -81,6 +82,28 @@ void add_edge_passes(
 					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
 					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
 			{ p_passes.capacities.get_bundle_group_count(), 1, 1 });
+}
+
+struct FaceRange {
+	uint32_t first = 0;
+	uint32_t count = 0;
+};
+
+/// The faces of the casters that a view may see, as ranges of consecutive faces.
+std::vector<FaceRange> find_seen_faces(const CountCasters &p_casters, uint32_t p_view_index) {
+	std::vector<FaceRange> ranges;
+	for (const CountCaster &caster : p_casters.casters) {
+		if ((caster.views & 1u << p_view_index) == 0) {
+			continue;
+		}
+		if (!ranges.empty() &&
+				ranges.back().first + ranges.back().count == caster.push.first_face) {
+			ranges.back().count += caster.push.face_count;
+		} else {
+			ranges.push_back({ caster.push.first_face, caster.push.face_count });
+		}
+	}
+	return ranges;
 }
 
 /// Adds a compute pass with an indirect dispatch. p_word: offset of its arguments in p_dispatches,
@@ -116,6 +139,7 @@ void add_find_passes(
 			[=](PassContext &p_context, const CountCaster &p_caster) {
 				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
 					{ FIND_BINDING_MESH_FACES, p_caster.gpu->faces.get() },
+					{ FIND_BINDING_PIECES, p_caster.gpu->pieces.get() },
 					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
 					{ FIND_BINDING_FACES, p_context.get(buffers.faces) } };
 			});
@@ -159,15 +183,27 @@ void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 		PassBinding::write(FACE_LIST_BINDING_NODES, buffers.nodes, Content::UPDATE), totals };
 	RGBuffer dispatches;
 	for (uint32_t attempt = 0; attempt < attempt_count; ++attempt) {
-		const shader::CountFaceListPush push = { p_view_index, attempt == 0 ? 1u : 0u,
-			attempt + 2 == attempt_count ? 1u : 0u, 0 };
+		const shader::CountFaceListPush push = { p_view_index, 0, p_passes.capacities.face_count,
+			attempt == 0 ? 1u : 0u, attempt + 2 == attempt_count ? 1u : 0u, 0, 0, 0 };
 		const auto push_bytes = std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push));
 		const std::string suffix = attempt == 0 ? view : text(view, " attempt ", attempt);
 		if (attempt == 0) {
 			add_compute_pass(r_graph, "clear faces" + suffix, clear, { constants, heads, totals },
 					{ p_passes.capacities.texels_per_view, 1, 1 }, push_bytes);
-			add_compute_pass(r_graph, "list faces" + suffix, list, list_bindings,
-					{ p_passes.capacities.face_count, 1, 1 }, push_bytes);
+			PassBuilder pass = r_graph.add_pass("list faces" + suffix);
+			declare_bindings(pass, list_bindings);
+			pass.execute([list, list_bindings, push,
+								 ranges = find_seen_faces(p_passes.casters, p_view_index)](
+								 PassContext &p_context) {
+				bind_compute(p_context, list, list_bindings, {});
+				for (const FaceRange &range : ranges) {
+					shader::CountFaceListPush range_push = push;
+					range_push.first_face = range.first;
+					range_push.face_count = range.count;
+					p_context.commands.push_constants(range_push);
+					p_context.commands.dispatch_items({ range.count, 1, 1 });
+				}
+			});
 		} else {
 			add_indirect_pass(r_graph, "clear faces" + suffix, clear, { constants, heads, totals },
 					dispatches, FACE_LIST_DISPATCH_CLEAR, push);

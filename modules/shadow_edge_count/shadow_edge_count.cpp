@@ -103,8 +103,12 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	uint32_t reused_count = 0;
 	uint32_t moved_count = 0;
+	uint32_t coarse_count = 0;
 	for (const CountCaster &caster : cached.casters.casters) {
-		++(caster.is_moved ? moved_count : reused_count);
+		++(caster.is_coarse() ? coarse_count : caster.is_moved ? moved_count : reused_count);
+	}
+	if (coarse_count > 0) {
+		r_plan.run(text("coarse outlines where the penumbra is wide, casters: ", coarse_count));
 	}
 	if (moved_count > 0) {
 		r_plan.run(text("find edges, casters: ", moved_count));

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Computes the bounding box of each group of a light's bundles. One invocation per group.
+// Computes the bounds of each group of a light's bundles. One invocation per group.
 layout(local_size_x = 64) in;
 layout(std140, set = 0, binding = FIND_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -26,12 +26,15 @@ void main() {
 	}
 	vec3 minimum = vec3(FAR);
 	vec3 maximum = vec3(-FAR);
+	vec2 distances = vec2(FAR, -FAR);
 	for (uint i = group * size; i < min((group + 1u) * size, end); ++i) {
 		const CountEdgeBundle bundle = bundles[i];
-		minimum = min(minimum, bundle.center.xyz - bundle.half_size.xyz);
-		maximum = max(maximum, bundle.center.xyz + bundle.half_size.xyz);
+		minimum = min(minimum, bundle.center_first_distance.xyz - bundle.half_size_end_distance.xyz);
+		maximum = max(maximum, bundle.center_first_distance.xyz + bundle.half_size_end_distance.xyz);
+		distances.x = min(distances.x, bundle.center_first_distance.w);
+		distances.y = max(distances.y, bundle.half_size_end_distance.w);
 	}
 	const vec3 center = 0.5 * minimum + 0.5 * maximum;
-	bundles[light.max_bundle_count + group] = CountEdgeBundle(vec4(center, 0.0),
-			vec4(WIDENING * max(maximum - center, center - minimum) + 1e-6 * abs(center), 0.0));
+	bundles[light.max_bundle_count + group] = CountEdgeBundle(vec4(center, distances.x),
+			vec4(WIDENING * max(maximum - center, center - minimum) + 1e-6 * abs(center), distances.y));
 }

@@ -2,10 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Computes the bounding box of each bundle of edges in a light's list. One invocation per bundle.
+// Computes the bounds of each bundle of edges in a light's list. One invocation per bundle.
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = FIND_BINDING_EDGES) readonly buffer Edges {
 	CountEdgeRecord edges[];
+};
+layout(std430, set = 0, binding = FIND_BINDING_FACES) readonly buffer Faces {
+	CountFaceRecord faces[];
 };
 layout(std430, set = 0, binding = FIND_BINDING_TOTALS) readonly buffer Totals {
 	uint totals[];
@@ -25,13 +28,17 @@ void main() {
 	}
 	vec3 minimum = vec3(FAR);
 	vec3 maximum = vec3(-FAR);
+	vec2 distances = vec2(FAR, -FAR);
 	for (uint i = bundle * size; i < min((bundle + 1u) * size, end); ++i) {
 		const vec3 a = uintBitsToFloat(edges[i].a_face0.xyz);
 		const vec3 b = uintBitsToFloat(edges[i].b_face1.xyz);
 		minimum = min(minimum, min(a, b));
 		maximum = max(maximum, max(a, b));
+		const uint face = edges[i].a_face0.w & EDGE_COUNT_FACE_MASK;
+		distances.x = min(distances.x, uintBitsToFloat(faces[face].b_first_distance.w));
+		distances.y = max(distances.y, uintBitsToFloat(faces[face].c_end_distance.w));
 	}
 	const vec3 center = 0.5 * minimum + 0.5 * maximum;
-	bundles[bundle] = CountEdgeBundle(vec4(center, 0.0),
-			vec4(WIDENING * max(maximum - center, center - minimum) + 1e-6 * abs(center), 0.0));
+	bundles[bundle] = CountEdgeBundle(vec4(center, distances.x),
+			vec4(WIDENING * max(maximum - center, center - minimum) + 1e-6 * abs(center), distances.y));
 }

@@ -14,6 +14,33 @@ layout(std430, set = 0, binding = FIND_BINDING_PLANES) writeonly buffer Planes {
 layout(std430, set = 0, binding = FIND_BINDING_FACES) writeonly buffer Faces {
 	CountFaceRecord faces[];
 };
+layout(std430, set = 0, binding = FIND_BINDING_PIECES) readonly buffer Pieces {
+	vec4 pieces_node[]; // centre and radius of a sphere around each piece of the mesh
+};
+
+const float FAR = 3e38;
+
+/// The part distance from which the penumbra at a piece has at least this half width. p_piece: in light space.
+float find_switch_distance(vec4 p_piece, float p_half_width) {
+	const float reach = p_half_width / push.disc_radius; // directional: in metres, else a fraction of the distance
+	if (p_half_width <= 0.0) {
+		return -FAR;
+	}
+	if ((push.flags & EDGE_COUNT_CASTER_DIRECTIONAL) != 0u) {
+		return reach < FAR ? p_piece.z + p_piece.w + reach : FAR;
+	}
+	return reach < 1.0 ? (length(p_piece.xyz) + p_piece.w) / (1.0 - reach) : FAR;
+}
+
+/// The distances of the parts that see the face, see CountFaceRecord.
+vec2 find_distances(uint p_piece) {
+	if ((push.flags & EDGE_COUNT_CASTER_LEVEL) == 0u) {
+		return vec2(-FAR, FAR);
+	}
+	const vec4 piece_node = pieces_node[p_piece];
+	const vec4 piece = vec4((push.light_from_node * vec4(piece_node.xyz, 1.0)).xyz, push.scale * piece_node.w);
+	return vec2(find_switch_distance(piece, push.first_half_width), find_switch_distance(piece, push.end_half_width));
+}
 
 void main() {
 	const uint index = gl_GlobalInvocationID.x;
@@ -28,6 +55,9 @@ void main() {
 	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
 	planes[push.first_face + index] = is_mirrored ? -plane : plane;
 	// Mirroring inverts the winding, so two vertices are swapped to match the plane's front.
-	faces[push.first_face + index] = CountFaceRecord(uvec4(floatBitsToUint(a), face.kind),
-			uvec4(floatBitsToUint(is_mirrored ? c : b), 0u), uvec4(floatBitsToUint(is_mirrored ? b : c), 0u));
+	const vec2 distances = find_distances(face.kind & EDGE_COUNT_PIECE_MASK);
+	faces[push.first_face + index] =
+			CountFaceRecord(uvec4(floatBitsToUint(a), face.kind & ~EDGE_COUNT_PIECE_MASK),
+					floatBitsToUint(vec4(is_mirrored ? c : b, distances.x)),
+					floatBitsToUint(vec4(is_mirrored ? b : c, distances.y)));
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Clears the face lists of one view before they are built.
+// Clears the face lists of one view before they are built, and chooses the size of their texels.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -10,12 +10,22 @@ layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buf
 layout(std430, set = 0, binding = FACE_LIST_BINDING_HEADS) writeonly buffer Heads {
 	uint heads[];
 };
-layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) writeonly buffer Totals {
+layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) buffer Totals {
 	uint totals[];
 };
 layout(push_constant) uniform Push {
 	CountFaceListPush push;
 };
+
+/// The level at which the lists fitted last, or one less if they would probably fit there too: half the width needs
+/// about four times the nodes.
+uint choose_first_level() {
+	const uvec2 size_px = light.views[push.view].map_size_px;
+	const uint last_level = uint(findMSB(max(size_px.x, size_px.y))); // one texel
+	const uint level = min(totals[EDGE_COUNT_TOTAL_LEVELS + push.view], last_level);
+	const bool is_roomy = totals[EDGE_COUNT_TOTAL_NODES + push.view] <= light.node_capacity / 8u;
+	return level > 0u && is_roomy ? level - 1u : level;
+}
 
 void main() {
 	const uvec2 size_px = light.views[push.view].map_size_px;
@@ -24,7 +34,7 @@ void main() {
 		heads[push.view * texel_count + gl_GlobalInvocationID.x] = 0u;
 	}
 	if (gl_GlobalInvocationID.x == 0u && push.is_first != 0u) {
+		totals[EDGE_COUNT_TOTAL_LEVELS + push.view] = choose_first_level();
 		totals[EDGE_COUNT_TOTAL_NODES + push.view] = 0u;
-		totals[EDGE_COUNT_TOTAL_LEVELS + push.view] = 0u;
 	}
 }

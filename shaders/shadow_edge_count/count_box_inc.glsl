@@ -76,6 +76,7 @@ struct CountBox {
 	float margin; // rounding error of distances from planes
 	float depth_far_m;
 	bool is_directional;
+	vec2 distances; // range of the distances of its parts, see EDGE_COUNT_CHAIN_DISTANCE
 };
 
 /// Upper bound of |normal.Y| for points Y of the discs of all receivers P that have normal.P >= p_min. Y is
@@ -146,9 +147,21 @@ vec4 find_above_directional(CountLightConstants p_light, CountBounds p_bounds, v
 			: vec4(0.0, 0.0, -1.0, p_light.depth_far_m - p_w_range.x);
 }
 
+/// Bounds of the distances of the parts in these bounds, see EDGE_COUNT_CHAIN_DISTANCE. If there is one part, its
+/// distance is the lower bound.
+vec2 find_part_distances(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
+	if (p_light.is_directional != 0u) {
+		return p_light.depth_far_m - p_w_range.yx;
+	}
+	const vec2 nearest = clamp(vec2(0.0), p_bounds.minimum, p_bounds.maximum);
+	const vec2 farthest = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
+	return sqrt(1.0 + vec2(dot(nearest, nearest), dot(farthest, farthest))) / max(p_w_range.yx, 1e-37);
+}
+
 CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds) {
 	const float WIDENING = 1.0001; // for rounding of the centre
 	const float MARGIN = 2e-6;
+	const float ROUNDING = 1e-4; // of the distances
 	CountBox box;
 	box.view = p_view;
 	box.center = 0.5 * (p_bounds.minimum + p_bounds.maximum);
@@ -165,6 +178,8 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 	const vec3 y = p_view.axis_y.xyz;
 	const vec3 z = p_view.axis_z.xyz;
 	box.smooth_fraction = find_smooth_fraction(p_light, p_bounds, w_range);
+	const vec2 distances = find_part_distances(p_light, p_bounds, w_range);
+	box.distances = vec2(distances.x - ROUNDING * abs(distances.x), distances.y + ROUNDING * abs(distances.y));
 	if (box.is_directional) {
 		box.above = find_above_directional(p_light, p_bounds, w_range);
 		box.below = vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.y) /
@@ -195,9 +210,11 @@ float find_linear(vec4 p_function, vec3 p_point) {
 
 /// False if no edge of the bundle can matter to any receiver of the box.
 bool may_use_bundle(CountBox p_box, CountEdgeBundle p_bundle) {
-	const vec3 center = p_bundle.center.xyz;
-	const vec3 half_size = p_bundle.half_size.xyz;
-	bool may_use = find_linear(p_box.above, center) + dot(abs(p_box.above.xyz), half_size) > 0.0;
+	const vec3 center = p_bundle.center_first_distance.xyz;
+	const vec3 half_size = p_bundle.half_size_end_distance.xyz;
+	bool may_use = p_box.distances.y >= p_bundle.center_first_distance.w &&
+			p_box.distances.x < p_bundle.half_size_end_distance.w &&
+			find_linear(p_box.above, center) + dot(abs(p_box.above.xyz), half_size) > 0.0;
 	for (int i = 0; i < 4; ++i) {
 		may_use = may_use &&
 				find_linear(p_box.outside[i], center) - dot(abs(p_box.outside[i].xyz), half_size) <= 0.0;

@@ -23,6 +23,13 @@ vec4 load_count_plane1(CountEdgeRecord p_edge) {
 			EDGE_COUNT_FACE_MASK);
 }
 
+/// True if receivers of a part with this distance see the edge's level of detail.
+bool is_count_level(float p_part_distance, CountEdgeRecord p_edge) {
+	const int first = int(3u * (p_edge.a_face0.w & EDGE_COUNT_FACE_MASK));
+	return p_part_distance >= uintBitsToFloat(FETCH_UVEC4(faces_buffer, first + 1).w) &&
+			p_part_distance < uintBitsToFloat(FETCH_UVEC4(faces_buffer, first + 2).w);
+}
+
 /// p_index: of a bundle, or CountLightConstants::max_bundle_count plus the index of a group of bundles.
 CountEdgeBundle load_count_bundle(uint p_index) {
 	const int first = int(2u * p_index);

@@ -150,8 +150,8 @@ CountSector find_edge_sector(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p
 void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plane, bool p_uses_front_faces,
 		inout CountState r_state) {
 	const vec3 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz));
-	const vec3 b = count_offset(p_receiver, uintBitsToFloat(p_face.b.xyz));
-	const vec3 c = count_offset(p_receiver, uintBitsToFloat(p_face.c.xyz));
+	const vec3 b = count_offset(p_receiver, uintBitsToFloat(p_face.b_first_distance.xyz));
+	const vec3 c = count_offset(p_receiver, uintBitsToFloat(p_face.c_end_distance.xyz));
 	const float minimum = p_receiver.min_d;
 	const float maximum = p_receiver.max_d;
 	const bvec3 is_in = lessThan(vec3(a.z, b.z, c.z), vec3(maximum));
@@ -171,7 +171,8 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const bool is_between = is_in_front != is_count_light_in_front(false, p_plane);
 	const vec2 from = (is_in_front ? leave.xy : enter.xy) * p_receiver.inverse_radius;
 	const vec2 to = (is_in_front ? enter.xy : leave.xy) * p_receiver.inverse_radius;
-	const CountSector sector = make_count_sector(from, to, is_between, 1, is_counted && any(is_in) && !all(is_in));
+	const CountSector sector = make_count_sector(from, to, is_between, 1,
+			is_counted && any(is_in) && !all(is_in) && is_count_level(p_receiver.part_distance, p_face));
 	count_sectors(sector, make_empty_sector(), r_state);
 }
 

@@ -30,10 +30,11 @@ struct CountCrossings {
 /// of the face's plane. p_is_in_front: the receiver is in front of it, otherwise the light's centre is.
 void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_in_front, inout CountCrossings r_found) {
 	const vec2 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz)).xy;
-	const vec2 b = count_offset(p_receiver, uintBitsToFloat(p_face.b.xyz)).xy;
-	const vec2 c = count_offset(p_receiver, uintBitsToFloat(p_face.c.xyz)).xy;
+	const vec2 b = count_offset(p_receiver, uintBitsToFloat(p_face.b_first_distance.xyz)).xy;
+	const vec2 c = count_offset(p_receiver, uintBitsToFloat(p_face.c_end_distance.xyz)).xy;
 	const bool is_left = is_count_left(a, b);
-	const bool is_crossed = is_left == is_count_left(b, c) && is_left == is_count_left(c, a);
+	const bool is_crossed = is_left == is_count_left(b, c) && is_left == is_count_left(c, a) &&
+			is_count_level(p_receiver.part_distance, p_face);
 	const bool is_open = p_face.a_kind.w != 0u;
 	r_found.double_sided += is_crossed && is_open ? 1 : 0;
 	r_found.back_facing += is_crossed && !is_open && p_is_in_front ? 1 : 0;

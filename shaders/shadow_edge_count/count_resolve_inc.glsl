@@ -5,16 +5,10 @@
 #ifndef COUNT_RESOLVE_INC_GLSL
 #define COUNT_RESOLVE_INC_GLSL
 
-#include "shadow_edge_count/count_blocks_inc.glsl"
+#include "shadow_edge_count/count_block_parts_inc.glsl"
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_edge_inc.glsl"
 
-layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) readonly buffer BlockReceivers {
-	uint block_receivers[]; // per block, EDGE_COUNT_RECEIVERS_*
-};
-layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) readonly buffer Chains {
-	uint chains[]; // per block and part, EDGE_COUNT_CHAIN_*
-};
 FETCHED_UINTS(COUNT_BINDING_LISTS, lists_buffer);
 layout(set = 0, binding = COUNT_BINDING_MASKS) uniform utextureBuffer masks_buffer;
 
@@ -90,7 +84,8 @@ void choose_edge_of_bundle(CountBox p_box, uint p_bundle, uint p_index, uint p_e
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint edge = p_bundle * size + p_index;
 	const bool is_valid = p_index < size && edge < p_end;
-	choose_edge(p_box, is_valid ? edge : 0u, is_valid, r_choice);
+	const bool is_seen = is_valid && is_count_level(p_box.distances.x, load_count_edge(is_valid ? edge : 0u));
+	choose_edge(p_box, is_valid ? edge : 0u, is_seen, r_choice);
 }
 
 /// Collects edges from all bundles of the light, from edge p_first on, which starts a bundle. Ends when the slice may
@@ -384,7 +379,9 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		point = load_count_point(result.pixel);
 	}
 	const bool is_counted = is_receiver && may_count_at(point);
-	const CountReceiver receiver = make_count_receiver(light, point.position);
+	const uint own_part = is_sorted ? p_sorted_part : point.view;
+	const float distance = is_counted ? load_part_distance(p_block, own_part) : 0.0;
+	const CountReceiver receiver = make_count_receiver(light, point.position, distance);
 	CountCrossings crossings = CountCrossings(0, 0, 0);
 	if (is_counted) {
 		crossings = count_crossings(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver);
@@ -404,7 +401,6 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		count_add_cut(receiver, load_count_face(face), load_count_plane(face),
 				crossings.back_facing >= crossings.light_facing, state);
 	}
-	const uint own_part = is_sorted ? p_sorted_part : point.view;
 	bool waits = is_counted;
 	do {
 		// Process the receivers of one part at a time: a box around several parts needs many more edges.
@@ -414,12 +410,13 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		const uint part = subgroupShuffle(own_part, leader);
 		const uint view = find_part_view(p_parts, part);
 		const bool is_selected = waits && own_part == part;
-		const CountBox box = make_count_box(light, load_count_view(view),
+		CountBox box = make_count_box(light, load_count_view(view),
 				find_subgroup_bounds(point, is_selected, subgroupShuffle(point.slope, leader)));
+		box.distances = vec2(subgroupShuffle(distance, leader));
 		uint end = is_any ? find_edge_count() : 0u;
 		uint chunk = 0u;
 		if (!HAS_NO_LIST) {
-			const uint chain = (p_block * PART_COUNT + part) * uint(EDGE_COUNT_CHAIN_WORDS);
+			const uint chain = find_chain(p_block, part);
 			// A part without receivers has no chain.
 			end = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_COUNT)] : 0u;
 			chunk = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
@@ -462,13 +459,9 @@ uint find_invocation_index() {
 /// Each invocation computes one pixel of the work group's block.
 CountPixel count_pixel() {
 	const uint block = find_block();
-	const uint first = block * uint(EDGE_COUNT_RECEIVERS_WORDS);
-	const uint parts = block_receivers[first + uint(EDGE_COUNT_RECEIVERS_PARTS)];
-	const uint invocation = find_invocation_index();
-	const uint order = block_receivers[first + uint(EDGE_COUNT_RECEIVERS_ORDER) + invocation / 4u];
-	const uint own_order = order >> (8u * (invocation % 4u)) & 0xffu;
-	const uint index = (parts & EDGE_COUNT_IS_SORTED) != 0u ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : invocation;
-	return count_pixel_of_block(block, parts, find_pixel_in_block(index), own_order >> EDGE_COUNT_ORDER_PART_SHIFT);
+	const uint parts = load_parts(block);
+	const BlockPixel pixel = load_block_pixel(block, parts, find_invocation_index());
+	return count_pixel_of_block(block, parts, find_pixel_in_block(pixel.index), pixel.sorted_part);
 }
 
 #endif

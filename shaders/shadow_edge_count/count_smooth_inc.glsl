@@ -69,7 +69,7 @@ float find_fitted(uvec2 p_pixel) {
 void main() {
 	load_count_constants();
 	const uint block = find_block();
-	const uint parts = block_receivers[block * uint(EDGE_COUNT_RECEIVERS_WORDS) + uint(EDGE_COUNT_RECEIVERS_PARTS)];
+	const uint parts = load_parts(block);
 	const uint invocation = find_invocation_index();
 	counted[invocation] = count_pixel_of_block(block, parts, find_counted_pixel(invocation), 0u).visibility;
 	barrier();

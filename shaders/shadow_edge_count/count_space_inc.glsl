@@ -21,6 +21,7 @@ struct CountReceiver {
 	float min_d;		  // edges count only where d is above this: nearer to the light than the receiver
 	float max_d;		  // and where d is below this: in front of the light
 	float near_light_limit;	  // points with a larger dot(to_light, point) are nearer to the light than to the receiver
+	float part_distance;	  // of its part, see EDGE_COUNT_CHAIN_DISTANCE; selects levels of detail
 };
 
 float count_cross(vec2 p_a, vec2 p_b) {
@@ -29,9 +30,10 @@ float count_cross(vec2 p_a, vec2 p_b) {
 }
 
 /// p_position must not be the light's centre.
-CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position) {
+CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position, float p_part_distance) {
 	CountReceiver receiver;
 	receiver.position = p_position;
+	receiver.part_distance = p_part_distance;
 	receiver.inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
 	receiver.min_d = p_light.nearer_tolerance;
 	if (p_light.is_directional != 0u) {
@@ -86,6 +88,12 @@ bool is_count_left(vec2 p_a, vec2 p_b) {
 bool is_count_in_front(vec4 p_plane, vec3 p_point) {
 	precise const float side = p_plane.x * p_point.x + p_plane.y * p_point.y + p_plane.z * p_point.z + p_plane.w;
 	return side > 0.0;
+}
+
+/// True if receivers of a part with this distance see the face's level of detail.
+bool is_count_level(float p_part_distance, CountFaceRecord p_face) {
+	return p_part_distance >= uintBitsToFloat(p_face.b_first_distance.w) &&
+			p_part_distance < uintBitsToFloat(p_face.c_end_distance.w);
 }
 
 /// True if the light's centre is in front of the face.

@@ -9,8 +9,8 @@
 bool is_cut_face(CountLightConstants p_light, CountFaceRecord p_face) {
 	const float WIDENING = 1.001; // for rounding
 	const vec3 a = uintBitsToFloat(p_face.a_kind.xyz);
-	const vec3 b = uintBitsToFloat(p_face.b.xyz);
-	const vec3 c = uintBitsToFloat(p_face.c.xyz);
+	const vec3 b = uintBitsToFloat(p_face.b_first_distance.xyz);
+	const vec3 c = uintBitsToFloat(p_face.c_end_distance.xyz);
 	const vec3 nearest = clamp(vec3(0.0), min(a, min(b, c)), max(a, max(b, c)));
 	return p_light.max_cut_face_count > 0u && length(nearest) <= WIDENING * p_light.disc_radius;
 }

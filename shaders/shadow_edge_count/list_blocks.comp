@@ -160,6 +160,9 @@ const uint MAX_NEEDED_BUNDLES = 512u;
 shared uint needed_bundles[MAX_NEEDED_BUNDLES];
 const uint MAX_CANDIDATES = 1024u;
 shared uint candidates[MAX_CANDIDATES];
+// Edges within the reach of a part's box.
+const uint MAX_REACHED_EDGES = 512u;
+shared uint reached_edges[MAX_REACHED_EDGES];
 
 /// The list of a part while it is written.
 struct Chain {
@@ -169,6 +172,7 @@ struct Chain {
 	bool is_smooth; // all edges are far, see EDGE_COUNT_BLOCKS_SMOOTH
 };
 shared Chain part_chains[PARTS_PER_TILE]; // of the current view
+shared float part_distances[PARTS_PER_TILE]; // EDGE_COUNT_CHAIN_DISTANCE
 shared uint block_edge_counts[BLOCKS_PER_TILE]; // of all views
 // Flags of block_solids: whether solids are between a block's receivers and the light's centre, for parts without
 // edges. MAY_VARY: a face may separate receivers of one part.
@@ -228,17 +232,16 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 	return count;
 }
 
-/// Tests an edge against a part's box and returns its list entry. r_is_used: false if it adds nothing to any receiver
-/// of the box. r_min_fraction: lowered to find_min_fraction of the edge, if that is used.
-uint test_edge(CountBox p_box, uint p_index, out bool r_is_used, inout float r_min_fraction) {
+/// Returns the list entry of an edge within the reach of a part's box. r_is_used: false if it adds nothing to any
+/// receiver of the box. r_min_fraction: lowered to find_min_fraction of the edge, if that is used.
+uint make_entry(CountBox p_box, uint p_index, bool p_is_valid, out bool r_is_used, inout float r_min_fraction) {
 	const CountEdgeRecord edge = load_count_edge(p_index);
 	const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
 	const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
-	const bool is_in_reach = is_edge_in_reach(p_box, a, b) &&
-			max(find_light_side(p_box, a), find_light_side(p_box, b)) >= 0;
 	const uint packed_weight = find_packed_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
 			load_count_plane0(edge), load_count_plane1(edge));
-	r_is_used = is_in_reach && packed_weight != COUNT_ADDS_NOTHING;
+	r_is_used = p_is_valid && packed_weight != COUNT_ADDS_NOTHING &&
+			max(find_light_side(p_box, a), find_light_side(p_box, b)) >= 0;
 	r_min_fraction = r_is_used ? min(r_min_fraction, find_min_fraction(p_box, a, b)) : r_min_fraction;
 	return p_index | packed_weight << COUNT_PACKED_WEIGHT_SHIFT;
 }
@@ -291,25 +294,53 @@ uint collect_part_bundles(CountBox p_box, uint p_needed_count) {
 	return count;
 }
 
-/// Tests p_edge_count edges and lists those that a part may need. candidates has these edges, or their bundles if
-/// p_has_bundles.
-void list_candidates(CountBox p_box, bool p_has_bundles, uint p_edge_count,
-		inout float r_min_fraction, inout Chain r_chain) {
+/// Collects in reached_edges the edges within the reach of a part's box, from item r_first on, until all are tested or
+/// the next ones may not fit. Returns their number. candidates has the edges, or their bundles if p_has_bundles.
+uint collect_reached_edges(
+		CountBox p_box, float p_distance, bool p_has_bundles, uint p_edge_count, inout uint r_first) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint light_edge_count = find_edge_count();
-	uint first = 0u;
+	uint count = 0u;
 	do {
-		const uint item = first + gl_SubgroupInvocationID;
+		const uint item = r_first + gl_SubgroupInvocationID;
 		const uint candidate_index = item < p_edge_count ? item : 0u;
 		const uint candidate = candidates[p_has_bundles ? candidate_index / size : candidate_index];
 		const uint index = p_has_bundles ? candidate * size + candidate_index % size : candidate;
 		const bool is_valid = item < p_edge_count && index < light_edge_count;
-		bool is_used;
-		const uint entry = test_edge(p_box, is_valid ? index : 0u, is_used, r_min_fraction);
-		append_edges(entry, is_valid && is_used, r_chain);
-		first += GROUP_SIZE;
+		const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
+		const bool is_reached = is_valid && is_count_level(p_distance, edge) &&
+				is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
+		const uvec4 reached = subgroup_ballot(is_reached);
+		if (is_reached) {
+			reached_edges[count + subgroupBallotExclusiveBitCount(reached)] = index;
+		}
+		count += subgroupBallotBitCount(reached);
+		r_first += GROUP_SIZE;
 		++iteration_count;
-	} while (first < p_edge_count);
+	} while (r_first < p_edge_count && count + GROUP_SIZE <= MAX_REACHED_EDGES);
+	sync_subgroup_memory();
+	return count;
+}
+
+/// Tests p_edge_count edges and lists those that a part may need; see collect_reached_edges.
+void list_candidates(CountBox p_box, float p_distance, bool p_has_bundles, uint p_edge_count,
+		inout float r_min_fraction, inout Chain r_chain) {
+	uint next = 0u;
+	do {
+		const uint count = collect_reached_edges(p_box, p_distance, p_has_bundles, p_edge_count, next);
+		uint first = 0u;
+		do {
+			const uint item = first + gl_SubgroupInvocationID;
+			const bool is_valid = item < count;
+			bool is_used;
+			const uint entry =
+					make_entry(p_box, is_valid ? reached_edges[item] : 0u, is_valid, is_used, r_min_fraction);
+			append_edges(entry, is_used, r_chain);
+			first += GROUP_SIZE;
+			++iteration_count;
+		} while (first < count);
+		sync_subgroup_memory();
+	} while (next < p_edge_count && iteration_count < MAX_ITERATIONS);
 }
 
 /// Lists for each part the edges that it may need, out of p_needed_count bundles in needed_bundles or of
@@ -326,7 +357,7 @@ void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count, ui
 		float min_fraction = COUNT_FAR;
 		const uint bundle_count = collect_part_bundles(box, is_valid ? p_needed_count : 0u);
 		const uint edge_count = has_bundles ? bundle_count * uint(EDGE_COUNT_BUNDLE_SIZE) : p_candidate_edge_count;
-		list_candidates(box, has_bundles, is_valid ? edge_count : 0u, min_fraction, chain);
+		list_candidates(box, part_distances[i], has_bundles, is_valid ? edge_count : 0u, min_fraction, chain);
 		chain.is_smooth = chain.is_smooth && subgroup_all(min_fraction >= box.smooth_fraction);
 		if (is_valid && gl_SubgroupInvocationID == 0u) {
 			part_chains[i] = chain;
@@ -381,22 +412,23 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 const uint MAX_STEPS = 2048u;
 uint step_count = 0u;
 
-/// True if the whole face is in front of all receivers of the box, towards the light, or behind all of them.
-bool is_face_irrelevant(CountBox p_box, uint p_face) {
+/// True if the whole face is in front of all receivers of the box, towards the light, or behind all of them, or if
+/// they see another level of detail.
+bool is_face_irrelevant(CountBox p_box, float p_distance, uint p_face) {
 	const CountFaceRecord face = load_count_face(p_face);
 	const vec3 a = uintBitsToFloat(face.a_kind.xyz);
-	const vec3 b = uintBitsToFloat(face.b.xyz);
-	const vec3 c = uintBitsToFloat(face.c.xyz);
+	const vec3 b = uintBitsToFloat(face.b_first_distance.xyz);
+	const vec3 c = uintBitsToFloat(face.c_end_distance.xyz);
 	const float min_in_front =
 			min(find_linear(p_box.below, a), min(find_linear(p_box.below, b), find_linear(p_box.below, c)));
 	const float max_behind =
 			max(find_linear(p_box.above, a), max(find_linear(p_box.above, b), find_linear(p_box.above, c)));
-	return min_in_front > p_box.margin || max_behind < -p_box.margin;
+	return min_in_front > p_box.margin || max_behind < -p_box.margin || !is_count_level(p_distance, face);
 }
 
 /// True if no face that the texels p_first..p_last list can separate receivers of the box: all are on the same side of
 /// its plane, or the face is entirely in front of them or behind them. False if the test takes too many steps.
-bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
+bool has_no_separating_face(CountBox p_box, float p_distance, uint p_view, uvec2 p_first, uvec2 p_last) {
 	uvec2 texel = p_first;
 	uint next = load_count_first_node(p_view, texel);
 	const uint end = step_count + MAX_STEPS;
@@ -405,7 +437,7 @@ bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_
 	while (texel.y <= p_last.y && is_one_sided) {
 		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
 		const vec4 plane = load_count_plane(node.x);
-		const bool is_known = next == 0u || find_count_side(p_box, plane) != 0 || is_face_irrelevant(p_box, node.x);
+		const bool is_known = next == 0u || find_count_side(p_box, plane) != 0 || is_face_irrelevant(p_box, p_distance, node.x);
 		is_one_sided = is_known && step_count < end;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
@@ -419,7 +451,7 @@ bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_
 
 /// The flag of block_solids for a box whose receivers need no edge: then the number of solids in front of the light's
 /// centre changes only across a face.
-uint find_box_solids(uint p_view, CountBounds p_bounds) {
+uint find_box_solids(uint p_view, float p_distance, CountBounds p_bounds) {
 	const CountViewConstants view = load_count_view(p_view);
 	const CountBox box = make_count_box(light, view, p_bounds);
 	const vec2 minimum = box.center - box.half_size;
@@ -427,7 +459,8 @@ uint find_box_solids(uint p_view, CountBounds p_bounds) {
 	const bool is_inside = all(greaterThanEqual(minimum, -view.half_extent)) &&
 			all(lessThanEqual(maximum, view.half_extent));
 	const bool is_even = is_inside &&
-			has_no_separating_face(box, p_view, find_count_texel(p_view, minimum), find_count_texel(p_view, maximum));
+			has_no_separating_face(
+					box, p_distance, p_view, find_count_texel(p_view, minimum), find_count_texel(p_view, maximum));
 	// A receiver in the middle of the box.
 	const float w = dot(box.slope, box.center) + box.range.x;
 	const vec3 in_view = box.is_directional ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
@@ -435,7 +468,7 @@ uint find_box_solids(uint p_view, CountBounds p_bounds) {
 	if (!is_even) {
 		return MAY_VARY;
 	}
-	const int solids = count_solids(light, p_view, box.center, make_count_receiver(light, position));
+	const int solids = count_solids(light, p_view, box.center, make_count_receiver(light, position, p_distance));
 	return solids == 0 ? SOME_ARE_LIT : SOME_ARE_DARK;
 }
 
@@ -452,7 +485,7 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 		const bool is_needed = !is_count_bounds_empty(bounds) && light.max_edge_count > 0u &&
 				(!has_edges || blocks_are_smooth[block] != 0u);
 		if (is_needed) {
-			const uint solids = find_box_solids(p_view, bounds);
+			const uint solids = find_box_solids(p_view, part_distances[i], bounds);
 			atomicOr(block_solids[block], has_edges ? 0u : solids);
 			atomicAnd(blocks_are_smooth[block], has_edges && solids == MAY_VARY ? 0u : 1u);
 		}
@@ -497,6 +530,21 @@ void list_view(uvec2 p_tile, uint p_view) {
 	check_faces_of_view(p_tile, p_view, parts);
 }
 
+/// Computes the distances of the tile's parts. The passes that count read them too, so that all select the same levels
+/// of detail.
+void find_distances_of_tile(uvec2 p_tile) {
+	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
+		const uint part = i / BLOCKS_PER_TILE;
+		const bool is_valid = (load_parts(find_block(p_tile, i % BLOCKS_PER_TILE)) & (1u << part)) != 0u;
+		const CountBounds bounds = load_box(p_tile, is_valid ? 1u << i : 0u, i);
+		part_distances[i] = is_valid ? find_part_distances(light, bounds, find_w_range(bounds)).x : 0.0;
+		if (is_valid) {
+			chains[find_part_index(p_tile, i) * uint(EDGE_COUNT_CHAIN_WORDS) + uint(EDGE_COUNT_CHAIN_DISTANCE)] =
+					floatBitsToUint(part_distances[i]);
+		}
+	}
+}
+
 /// Adds a block to the list of its kind. The order is arbitrary and does not affect the mask.
 void add_block(uint p_entry, uint p_kind) {
 	const uint first = 3u * p_kind;
@@ -521,6 +569,7 @@ void main() {
 		block_solids[i] = (parts & EDGE_COUNT_IS_PARTLY_LIT) != 0u ? SOME_ARE_LIT : 0u;
 	}
 	views = subgroup_or(views);
+	find_distances_of_tile(tile);
 	do {
 		list_view(tile, views != 0u ? uint(findLSB(views)) : 0u);
 		views &= views - 1u;

@@ -3,7 +3,7 @@
 #include "shadow_edge_count/cut_faces_inc.glsl"
 #include "shadow_edge_count/texel_rows_inc.glsl"
 
-// Adds each of the light's faces to the lists of the texels that it may cover in one view's map. The lists are linked
+// Adds each face of a range to the lists of the texels that it may cover in one view's map. The lists are linked
 // and unordered, which does not affect the count of solids. Nodes beyond the capacity are only counted, and a further
 // attempt with larger texels follows. One invocation per face; the whole work group processes the rows of large faces.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
@@ -32,7 +32,7 @@ shared uint large_faces[FACE_LIST_GROUP_SIZE];
 
 TexelRows find_rows(uint p_face, uint p_level) {
 	return make_texel_rows(light, light.views[push.view], p_level, uintBitsToFloat(faces[p_face].a_kind.xyz),
-			uintBitsToFloat(faces[p_face].b.xyz), uintBitsToFloat(faces[p_face].c.xyz));
+			uintBitsToFloat(faces[p_face].b_first_distance.xyz), uintBitsToFloat(faces[p_face].c_end_distance.xyz));
 }
 
 /// Inserts node p_node, with the face, at the head of a texel's list, if the node fits.
@@ -78,8 +78,8 @@ void main() {
 	}
 	barrier();
 	const uint level = totals[EDGE_COUNT_TOTAL_LEVELS + push.view];
-	const uint face = gl_GlobalInvocationID.x;
-	if (face < light.face_count && !is_cut_face(light, faces[face])) {
+	const uint face = push.first_face + gl_GlobalInvocationID.x;
+	if (gl_GlobalInvocationID.x < push.face_count && !is_cut_face(light, faces[face])) {
 		const TexelRows rows = find_rows(face, level);
 		if (rows.last_row - rows.first_row >= LARGE_ROWS) {
 			large_faces[atomicAdd(large_count, 1u)] = face;

@@ -28,22 +28,24 @@ struct SHARED_ALIGN CountEdgeRecord {
 SHARED_SIZE(CountEdgeRecord, 32);
 
 /// The vertices of a face. Fetched as 3 x RGBA32_UINT. Planes of faces have a separate buffer,
-/// which edges read too.
+/// which edges read too. The face and its edges exist only for receivers whose part's distance (see
+/// EDGE_COUNT_CHAIN_DISTANCE) is in first_distance <= distance < end_distance: other receivers see
+/// another level of detail.
 struct SHARED_ALIGN CountFaceRecord {
-	uvec4 a_kind; // float bits of the position; 0 or EDGE_COUNT_DOUBLE_SIDED
-	uvec4 b;
-	uvec4 c;
+	uvec4 a_kind;			// float bits of the position; 0 or EDGE_COUNT_DOUBLE_SIDED
+	uvec4 b_first_distance; // float bits
+	uvec4 c_end_distance;	// float bits
 };
 SHARED_SIZE(CountFaceRecord, 48);
 
-/// The bounding box of EDGE_COUNT_BUNDLE_SIZE consecutive edges of the light's list. One test may
-/// reject them all.
+/// The bounding box of EDGE_COUNT_BUNDLE_SIZE consecutive edges of the light's list, and of their
+/// distances (see CountFaceRecord). One test may reject them all.
 struct SHARED_ALIGN CountEdgeBundle {
-	vec4 center;
-	vec4 half_size;
+	vec4 center_first_distance;
+	vec4 half_size_end_distance;
 };
 SHARED_SIZE(CountEdgeBundle, 32);
-#define EDGE_COUNT_BUNDLE_SIZE 32
+#define EDGE_COUNT_BUNDLE_SIZE 16
 // The buffer of bundles continues with the bounding boxes of groups of this many bundles.
 #define EDGE_COUNT_BUNDLES_PER_GROUP 32
 
@@ -65,6 +67,7 @@ SHARED_SIZE(CountEdgeBundle, 32);
 #define FIND_BINDING_TOTALS 8
 #define FIND_BINDING_BUNDLES 9
 #define FIND_BINDING_LIGHT 10
+#define FIND_BINDING_PIECES 11
 
 /// An edge between welded vertices, from a to b in the winding order of its first face.
 struct SHARED_ALIGN CountMeshEdge {
@@ -80,7 +83,7 @@ struct SHARED_ALIGN CountMeshFace {
 	uint a;
 	uint b;
 	uint c;
-	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED
+	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its piece
 };
 SHARED_SIZE(CountMeshFace, 16);
 
@@ -96,11 +99,19 @@ struct SHARED_ALIGN CountCasterPush {
 	uint flags;			  // EDGE_COUNT_CASTER_*
 	float disc_radius;	  // R in metres; directional: a tangent
 	float side_tolerance; // p_tolerance of count_find_light_side
+	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a piece of the mesh, in metres, from
+	// which receivers see this level of detail, and from which they see the next one.
+	float first_half_width;
+	float end_half_width;
+	float scale; // largest stretch of a length by light_from_node
+	uint padding;
 };
-SHARED_SIZE(CountCasterPush, 96);
+SHARED_SIZE(CountCasterPush, 112);
+#define EDGE_COUNT_PIECE_MASK 0x00ffffffu
 #define EDGE_COUNT_CASTER_MIRRORED 1u // light_from_node has a negative determinant
 #define EDGE_COUNT_CASTER_LAST 2u	  // the last caster that has edges
 #define EDGE_COUNT_CASTER_DIRECTIONAL 4u
+#define EDGE_COUNT_CASTER_LEVEL 8u // one of several levels of detail
 
 #define EDGE_COUNT_MAX_VIEWS 6
 // Each block of 8 x 8 pixels has bounds of its receivers and lists of edges. list_blocks.comp
@@ -115,10 +126,13 @@ SHARED_SIZE(CountCasterPush, 96);
 // The edge list of one part of a block is a chain of chunks. After all chunks, the buffer has each
 // chunk's next chunk.
 #define EDGE_COUNT_CHUNK_SIZE 64
-// Words per block and part: the first chunk, and the number of listed edges.
+// Words per block and part: the first chunk, the number of listed edges, and float bits of the
+// part's distance, which is a lower bound of its receivers' distances from the light's centre
+// (directional: of their z in light space), in metres.
 #define EDGE_COUNT_CHAIN_FIRST 0
 #define EDGE_COUNT_CHAIN_COUNT 1
-#define EDGE_COUNT_CHAIN_WORDS 2
+#define EDGE_COUNT_CHAIN_DISTANCE 2
+#define EDGE_COUNT_CHAIN_WORDS 3
 #define EDGE_COUNT_NO_BUDGET 0xffffffffu
 
 /// A light view. Each texel of its map has a list of faces. (x', y') and w of a point are its
@@ -205,7 +219,7 @@ SHARED_SIZE(CountBlockBox, 32);
 #define EDGE_COUNT_TOTAL_LEVELS                                                                    \
 	(EDGE_COUNT_TOTAL_NODES + EDGE_COUNT_MAX_VIEWS) // per view, see load_count_level
 #define EDGE_COUNT_TOTAL_CUT_FACES (EDGE_COUNT_TOTAL_LEVELS + EDGE_COUNT_MAX_VIEWS)
-#define EDGE_COUNT_TOTAL_COUNT 16
+#define EDGE_COUNT_TOTAL_COUNT 16 // all start at 0
 
 // Bindings of the passes over pixels and blocks, after those of map_resolve_inc.glsl.
 #define COUNT_BINDING_LIGHT (MAP_RESOLVE_FIRST_FREE_BINDING + 0)
@@ -273,15 +287,20 @@ SHARED_SIZE(CountBlockPush, 16);
 #define FACE_LIST_BINDING_CUT_FACES 6
 #define FACE_LIST_GROUP_SIZE 64
 
-/// One attempt to list a view's faces.
+/// One attempt to list a view's faces. The first attempt uses texels of the size that fitted when
+/// the view was last listed.
 struct SHARED_ALIGN CountFaceListPush {
 	uint view;
-	uint is_first;		// the first attempt: the map has its full size
+	uint first_face; // of a range of faces that the view may see
+	uint face_count;
+	uint is_first;		// the first attempt
 	uint is_next_final; // the next attempt is the final one: its map has one texel, where all faces
 						// fit
-	uint padding;
+	uint padding0;
+	uint padding1;
+	uint padding2;
 };
-SHARED_SIZE(CountFaceListPush, 16);
+SHARED_SIZE(CountFaceListPush, 32);
 // Offsets, in words, of the indirect dispatch arguments of a further attempt: to clear the map, and
 // to list the faces.
 #define FACE_LIST_DISPATCH_CLEAR 0

@@ -112,6 +112,27 @@ TEST_CASE("[CutLevels] a wider penumbra gets a coarser level, a hard shadow the 
 	CHECK(repeated.choose_level(0.1) < levels.choose_level(0.3));
 }
 
+TEST_CASE("[CutLevels] a wide penumbra gets a second, coarse level for the receivers that see it") {
+	const CutLevels &levels = *get_cut_mesh(make_card(1), make_disc_material()).levels;
+	const uint32_t last = static_cast<uint32_t>(CutLevels::TOLERANCES_PX.size()) - 1;
+	CHECK(levels.choose_coarse_level(3, 1e-9) == 3);
+	CHECK(levels.choose_coarse_level(3, 1e9) == last);
+	CHECK(levels.choose_coarse_level(last, 1e9) == last);
+	CHECK(levels.choose_coarse_level(last - 1, 1e9) == last - 1); // not worth it
+	size_t coarse_count = 0;
+	for (double half_width = 0.001; half_width < 10; half_width *= 1.2) {
+		const uint32_t level = levels.choose_level(half_width);
+		const uint32_t coarse = levels.choose_coarse_level(level, half_width);
+		CHECK((coarse == level || coarse >= level + 2));
+		if (coarse > level) {
+			++coarse_count;
+			CHECK(levels.get_min_half_width(coarse) < half_width);
+			CHECK(levels.get_min_half_width(coarse) >= 4 * levels.get_min_half_width(level));
+		}
+	}
+	CHECK(coarse_count > 5);
+}
+
 TEST_CASE("[CutLevels] a larger light gets coarser outlines") {
 	const auto card = make_card(1);
 	const SceneSnapshot scene = make_scene(card);

@@ -36,7 +36,8 @@ CountEdgeBundle make_bundle(uint p_first, uint p_end) {
 		minimum = min(minimum, min(get_a(i), get_b(i)));
 		maximum = max(maximum, max(get_a(i), get_b(i)));
 	}
-	return CountEdgeBundle(vec4(0.5 * (minimum + maximum), 0.0), vec4(0.5001 * (maximum - minimum), 0.0));
+	return CountEdgeBundle(vec4(0.5 * (minimum + maximum), -COUNT_FAR),
+			vec4(0.5001 * (maximum - minimum), COUNT_FAR));
 }
 
 void main() {

@@ -57,7 +57,7 @@ void main() {
 	if (item >= uint(items.length())) {
 		return;
 	}
-	const CountReceiver receiver = make_count_receiver(light, items[item].xyz);
+	const CountReceiver receiver = make_count_receiver(light, items[item].xyz, 0.0);
 	const CountCrossings crossings = count_crossings(light, 0u, vec2(0.0), receiver);
 	CountState state = make_count_state(sum_crossings(crossings));
 	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && light.is_directional == 0u; ++i) {

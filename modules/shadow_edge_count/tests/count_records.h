@@ -24,10 +24,12 @@ struct CountArrays {
 	}
 
 	explicit CountArrays(const CountScene &p_scene, uint32_t p_map_size_px = 64) {
+		const float FAR = 3e38f; // every receiver sees the faces
 		for (const CountFace &face : p_scene.get_faces()) {
 			faces.push_back(
 					{ pack(face.corners[0], face.is_double_sided ? EDGE_COUNT_DOUBLE_SIDED : 0u),
-							pack(face.corners[1], 0), pack(face.corners[2], 0) });
+							pack(face.corners[1], std::bit_cast<uint32_t>(-FAR)),
+							pack(face.corners[2], std::bit_cast<uint32_t>(FAR)) });
 			planes.emplace_back(face.plane);
 		}
 		for (const CountEdge &edge : p_scene.get_edges()) {

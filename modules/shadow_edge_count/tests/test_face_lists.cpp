@@ -41,9 +41,10 @@ struct Lists {
 	std::vector<uint32_t> totals;
 };
 
-/// Runs the passes that list the faces of one view.
+/// Runs the passes that list the faces of one view. p_totals: what an earlier frame left.
 Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces,
-		const shader::CountLightConstants &p_light) {
+		const shader::CountLightConstants &p_light,
+		const std::vector<uint32_t> &p_totals = std::vector<uint32_t>(EDGE_COUNT_TOTAL_COUNT)) {
 	const auto pack = [](const glm::dvec3 &p_point) {
 		return glm::uvec4(std::bit_cast<uint32_t>(float(p_point.x)),
 				std::bit_cast<uint32_t>(float(p_point.y)),
@@ -62,8 +63,7 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 			r_fixture.make_buffer("heads", std::vector<uint32_t>(texel_count, 77u), usage);
 	const OwnedBuffer nodes =
 			r_fixture.make_buffer("nodes", std::vector<glm::uvec2>(p_light.node_capacity), usage);
-	const OwnedBuffer totals = r_fixture.make_buffer(
-			"totals", std::vector<uint32_t>(EDGE_COUNT_TOTAL_COUNT, 77u), usage);
+	const OwnedBuffer totals = r_fixture.make_buffer("totals", p_totals, usage);
 	const OwnedBuffer heads_readback = r_fixture.make_readback(texel_count * sizeof(uint32_t));
 	const OwnedBuffer nodes_readback =
 			r_fixture.make_readback(p_light.node_capacity * sizeof(glm::uvec2));
@@ -76,7 +76,7 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 		};
 		commands.barriers({ &barrier, 1 });
 	};
-	const shader::CountFaceListPush push = { 0, 1, 0, 0 };
+	const shader::CountFaceListPush push = { 0, 0, uint32_t(p_faces.size()), 1, 0, 0, 0, 0 };
 	commands.bind_pipeline(r_fixture.device->get_compute_pipeline(
 			{ .name = "clear", .shader = "shadow_edge_count/clear_faces.comp" }));
 	commands.bind_resources({ { FACE_LIST_BINDING_LIGHT, light.get() },
@@ -172,4 +172,26 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 		}
 	}
 	CHECK(pair_count >= 1'000'000);
+}
+
+TEST_CASE("[GPU][EdgeCount] face lists start with the size of texels that fitted last") {
+	KernelFixture fixture;
+	TestRandom random;
+	const std::vector<CountFace> faces = make_soup(random, 20);
+	shader::CountLightConstants light = {};
+	light.views[0] = { glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0),
+		glm::vec2(1.1f), glm::uvec2(64) };
+	light.view_count = 1;
+	light.node_capacity = 1u << 17;
+	light.face_count = uint32_t(faces.size());
+	const auto find_level = [&](uint32_t p_level, uint32_t p_node_count) {
+		std::vector<uint32_t> totals(EDGE_COUNT_TOTAL_COUNT);
+		totals[EDGE_COUNT_TOTAL_LEVELS] = p_level;
+		totals[EDGE_COUNT_TOTAL_NODES] = p_node_count;
+		return list_faces(fixture, faces, light, totals).totals[EDGE_COUNT_TOTAL_LEVELS];
+	};
+	CHECK(find_level(0, 0) == 0);
+	CHECK(find_level(2, light.node_capacity / 2) == 2);
+	CHECK(find_level(2, light.node_capacity / 8) == 1); // smaller texels would fit, too
+	CHECK(find_level(31, light.node_capacity) == 6);	// a map of 64 texels has one at level 6
 }

@@ -23,6 +23,7 @@ struct Caster {
 	OwnedBuffer positions;
 	OwnedBuffer faces;
 	OwnedBuffer edges;
+	OwnedBuffer pieces;
 };
 
 /// Results of the passes.
@@ -57,6 +58,7 @@ Found find_edges(
 		caster.positions = r_fixture.make_buffer("positions", positions);
 		caster.faces = r_fixture.make_buffer("mesh faces", caster.mesh.faces);
 		caster.edges = r_fixture.make_buffer("edges", caster.mesh.edges);
+		caster.pieces = r_fixture.make_buffer("pieces", caster.mesh.pieces);
 		face_count += caster.push.face_count;
 		edge_count += caster.push.edge_count;
 		word_count += caster.mesh.get_word_count();
@@ -109,6 +111,7 @@ Found find_edges(
 			[&](const Caster &p_caster) {
 				commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
 						{ FIND_BINDING_MESH_FACES, p_caster.faces.get() },
+						{ FIND_BINDING_PIECES, p_caster.pieces.get() },
 						{ FIND_BINDING_PLANES, planes.get() },
 						{ FIND_BINDING_FACES, faces.get() } });
 			});
@@ -227,7 +230,7 @@ TEST_CASE("[GPU][EdgeCount] faces and edges of all casters match the double vers
 			}
 			REQUIRE(found.faces.size() == expected.faces.size());
 			for (size_t index = 0; index < found.faces.size(); ++index) {
-				CHECK(glm::length(to_point(found.faces[index].b) -
+				CHECK(glm::length(to_point(found.faces[index].b_first_distance) -
 							  expected.faces[index].corners[1]) < 1e-5);
 				CHECK((found.faces[index].a_kind.w != 0) == expected.faces[index].is_double_sided);
 			}

@@ -1,0 +1,115 @@
+// Levels of detail of cut-outs, chosen for each receiver.
+
+#include "modules/scene/cut_levels.h"
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include "tests/test_random.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+const glm::uvec2 SIZE_PX(192);
+
+/// Round leaves above the ground, under a light of some width.
+SmallScene make_leaves(LightType p_type) {
+	SmallScene scene(p_type);
+	scene.box->surfaces.clear();
+	std::vector<uint8_t> texels;
+	for (int y = 0; y < 64; ++y) {
+		for (int x = 0; x < 64; ++x) {
+			const double distance = glm::distance(glm::dvec2(x, y), glm::dvec2(31.5));
+			const double alpha = std::clamp(0.5 + 0.2 * (26 - distance), 0.0, 1.0);
+			texels.insert(texels.end(), { 255, 255, 255, uint8_t(std::lround(255 * alpha)) });
+		}
+	}
+	Material material;
+	material.alpha_mode = AlphaMode::MASK;
+	material.base_color_texture.image = make_image("leaf", { 64, 64 }, std::move(texels));
+	TestRandom random;
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	MeshAttributes attributes;
+	for (uint32_t leaf = 0; leaf < 24; ++leaf) {
+		const glm::dvec3 middle(
+				random.next(-0.6, 0.6), random.next(0.2, 1.3), random.next(-0.6, 0.6));
+		const glm::dvec3 along = 0.2 * random.next_unit();
+		const glm::dvec3 across =
+				0.2 * glm::normalize(glm::cross(along, glm::dvec3(random.next_unit())));
+		for (const auto &[u, v] :
+				{ std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1) }) {
+			positions.emplace_back(middle + (u - 0.5) * along + (v - 0.5) * across);
+			attributes.uvs[0].emplace_back(u, v);
+		}
+		for (const uint32_t corner : { 0u, 1u, 2u, 0u, 2u, 3u }) {
+			indices.push_back(4 * leaf + corner);
+		}
+	}
+	MeshInstance3D &tree = add_mesh(scene.scene, "Tree",
+			make_mesh("tree", positions, {}, indices, std::move(attributes)), {});
+	tree.surfaces[0].material = std::make_shared<const Material>(material);
+	scene.light->properties["light_size"] = 0.3;
+	scene.light->properties["light_angular_distance"] = 8.0;
+	return scene;
+}
+
+/// Renders the mask, with or without a coarse level.
+MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_levels) {
+	auto snapshot = std::make_shared<SceneSnapshot>(*p_scene.snap());
+	const LightSnapshot light = snapshot->lights[0];
+	if (!p_has_levels) {
+		if (const auto selected = snapshot->select_casters(light)) {
+			*snapshot = *selected;
+		}
+		for (InstanceSnapshot &instance : snapshot->instances) {
+			instance.caster_levels = nullptr;
+		}
+	}
+	MaskRequest request;
+	request.scene = snapshot;
+	request.size_px = SIZE_PX;
+	request.technique_override = "edge_count";
+	request.light = light.name;
+	request.wants_surfaces = true;
+	MaskResult result = r_fixture.render(request);
+	CHECK(is_valid_mask(result));
+	return result;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] only receivers that see a wide penumbra get coarse outlines") {
+	MaskFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		const SmallScene scene = make_leaves(type);
+		const auto snapshot = scene.snap();
+		const MaskResult fine = render(fixture, scene, false);
+		const MaskResult found = render(fixture, scene, true);
+		REQUIRE(found.receiver == fine.receiver);
+		size_t near_count = 0; // receivers on leaves
+		size_t changed_near_count = 0;
+		size_t changed_count = 0;
+		float max_change = 0;
+		for (size_t index = 0; index < found.visibility.size(); ++index) {
+			if (found.receiver[index] == 0) {
+				continue;
+			}
+			const double height_m =
+					snapshot->camera.position_world.y + found.surfaces[index].position.y;
+			const float change = std::abs(found.visibility[index] - fine.visibility[index]);
+			max_change = std::max(max_change, change);
+			changed_count += change > 0 ? 1 : 0;
+			near_count += height_m > 0.6 ? 1 : 0;
+			changed_near_count += height_m > 0.6 && change > 0 ? 1 : 0;
+		}
+		CHECK(changed_count > 200);
+		CHECK(max_change < 0.03f);
+		CHECK(near_count > 200);
+		CHECK(changed_near_count == 0);
+	}
+}
