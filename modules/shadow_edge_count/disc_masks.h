@@ -27,7 +27,7 @@ public:
 	glm::dvec2 compute_sample(uint32_t p_index) const;
 	/// The mask of the points with dot(point, direction) > offset, at index
 	/// direction * OFFSET_COUNT + offset. Directions are bins of the diamond angle, see
-	/// find_direction_bin in count_masks_inc.glsl. Offset 0 stands for exactly 0, offset i for
+	/// find_direction_bins in count_masks_inc.glsl. Offset 0 stands for exactly 0, offset i for
 	/// (i + 0.5) / 64.
 	const std::vector<uint64_t> &get_table() const { return table; }
 

@@ -33,115 +33,155 @@ CountState make_count_state(int p_solid_count) {
 	return state;
 }
 
-/// A region of the light's disc: beyond a line, and between two directions counter-clockwise.
-struct CountSector {
-	float area;		  // twice the signed area, in R^2
-	uint mask_index;  // of the points beyond the line, see find_count_mask_index
-	float from_angle; // see find_count_angle
-	float to_angle;
+/// Two regions of the light's disc, component by component. Each is beyond a line, and between two directions
+/// counter-clockwise.
+struct CountSectors {
+	vec2 area;		  // twice the signed area, in R^2
+	uvec2 mask_index; // of the points beyond the line, see find_count_mask_indices
+	vec2 from_angle;  // see find_count_angles
+	vec2 to_angle;
 	// All bits are set, or none. flip: subtract, by adding at all other points. once, twice: how much to add.
-	uint flip;
-	uint once;
-	uint twice;
+	uvec2 flip;
+	uvec2 once;
+	uvec2 twice;
 };
 
-CountSector make_empty_sector() {
-	return CountSector(0.0, 0u, 0.0, 0.0, 0u, 0u, 0u);
-}
-
 /// All bits set, or none.
-uint make_bit_mask(bool p_is_set) {
-	return p_is_set ? 0xffffffffu : 0u;
+uvec2 make_bit_masks(bvec2 p_are_set) {
+	return uvec2(p_are_set.x ? 0xffffffffu : 0u, p_are_set.y ? 0xffffffffu : 0u);
 }
 
-/// The region of the disc beyond an edge from p_a to p_b in the disc's plane, seen from the disc's centre: a circular
-/// sector without its triangle. Units of R. p_is_left: see is_count_left. p_weight: 0, 1 or 2. Empty unless p_is_valid.
-/// Without branches, since software drivers execute both sides.
-CountSector make_count_sector(vec2 p_a, vec2 p_b, bool p_is_left, int p_weight, bool p_is_valid) {
-	const vec2 edge_direction = p_b - p_a;
-	const float square = dot(edge_direction, edge_direction);
-	const vec2 u = edge_direction * inversesqrt(max(square, 1e-37));
-	const float distance = max(abs(count_cross(p_a, u)), 1e-20);
-	const float half_chord = sqrt(max(1.0 - distance * distance, 0.0));
-	const float from = max(dot(p_a, u), -half_chord);
-	const float to = min(dot(p_b, u), half_chord);
-	const float length_along = to - from;
-	// The sector's angle, from one arc tangent. from and to are measured from the foot of the
-	// perpendicular from the centre, which avoids cancellation.
-	const float angle =
-			count_half_angle(vec2(distance * distance + from * to, distance * length_along));
-	const float twice_area = angle - distance * length_along;
-	CountSector sector;
-	const bool is_valid = p_is_valid && square >= 1e-16 && distance < 1.0 && length_along > 0.0;
-	sector.area = is_valid ? float(p_is_left ? -p_weight : p_weight) * twice_area : 0.0;
-	sector.mask_index = find_count_mask_index(p_is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x), distance);
-	sector.from_angle = find_count_angle(p_is_left ? p_a : p_b);
-	sector.to_angle = find_count_angle(p_is_left ? p_b : p_a);
-	sector.flip = make_bit_mask(p_is_left);
-	sector.once = make_bit_mask(is_valid && p_weight != 2);
-	sector.twice = make_bit_mask(is_valid && p_weight == 2);
-	return sector;
+/// Two edges in the disc's plane, component by component, each from a to b. Units of R.
+struct DiscEdges {
+	vec2 a_x;
+	vec2 a_y;
+	vec2 b_x;
+	vec2 b_y;
+};
+
+/// The regions of the disc beyond two edges, seen from the disc's centre: circular sectors without their triangles.
+/// p_are_left: see is_count_left. p_weights: 0, 1 or 2. A region is empty unless p_are_valid. Without branches, since
+/// software drivers execute both sides.
+CountSectors make_count_sectors(DiscEdges p_edges, bvec2 p_are_left, ivec2 p_weights, bvec2 p_are_valid) {
+	const vec2 along_x = p_edges.b_x - p_edges.a_x;
+	const vec2 along_y = p_edges.b_y - p_edges.a_y;
+	const vec2 square = along_x * along_x + along_y * along_y;
+	const vec2 inverse_length = inversesqrt(max(square, vec2(1e-37)));
+	const vec2 u_x = along_x * inverse_length;
+	const vec2 u_y = along_y * inverse_length;
+	precise const vec2 cross_a = p_edges.a_x * u_y - p_edges.a_y * u_x;
+	const vec2 offset = max(abs(cross_a), vec2(1e-20)); // of the line from the centre
+	const vec2 half_chord = sqrt(max(1.0 - offset * offset, vec2(0.0)));
+	const vec2 from = max(p_edges.a_x * u_x + p_edges.a_y * u_y, -half_chord);
+	const vec2 to = min(p_edges.b_x * u_x + p_edges.b_y * u_y, half_chord);
+	const vec2 length_along = to - from;
+	// A sector's angle, from one arc tangent. from and to are measured from the foot of the perpendicular from the
+	// centre, which avoids cancellation.
+	const vec2 angle = count_half_angles(offset * offset + from * to, offset * length_along);
+	const vec2 twice_area = angle - offset * length_along;
+	const bvec2 are_valid = bvec2(
+			p_are_valid.x && square.x >= 1e-16 && offset.x < 1.0 && length_along.x > 0.0,
+			p_are_valid.y && square.y >= 1e-16 && offset.y < 1.0 && length_along.y > 0.0);
+	CountSectors sectors;
+	const vec2 weights = vec2(p_weights);
+	sectors.area = mix(vec2(0.0), mix(weights, -weights, p_are_left) * twice_area, are_valid);
+	sectors.mask_index = find_count_mask_indices(mix(-u_y, u_y, p_are_left), mix(u_x, -u_x, p_are_left), offset);
+	const vec2 angle_a = find_count_angles(p_edges.a_x, p_edges.a_y);
+	const vec2 angle_b = find_count_angles(p_edges.b_x, p_edges.b_y);
+	sectors.from_angle = mix(angle_b, angle_a, p_are_left);
+	sectors.to_angle = mix(angle_a, angle_b, p_are_left);
+	sectors.flip = make_bit_masks(p_are_left);
+	sectors.once = make_bit_masks(bvec2(are_valid.x && p_weights.x != 2, are_valid.y && p_weights.y != 2));
+	sectors.twice = make_bit_masks(bvec2(are_valid.x && p_weights.x == 2, are_valid.y && p_weights.y == 2));
+	return sectors;
 }
 
 /// The points of one sample set at which a sector adds.
-uvec2 find_sector_points(CountSector p_sector, uvec2 p_mask, uint p_sample_set) {
-	return (p_mask & find_count_wedge(p_sector.from_angle, p_sector.to_angle, p_sample_set)) ^ p_sector.flip;
+uvec2 find_sector_points(float p_from_angle, float p_to_angle, uint p_flip, uvec2 p_mask, uint p_sample_set) {
+	return (p_mask & find_count_wedge(p_from_angle, p_to_angle, p_sample_set)) ^ p_flip;
 }
 
-void count_sample_set(CountSector p_first, CountSector p_second, uvec2 p_first_mask,
-		uvec2 p_second_mask, uint p_sample_set, inout PointCounters r_counters) {
-	const uvec2 first = find_sector_points(p_first, p_first_mask, p_sample_set);
-	const uvec2 second = find_sector_points(p_second, p_second_mask, p_sample_set);
-	add_masks(r_counters, first & p_first.once, second & p_second.once, first & p_first.twice, second & p_second.twice);
-}
-
-/// What a flipped sector adds to all counters in excess.
-int find_surplus(CountSector p_sector) {
-	return int((p_sector.flip & p_sector.once & 1u) + (p_sector.flip & p_sector.twice & 2u));
+void count_sample_set(
+		CountSectors p_sectors, uvec2 p_mask0, uvec2 p_mask1, uint p_sample_set, inout PointCounters r_counters) {
+	const uvec2 first = find_sector_points(
+			p_sectors.from_angle.x, p_sectors.to_angle.x, p_sectors.flip.x, p_mask0, p_sample_set);
+	const uvec2 second = find_sector_points(
+			p_sectors.from_angle.y, p_sectors.to_angle.y, p_sectors.flip.y, p_mask1, p_sample_set);
+	add_masks(r_counters, first & p_sectors.once.x, second & p_sectors.once.y, first & p_sectors.twice.x,
+			second & p_sectors.twice.y);
 }
 
 /// Adds the areas and points of two sectors: two at a time need half as many carries. Without branches, since software
 /// drivers copy all counters where the sides of a branch join.
-void count_sectors(CountSector p_first, CountSector p_second, inout CountState r_state) {
-	r_state.area += p_first.area;
-	r_state.area += p_second.area;
-	r_state.surplus += find_surplus(p_first) + find_surplus(p_second);
-	const uvec4 first0 = load_count_masks(p_first.mask_index, 0u);
-	const uvec4 second0 = load_count_masks(p_second.mask_index, 0u);
-	count_sample_set(p_first, p_second, first0.xy, second0.xy, 0u, r_state.counters0);
+void count_sectors(CountSectors p_sectors, inout CountState r_state) {
+	r_state.area += p_sectors.area.x;
+	r_state.area += p_sectors.area.y;
+	// What flipped sectors add to all counters in excess.
+	const uvec2 surplus = (p_sectors.flip & p_sectors.once & 1u) + (p_sectors.flip & p_sectors.twice & 2u);
+	r_state.surplus += int(surplus.x + surplus.y);
+	const uvec4 first0 = load_count_masks(p_sectors.mask_index.x, 0u);
+	const uvec4 second0 = load_count_masks(p_sectors.mask_index.y, 0u);
+	count_sample_set(p_sectors, first0.xy, second0.xy, 0u, r_state.counters0);
 #if COUNT_SAMPLE_SET_COUNT == 4
-	const uvec4 first1 = load_count_masks(p_first.mask_index, 1u);
-	const uvec4 second1 = load_count_masks(p_second.mask_index, 1u);
-	count_sample_set(p_first, p_second, first0.zw, second0.zw, 1u, r_state.counters1);
-	count_sample_set(p_first, p_second, first1.xy, second1.xy, 2u, r_state.counters2);
-	count_sample_set(p_first, p_second, first1.zw, second1.zw, 3u, r_state.counters3);
+	const uvec4 first1 = load_count_masks(p_sectors.mask_index.x, 1u);
+	const uvec4 second1 = load_count_masks(p_sectors.mask_index.y, 1u);
+	count_sample_set(p_sectors, first0.zw, second0.zw, 1u, r_state.counters1);
+	count_sample_set(p_sectors, first1.xy, second1.xy, 2u, r_state.counters2);
+	count_sample_set(p_sectors, first1.zw, second1.zw, 3u, r_state.counters3);
 #endif
 }
 
-/// Moves the end p_end of a segment of (X, d) along it until d is in p_min..p_max. Some d of the segment must be.
-vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_min, float p_max) {
-	const float d = clamp(p_end.z, p_min, p_max);
-	const float fraction = (d - p_end.z) / (p_other.z - p_end.z);
-	return d == p_end.z ? p_end : vec3(mix(p_end.xy, p_other.xy, fraction), d);
+/// Moves the ends of two segments of (X, d), component by component, along them until d is in p_min..p_max. Some d of
+/// each segment must be. r_x, r_y, r_d: the ends. p_inverse: 1 / (p_other_d - r_d).
+void cut_count_offsets(vec2 p_other_x, vec2 p_other_y, vec2 p_inverse, float p_min, float p_max, inout vec2 r_x,
+		inout vec2 r_y, inout vec2 r_d) {
+	const vec2 d = clamp(r_d, p_min, p_max);
+	const vec2 fraction = (d - r_d) * p_inverse;
+	const bvec2 is_cut = notEqual(d, r_d);
+	r_x = mix(r_x, mix(r_x, p_other_x, fraction), is_cut);
+	r_y = mix(r_y, mix(r_y, p_other_y, fraction), is_cut);
+	r_d = d;
 }
 
-/// The region of the light beyond an edge. p_weight: the edge's weight as seen by the receiver; if 0, it is empty.
-CountSector find_edge_sector(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight) {
-	const vec3 from = count_offset(p_receiver, p_a);
-	const vec3 to = count_offset(p_receiver, p_b);
-	const bool is_left = is_count_left(from.xy, to.xy);
+/// The regions of the light beyond two edges, each from (X, d) p_a to p_b. p_weights: the edges' weights as seen by the
+/// receiver; if one is 0, its region is empty.
+CountSectors find_edge_sectors(CountReceiver p_receiver, vec3 p_a0, vec3 p_b0, vec3 p_a1, vec3 p_b1, ivec2 p_weights) {
+	const vec3 a0 = count_offset(p_receiver, p_a0);
+	const vec3 b0 = count_offset(p_receiver, p_b0);
+	const vec3 a1 = count_offset(p_receiver, p_a1);
+	const vec3 b1 = count_offset(p_receiver, p_b1);
+	const bvec2 are_left = bvec2(is_count_left(a0.xy, b0.xy), is_count_left(a1.xy, b1.xy));
 	// Cut off what is not nearer to the light than the receiver, and what is behind the light.
 	const float minimum = p_receiver.min_d;
 	const float maximum = p_receiver.max_d;
-	const bool is_valid = p_weight != 0 && max(from.z, to.z) > minimum && min(from.z, to.z) < maximum;
-	const vec3 first = cut_count_offset(from, to, minimum, maximum);
-	const vec3 second = cut_count_offset(to, from, minimum, maximum);
-	const float inverse = p_receiver.inverse_radius / (first.z * second.z);
-	const vec2 x_first = first.xy * (second.z * inverse);
-	const vec2 x_second = second.xy * (first.z * inverse);
-	const bool is_reversed = p_weight < 0;
-	return make_count_sector(is_reversed ? x_second : x_first, is_reversed ? x_first : x_second,
-			is_reversed != is_left, abs(p_weight), is_valid);
+	const bvec2 are_valid = bvec2(p_weights.x != 0 && max(a0.z, b0.z) > minimum && min(a0.z, b0.z) < maximum,
+			p_weights.y != 0 && max(a1.z, b1.z) > minimum && min(a1.z, b1.z) < maximum);
+	vec2 a_x = vec2(a0.x, a1.x);
+	vec2 a_y = vec2(a0.y, a1.y);
+	vec2 a_d = vec2(a0.z, a1.z);
+	vec2 b_x = vec2(b0.x, b1.x);
+	vec2 b_y = vec2(b0.y, b1.y);
+	vec2 b_d = vec2(b0.z, b1.z);
+	const vec2 inverse_length = 1.0 / (b_d - a_d);
+	cut_count_offsets(vec2(b0.x, b1.x), vec2(b0.y, b1.y), inverse_length, minimum, maximum, a_x, a_y, a_d);
+	cut_count_offsets(vec2(a0.x, a1.x), vec2(a0.y, a1.y), -inverse_length, minimum, maximum, b_x, b_y, b_d);
+	const vec2 inverse = p_receiver.inverse_radius / (a_d * b_d);
+	const vec2 scale_a = b_d * inverse;
+	const vec2 scale_b = a_d * inverse;
+	const DiscEdges edges = DiscEdges(a_x * scale_a, a_y * scale_a, b_x * scale_b, b_y * scale_b);
+	const bvec2 are_reversed = lessThan(p_weights, ivec2(0));
+	return make_count_sectors(DiscEdges(mix(edges.a_x, edges.b_x, are_reversed), mix(edges.a_y, edges.b_y, are_reversed),
+									  mix(edges.b_x, edges.a_x, are_reversed), mix(edges.b_y, edges.a_y, are_reversed)),
+			notEqual(are_reversed, are_left), abs(p_weights), are_valid);
+}
+
+/// As cut_count_offsets, bit for bit, for one end of one segment.
+vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_min, float p_max) {
+	vec2 x = vec2(p_end.x);
+	vec2 y = vec2(p_end.y);
+	vec2 d = vec2(p_end.z);
+	cut_count_offsets(vec2(p_other.x), vec2(p_other.y), vec2(1.0 / (p_other.z - p_end.z)), p_min, p_max, x, y, d);
+	return vec3(x.x, y.x, d.x);
 }
 
 /// Adds the line along which a face crosses the disc's plane: it bounds the face's shadow, as an edge does. All faces
@@ -158,7 +198,7 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const bool is_in_front = is_count_in_front(p_plane, p_receiver.position);
 	const bool is_counted = p_face.a_kind.w != 0u || is_in_front == p_uses_front_faces;
 	// The sides on which the outline, in winding order, leaves the space in front of the disc, and enters it. Each is
-	// cut as in find_edge_sector, bit for bit.
+	// cut as in find_edge_sectors, bit for bit.
 	const bool leaves_a = is_in.x && !is_in.y;
 	const bool leaves_b = is_in.y && !is_in.z;
 	const bool enters_a = !is_in.x && is_in.y;
@@ -171,9 +211,10 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const bool is_between = is_in_front != is_count_light_in_front(false, p_plane);
 	const vec2 from = (is_in_front ? leave.xy : enter.xy) * p_receiver.inverse_radius;
 	const vec2 to = (is_in_front ? enter.xy : leave.xy) * p_receiver.inverse_radius;
-	const CountSector sector = make_count_sector(from, to, is_between, 1,
-			is_counted && any(is_in) && !all(is_in) && is_count_level(p_receiver.part_distance, p_face));
-	count_sectors(sector, make_empty_sector(), r_state);
+	const bool is_valid =
+			is_counted && any(is_in) && !all(is_in) && is_count_level(p_receiver.part_distance, p_face);
+	const DiscEdges edges = DiscEdges(vec2(from.x), vec2(from.y), vec2(to.x), vec2(to.y));
+	count_sectors(make_count_sectors(edges, bvec2(is_between), ivec2(1), bvec2(is_valid, false)), r_state);
 }
 
 /// Signed weight of an edge as seen by the receiver.

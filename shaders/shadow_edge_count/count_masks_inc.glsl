@@ -1,5 +1,6 @@
 // Bit masks of the 64 sample points of the light (two words each, see DiscMasks), and 64 counters, stored as nine bit
-// planes.
+// planes. Functions of directions take two at once, component by component: the chains of dependent divisions, square
+// roots and products take most of the time, and processors compute two such chains in nearly the time of one.
 #ifndef COUNT_MASKS_INC_GLSL
 #define COUNT_MASKS_INC_GLSL
 
@@ -12,49 +13,48 @@ const float COUNT_PI = 3.14159265358979;
 #define COUNT_SAMPLE_SET_COUNT 1
 #endif
 
-/// Loads the masks of sample sets 2 p_pair (in x, y) and 2 p_pair + 1 (in z, w). p_index: see find_count_mask_index.
+/// Loads the masks of sample sets 2 p_pair (in x, y) and 2 p_pair + 1 (in z, w). p_index: see find_count_mask_indices.
 uvec4 load_count_masks(uint p_index, uint p_pair);
 
-/// The bin of a direction in the mask table. Bins divide the range 0..4 of the diamond angle evenly, which is
+/// The bins of two directions in the mask table. Bins divide the range 0..4 of the diamond angle evenly, which is
 /// 1 + y / (|x| + |y|) where x >= 0, else 3 - y / (|x| + |y|): 0 at -y, 1 at +x, 2 at +y, 3 at -x.
-uint find_direction_bin(vec2 p_direction) {
-	const float sum = abs(p_direction.x) + abs(p_direction.y);
-	const float ratio = sum > 0.0 ? p_direction.y / sum : 0.0;
-	const float angle = p_direction.x >= 0.0 ? 1.0 + ratio : 3.0 - ratio;
-	return uint(angle * float(EDGE_COUNT_DIRECTION_COUNT / 4)) % uint(EDGE_COUNT_DIRECTION_COUNT);
+uvec2 find_direction_bins(vec2 p_x, vec2 p_y) {
+	const vec2 ratio = p_y / max(abs(p_x) + abs(p_y), vec2(1e-37));
+	const vec2 angle = mix(3.0 - ratio, 1.0 + ratio, greaterThanEqual(p_x, vec2(0.0)));
+	return uvec2(angle * float(EDGE_COUNT_DIRECTION_COUNT / 4)) % uint(EDGE_COUNT_DIRECTION_COUNT);
 }
 
-/// Index in the mask table of the points of the unit disc that are farther than p_offset (0..1) from the centre along
-/// p_direction, which need not be unit.
-uint find_count_mask_index(vec2 p_direction, float p_offset) {
-	const uint row = uint(float(EDGE_COUNT_OFFSET_COUNT) * clamp(p_offset, 0.0, 0.9999));
-	return find_direction_bin(p_direction) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
+/// Indices in the mask table of the points of the unit disc that are farther than p_offset (0..1) from the centre along
+/// a direction, which need not be unit.
+uvec2 find_count_mask_indices(vec2 p_x, vec2 p_y, vec2 p_offset) {
+	const uvec2 row = uvec2(float(EDGE_COUNT_OFFSET_COUNT) * clamp(p_offset, 0.0, 0.9999));
+	return find_direction_bins(p_x, p_y) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
 }
 
-/// Angle in radians (0..pi) of a direction with y >= 0. The error is at most 2e-6. Needs two fewer divisions than atan.
-float count_half_angle(vec2 p_direction) {
+/// Angles in radians (0..pi) of two directions with y >= 0. The error is at most 2e-6. Needs two fewer divisions than
+/// atan.
+vec2 count_half_angles(vec2 p_x, vec2 p_y) {
 	// pi / 4 plus the arc tangent of u in -1..1: a Chebyshev series of six terms.
-	const float x = abs(p_direction.x);
-	const float u = (p_direction.y - x) / max(p_direction.y + x, 1e-37);
-	const float u2 = u * u;
-	const float odd = ((((-0.0114658097 * u2 + 0.0519505321) * u2 - 0.115729441) * u2 + 0.193235292) *
-									u2 -
-							0.332568317) *
-					u2 +
-			0.999974491;
-	const float angle = 0.25 * COUNT_PI + u * odd;
-	return p_direction.x < 0.0 ? COUNT_PI - angle : angle;
+	const vec2 x = abs(p_x);
+	const vec2 u = (p_y - x) / max(p_y + x, vec2(1e-37));
+	const vec2 u2 = u * u;
+	const vec2 u4 = u2 * u2;
+	const vec2 low = 0.999974491 - 0.332568317 * u2;
+	const vec2 middle = 0.193235292 - 0.115729441 * u2;
+	const vec2 high = 0.0519505321 - 0.0114658097 * u2;
+	const vec2 angle = 0.25 * COUNT_PI + u * (low + u4 * (middle + u4 * high));
+	return mix(angle, COUNT_PI - angle, lessThan(p_x, vec2(0.0)));
 }
 
-/// The angle of a direction in units of 2 pi / 64, plus an offset that makes it positive for every sample set.
-float find_count_angle(vec2 p_direction) {
-	const float half_angle = count_half_angle(vec2(p_direction.x, abs(p_direction.y)));
-	const float angle = p_direction.y < 0.0 ? 2.0 * COUNT_PI - half_angle : half_angle;
+/// The angles of two directions in units of 2 pi / 64, plus an offset that makes them positive for every sample set.
+vec2 find_count_angles(vec2 p_x, vec2 p_y) {
+	const vec2 half_angle = count_half_angles(p_x, abs(p_y));
+	const vec2 angle = mix(half_angle, 2.0 * COUNT_PI - half_angle, lessThan(p_y, vec2(0.0)));
 	const float sectors = float(EDGE_COUNT_SAMPLE_COUNT);
 	return angle * (sectors / (2.0 * COUNT_PI)) + 1.0 + sectors;
 }
 
-/// Index of the first point of a sample set whose angle is not below p_angle (see find_count_angle). Points are ordered
+/// Index of the first point of a sample set whose angle is not below p_angle (see find_count_angles). Points are ordered
 /// by angle, one in each of 64 equal sectors. In a sector the points of all sets are evenly spaced, see DiscMasks.
 int find_count_sector(float p_angle, uint p_sample_set) {
 	return int(p_angle - (float(p_sample_set) + 0.5) / float(COUNT_SAMPLE_SET_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
@@ -66,7 +66,7 @@ uvec2 count_points_before(int p_index) {
 	return p_index < 32 ? uvec2(bits_before, 0u) : uvec2(0xffffffffu, bits_before);
 }
 
-/// Mask of a sample set's points between two angles (see find_count_angle), counter-clockwise. Two wedges with a common
+/// Mask of a sample set's points between two angles (see find_count_angles), counter-clockwise. Two wedges with a common
 /// border have no point in common and miss none.
 uvec2 find_count_wedge(float p_from, float p_to, uint p_sample_set) {
 	const int from = find_count_sector(p_from, p_sample_set);

@@ -125,7 +125,7 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 }
 
 /// False if the part of the edge between the receiver and the disc cannot change which part of the
-/// disc is hidden. The tolerances exceed the rounding errors of find_edge_sector, so that no edge
+/// disc is hidden. The tolerances exceed the rounding errors of find_edge_sectors, so that no edge
 /// with an effect is rejected. p_to_light: see CountReceiver.
 bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const float ROUNDING = 4e-6;
@@ -311,10 +311,16 @@ CountEdgeMasks test_round(uint p_first, uint p_count, CountReceiver p_receiver, 
 	return edge_masks;
 }
 
-/// Removes the next edge from r_left, the edges that remain to be counted, and returns its sector. Empty if none is
+/// An edge to be counted, and its weight as seen by the receiver; 0: none.
+struct NextEdge {
+	vec3 a;
+	vec3 b;
+	int weight;
+};
+
+/// Removes the next edge from r_left, the edges that remain to be counted, and returns it. Its weight is 0 if none is
 /// left.
-CountSector find_next_sector(LoadedRound p_loaded, CountReceiver p_receiver,
-		CountEdgeMasks p_edge_masks, inout uint r_left) {
+NextEdge find_next_edge(LoadedRound p_loaded, CountEdgeMasks p_edge_masks, inout uint r_left) {
 	const bool is_valid = r_left != 0u;
 	const uint slot = uint(findLSB(r_left)) & 31u;
 	r_left &= r_left - 1u;
@@ -329,17 +335,18 @@ CountSector find_next_sector(LoadedRound p_loaded, CountReceiver p_receiver,
 		edge = select_edge((slot & 2u * BATCH_SIZE) != 0u, edge, other);
 	}
 	const int weight = (p_edge_masks.is_twice >> slot & 1u) != 0u ? 2 : 1;
-	return find_edge_sector(p_receiver, edge.a, edge.b,
+	return NextEdge(edge.a, edge.b,
 			is_valid ? ((p_edge_masks.is_negative >> slot & 1u) != 0u ? -weight : weight) : 0);
 }
 
-/// Counts the next two edges of each invocation's receiver. Their sectors are independent, so that processors compute
-/// them in parallel.
+/// Counts the next two edges of each invocation's receiver.
 void count_two(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks p_edge_masks, inout uint r_left,
 		inout CountState r_state) {
-	const CountSector first = find_next_sector(p_loaded, p_receiver, p_edge_masks, r_left);
-	const CountSector second = find_next_sector(p_loaded, p_receiver, p_edge_masks, r_left);
-	count_sectors(first, second, r_state);
+	const NextEdge first = find_next_edge(p_loaded, p_edge_masks, r_left);
+	const NextEdge second = find_next_edge(p_loaded, p_edge_masks, r_left);
+	count_sectors(find_edge_sectors(
+						  p_receiver, first.a, first.b, second.a, second.b, ivec2(first.weight, second.weight)),
+			r_state);
 }
 
 /// Counts the edges of a round that each invocation's receiver has to count.

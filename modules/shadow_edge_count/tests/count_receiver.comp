@@ -69,9 +69,9 @@ void main() {
 		const uint face0 = edge.a_face0.w & EDGE_COUNT_FACE_MASK;
 		const int weight = count_weight(
 				receiver.position, planes[face0], kind.has_face1 ? planes[edge.b_face1.w] : vec4(0.0), kind);
-		const CountSector sector = find_edge_sector(
-				receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz), weight);
-		count_sectors(sector, make_empty_sector(), state);
+		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
+		const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
+		count_sectors(find_edge_sectors(receiver, a, b, a, b, ivec2(weight, 0)), state);
 	}
 	results[item] = vec4(count_resolve(state), float(state.solid_count), state.area, 0.0);
 }

@@ -29,7 +29,7 @@ uint64_t DiscLookup::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to)
 
 uint32_t DiscLookup::find_direction(const glm::dvec2 &p_direction) {
 	// The diamond angle needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x. See
-	// find_direction_bin in count_masks_inc.glsl.
+	// find_direction_bins in count_masks_inc.glsl.
 	const double sum = std::abs(p_direction.x) + std::abs(p_direction.y);
 	const double ratio = sum > 0 ? p_direction.y / sum : 0.0;
 	const double angle = p_direction.x >= 0 ? 1.0 + ratio : 3.0 - ratio;
