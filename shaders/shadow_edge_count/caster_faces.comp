@@ -20,16 +20,19 @@ layout(std430, set = 0, binding = FIND_BINDING_PIECES) readonly buffer Pieces {
 
 const float FAR = 3e38;
 
-/// The part distance from which the penumbra at a piece has at least this half width. p_piece: in light space.
+/// The part distance from which the penumbra at a piece has at least this half width. p_piece: in light space. Precise,
+/// so that the range of one level of detail ends exactly where that of the other begins.
 float find_switch_distance(vec4 p_piece, float p_half_width) {
-	const float reach = p_half_width / push.disc_radius; // directional: in metres, else a fraction of the distance
+	precise const float reach = p_half_width / push.disc_radius; // directional: in metres, else a fraction
+	precise const float directional = p_piece.z + p_piece.w + reach;
+	precise const float point = (length(p_piece.xyz) + p_piece.w) / (1.0 - reach);
 	if (p_half_width <= 0.0) {
 		return -FAR;
 	}
 	if ((push.flags & EDGE_COUNT_CASTER_DIRECTIONAL) != 0u) {
-		return reach < FAR ? p_piece.z + p_piece.w + reach : FAR;
+		return reach < FAR ? directional : FAR;
 	}
-	return reach < 1.0 ? (length(p_piece.xyz) + p_piece.w) / (1.0 - reach) : FAR;
+	return reach < 1.0 ? point : FAR;
 }
 
 /// The distances of the parts that see the face, see CountFaceRecord.
@@ -38,7 +41,8 @@ vec2 find_distances(uint p_piece) {
 		return vec2(-FAR, FAR);
 	}
 	const vec4 piece_node = pieces_node[p_piece];
-	const vec4 piece = vec4((push.light_from_node * vec4(piece_node.xyz, 1.0)).xyz, push.scale * piece_node.w);
+	precise const vec3 center = (push.light_from_node * vec4(piece_node.xyz, 1.0)).xyz;
+	precise const vec4 piece = vec4(center, push.scale * piece_node.w);
 	return vec2(find_switch_distance(piece, push.first_half_width), find_switch_distance(piece, push.end_half_width));
 }
 
