@@ -15,8 +15,8 @@ namespace gnomon {
 /// of each hole as far as their tolerance allows.
 class CutLevels {
 public:
-	/// Tolerance of the outline's simplification (simplify_loops), in texels, from finest to
-	/// coarsest.
+	/// Requested tolerance of the outline's simplification (simplify_loops), in texels, from finest
+	/// to coarsest. An outline above the edge budget gets a larger one.
 	static constexpr std::array<double, 8> TOLERANCES_PX = { 0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0,
 		2.0, 4.0 };
 	static constexpr uint32_t BASE_LEVEL = 2; // the level of CutMesh::mesh

@@ -94,7 +94,8 @@ struct CasterMesh {
 };
 
 /// The instance's caster mesh and, for receivers that see a wide penumbra, a coarser level of
-/// detail. Only at rest: a pose moves the pieces of a mesh apart.
+/// detail. Only at rest: a pose moves vertices out of the bounds of their source
+/// part.
 std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
 		const LightSnapshot &p_light, const Bounds &p_scene_bounds) {
 	std::vector<CasterMesh> meshes(1, { p_instance.caster_mesh });

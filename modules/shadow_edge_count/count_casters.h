@@ -32,8 +32,8 @@ struct CountCasters {
 	uint32_t word_count = 0;			   // words of EDGE_COUNT_EDGES_PER_WORD edges
 	uint32_t block_count = 0;			   // blocks of EDGE_COUNT_WORDS_PER_BLOCK words
 	uint32_t collapsed_instance_count = 0; // instances collapsed to a line or a point
-	/// Upper bound of the nodes in the face lists of any view. UNBOUNDED if there are too many
-	/// faces to examine each, or if some are deformed.
+	/// Upper bound of the linked-list nodes in the face lists of any view. UNBOUNDED if there are
+	/// too many faces to examine each, or if some are deformed.
 	uint64_t max_nodes_per_view = 0;
 	bool may_cut_disc = false; // a caster's bounds come within R of the light's centre
 	uint32_t empty_views = 0;  // bit i: no caster of view i has a face

@@ -88,18 +88,19 @@ CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_s
 	const std::shared_ptr<const Mesh> source = p_source.mesh.lock();
 	const std::shared_ptr<const MeshTopology> source_topology =
 			source ? get_topology(source) : nullptr;
-	mesh.pieces = source_topology ? bound_parts(*source_topology) : std::vector(1, glm::vec4(0.0f));
+	mesh.source_parts =
+			source_topology ? bound_parts(*source_topology) : std::vector(1, glm::vec4(0.0f));
 	const std::vector<uint32_t> part_of_triangle = source_topology
 			? find_part_of_triangles(*source, *source_topology)
 			: std::vector<uint32_t>();
 	mesh.faces.reserve(p_topology.get_face_count());
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
 		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
-		const uint32_t piece = source_topology
+		const uint32_t source_part = source_topology
 				? part_of_triangle.at(p_source.triangles.at(p_topology.source_triangles[face]))
 				: 0u;
 		mesh.faces.push_back({ corners[0], corners[1], corners[2],
-				(p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u) | piece });
+				(p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u) | source_part });
 	}
 	for (const MeshEdge &edge : sort_edges(p_topology)) {
 		if (!edge.is_coplanar) {
@@ -130,7 +131,7 @@ CountGpuMesh upload_count_mesh(
 	gpu.word_count = mesh.get_word_count();
 	gpu.block_count = mesh.get_block_count();
 	gpu.faces = upload("counted faces", mesh.faces);
-	gpu.pieces = upload("pieces", mesh.pieces);
+	gpu.source_parts = upload("source parts", mesh.source_parts);
 	if (gpu.edge_count > 0) {
 		gpu.edges = upload("counted edges", mesh.edges);
 	}

@@ -17,16 +17,16 @@ struct CountMesh {
 	/// locality, so that bundles of consecutive edges are small, see CountEdgeBundle.
 	std::vector<shader::CountMeshEdge> edges;
 	std::vector<shader::CountMeshFace> faces;
-	/// Centre and radius of a sphere around each piece of the mesh, which is what remains of a
-	/// connected part of the mesh that it was cut out of. All levels of detail of that mesh have
-	/// the same pieces in the same order. One point without extent if it was not cut out.
-	std::vector<glm::vec4> pieces;
+	/// For each connected part of the mesh that this one was cut out of: centre and radius of a
+	/// sphere around the part before the alpha test. All levels of detail have the same source
+	/// parts, so they switch at the same distance. One point if the mesh was not cut out.
+	std::vector<glm::vec4> source_parts;
 
 	/// Words with one bit per edge.
 	uint32_t get_word_count() const {
 		return (uint32_t(edges.size()) + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
 	}
-	/// Blocks of EDGE_COUNT_WORDS_PER_BLOCK such words.
+	/// Blocks of EDGE_COUNT_WORDS_PER_BLOCK such words (not the blocks of pixels).
 	uint32_t get_block_count() const {
 		return (get_word_count() + EDGE_COUNT_WORDS_PER_BLOCK - 1) / EDGE_COUNT_WORDS_PER_BLOCK;
 	}
@@ -38,9 +38,9 @@ CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_s
 
 /// A mesh in GPU memory, in addition to its welded positions (GpuTopology).
 struct CountGpuMesh {
-	OwnedBuffer faces;	// shader::CountMeshFace
-	OwnedBuffer edges;	// shader::CountMeshEdge
-	OwnedBuffer pieces; // glm::vec4, see CountMesh::pieces
+	OwnedBuffer faces;		  // shader::CountMeshFace
+	OwnedBuffer edges;		  // shader::CountMeshEdge
+	OwnedBuffer source_parts; // glm::vec4, see CountMesh::source_parts
 	uint32_t face_count = 0;
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;

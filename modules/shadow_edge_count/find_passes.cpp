@@ -139,7 +139,7 @@ void add_find_passes(
 			[=](PassContext &p_context, const CountCaster &p_caster) {
 				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
 					{ FIND_BINDING_MESH_FACES, p_caster.gpu->faces.get() },
-					{ FIND_BINDING_PIECES, p_caster.gpu->pieces.get() },
+					{ FIND_BINDING_SOURCE_PARTS, p_caster.gpu->source_parts.get() },
 					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
 					{ FIND_BINDING_FACES, p_context.get(buffers.faces) } };
 			});

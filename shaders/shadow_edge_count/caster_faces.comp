@@ -14,18 +14,18 @@ layout(std430, set = 0, binding = FIND_BINDING_PLANES) writeonly buffer Planes {
 layout(std430, set = 0, binding = FIND_BINDING_FACES) writeonly buffer Faces {
 	CountFaceRecord faces[];
 };
-layout(std430, set = 0, binding = FIND_BINDING_PIECES) readonly buffer Pieces {
-	vec4 pieces_node[]; // centre and radius of a sphere around each piece of the mesh
+layout(std430, set = 0, binding = FIND_BINDING_SOURCE_PARTS) readonly buffer SourceParts {
+	vec4 source_parts_node[]; // centre and radius, see CountMesh::source_parts
 };
 
 const float FAR = 3e38;
 
-/// The part distance from which the penumbra at a piece has at least this half width. p_piece: in light space. Precise,
+/// The part distance from which the penumbra at a source part has at least this half width. p_source_part: in light space. Precise,
 /// so that the range of one level of detail ends exactly where that of the other begins.
-float find_switch_distance(vec4 p_piece, float p_half_width) {
+float find_switch_distance(vec4 p_source_part, float p_half_width) {
 	precise const float reach = p_half_width / push.disc_radius; // directional: in metres, else a fraction
-	precise const float directional = p_piece.z + p_piece.w + reach;
-	precise const float point = (length(p_piece.xyz) + p_piece.w) / (1.0 - reach);
+	precise const float directional = p_source_part.z + p_source_part.w + reach;
+	precise const float point = (length(p_source_part.xyz) + p_source_part.w) / (1.0 - reach);
 	if (p_half_width <= 0.0) {
 		return -FAR;
 	}
@@ -36,14 +36,14 @@ float find_switch_distance(vec4 p_piece, float p_half_width) {
 }
 
 /// The distances of the parts that see the face, see CountFaceRecord.
-vec2 find_distances(uint p_piece) {
+vec2 find_distances(uint p_source_part) {
 	if ((push.flags & EDGE_COUNT_CASTER_LEVEL) == 0u) {
 		return vec2(-FAR, FAR);
 	}
-	const vec4 piece_node = pieces_node[p_piece];
-	precise const vec3 center = (push.light_from_node * vec4(piece_node.xyz, 1.0)).xyz;
-	precise const vec4 piece = vec4(center, push.scale * piece_node.w);
-	return vec2(find_switch_distance(piece, push.first_half_width), find_switch_distance(piece, push.end_half_width));
+	const vec4 part_node = source_parts_node[p_source_part];
+	precise const vec3 center = (push.light_from_node * vec4(part_node.xyz, 1.0)).xyz;
+	precise const vec4 part = vec4(center, push.scale * part_node.w);
+	return vec2(find_switch_distance(part, push.first_half_width), find_switch_distance(part, push.end_half_width));
 }
 
 void main() {
@@ -59,9 +59,9 @@ void main() {
 	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
 	planes[push.first_face + index] = is_mirrored ? -plane : plane;
 	// Mirroring inverts the winding, so two vertices are swapped to match the plane's front.
-	const vec2 distances = find_distances(face.kind & EDGE_COUNT_PIECE_MASK);
+	const vec2 distances = find_distances(face.kind & EDGE_COUNT_SOURCE_PART_MASK);
 	faces[push.first_face + index] =
-			CountFaceRecord(uvec4(floatBitsToUint(a), face.kind & ~EDGE_COUNT_PIECE_MASK),
+			CountFaceRecord(uvec4(floatBitsToUint(a), face.kind & ~EDGE_COUNT_SOURCE_PART_MASK),
 					floatBitsToUint(vec4(is_mirrored ? c : b, distances.x)),
 					floatBitsToUint(vec4(is_mirrored ? b : c, distances.y)));
 }

@@ -251,7 +251,7 @@ bool has_overlap(CountState p_state, int p_added) {
 
 /// Visibility from all counts, 0..1. If no more than one solid hides the light, the areas alone are
 /// exact. Otherwise the hidden points give the visibility, corrected by the mean count, which the areas
-/// give more precisely than the points. beta scales this correction: how much of a change of the count
+/// give more precisely than the points. regression_slope scales this correction: how much of a change of the count
 /// changes visibility, by linear regression over pairs of neighbouring points. It is k in "Counting" in
 /// doc/techniques/edge_count.md.
 float count_resolve(CountState p_state) {

@@ -67,7 +67,7 @@ SHARED_SIZE(CountEdgeBundle, 32);
 #define FIND_BINDING_TOTALS 8
 #define FIND_BINDING_BUNDLES 9
 #define FIND_BINDING_LIGHT 10
-#define FIND_BINDING_PIECES 11
+#define FIND_BINDING_SOURCE_PARTS 11
 
 /// An edge between welded vertices, from a to b in the winding order of its first face.
 struct SHARED_ALIGN CountMeshEdge {
@@ -83,7 +83,7 @@ struct SHARED_ALIGN CountMeshFace {
 	uint a;
 	uint b;
 	uint c;
-	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its piece
+	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its source part
 };
 SHARED_SIZE(CountMeshFace, 16);
 
@@ -99,7 +99,7 @@ struct SHARED_ALIGN CountCasterPush {
 	uint flags;			  // EDGE_COUNT_CASTER_*
 	float disc_radius;	  // R in metres; directional: a tangent
 	float side_tolerance; // p_tolerance of count_find_light_side
-	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a piece of the mesh, in metres, from
+	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a source part, in metres, from
 	// which receivers see this level of detail, and from which they see the next one.
 	float first_half_width;
 	float end_half_width;
@@ -107,7 +107,7 @@ struct SHARED_ALIGN CountCasterPush {
 	uint padding;
 };
 SHARED_SIZE(CountCasterPush, 112);
-#define EDGE_COUNT_PIECE_MASK 0x00ffffffu
+#define EDGE_COUNT_SOURCE_PART_MASK 0x00ffffffu
 #define EDGE_COUNT_CASTER_MIRRORED 1u // light_from_node has a negative determinant
 #define EDGE_COUNT_CASTER_LAST 2u	  // the last caster that has edges
 #define EDGE_COUNT_CASTER_DIRECTIONAL 4u

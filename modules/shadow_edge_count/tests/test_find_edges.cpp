@@ -23,7 +23,7 @@ struct Caster {
 	OwnedBuffer positions;
 	OwnedBuffer faces;
 	OwnedBuffer edges;
-	OwnedBuffer pieces;
+	OwnedBuffer source_parts;
 };
 
 /// Results of the passes.
@@ -58,7 +58,7 @@ Found find_edges(
 		caster.positions = r_fixture.make_buffer("positions", positions);
 		caster.faces = r_fixture.make_buffer("mesh faces", caster.mesh.faces);
 		caster.edges = r_fixture.make_buffer("edges", caster.mesh.edges);
-		caster.pieces = r_fixture.make_buffer("pieces", caster.mesh.pieces);
+		caster.source_parts = r_fixture.make_buffer("source parts", caster.mesh.source_parts);
 		face_count += caster.push.face_count;
 		edge_count += caster.push.edge_count;
 		word_count += caster.mesh.get_word_count();
@@ -111,7 +111,7 @@ Found find_edges(
 			[&](const Caster &p_caster) {
 				commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
 						{ FIND_BINDING_MESH_FACES, p_caster.faces.get() },
-						{ FIND_BINDING_PIECES, p_caster.pieces.get() },
+						{ FIND_BINDING_SOURCE_PARTS, p_caster.source_parts.get() },
 						{ FIND_BINDING_PLANES, planes.get() },
 						{ FIND_BINDING_FACES, faces.get() } });
 			});
