@@ -171,6 +171,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants));
 	bindings.push_back(PassBinding::write(COUNT_BINDING_BOXES, boxes));
 	bindings.push_back(PassBinding::write(COUNT_BINDING_BLOCK_RECEIVERS, blocks.block_receivers));
+	bindings.push_back(PassBinding::write(COUNT_BINDING_CHAINS, blocks.chains));
 	add_compute_pass(r_graph, "receiver boxes",
 			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings),
 			{ constants.block_count.x * subgroup_size, constants.block_count.y, 1 });
@@ -189,7 +190,8 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 					PassBinding::read(COUNT_BINDING_PLANES, light.planes),
 					PassBinding::read(COUNT_BINDING_TOTALS, light.totals),
 					PassBinding::read(COUNT_BINDING_CUT_FACES, light.cut_faces),
-					PassBinding::write(COUNT_BINDING_CHAINS, blocks.chains),
+					PassBinding::write(
+							COUNT_BINDING_CHAINS, blocks.chains, PassBuilder::Content::UPDATE),
 					PassBinding::write(COUNT_BINDING_LISTS, blocks.lists),
 					PassBinding::write(COUNT_BINDING_BLOCKS, blocks.blocks),
 					PassBinding::write(COUNT_BINDING_DISPATCHES, blocks.dispatches,

@@ -21,6 +21,10 @@ namespace {
 // EDGE_COUNT_FACE_MASK.
 constexpr uint32_t MAX_COUNT = 10'000'000;
 
+// With more triangles, casters have no second level of detail, so that it never exceeds the buffers
+// of a device.
+constexpr uint64_t MAX_COUNT_WITH_LEVELS = 1'000'000;
+
 // Maximum number of faces to examine one by one, which takes some tenths of a millisecond.
 constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
 
@@ -97,7 +101,7 @@ struct CasterMesh {
 /// detail. Only at rest: a pose moves vertices out of the bounds of their source
 /// part.
 std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
-		const LightSnapshot &p_light, const Bounds &p_scene_bounds) {
+		const LightSnapshot &p_light, const Bounds &p_scene_bounds, double p_disc_radius) {
 	std::vector<CasterMesh> meshes(1, { p_instance.caster_mesh });
 	if (!p_instance.caster_levels || p_instance.pose || p_light.get_disc_radius() <= 0) {
 		return meshes;
@@ -108,9 +112,10 @@ std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
 	const uint32_t coarse_level = levels.choose_coarse_level(level, half_width);
 	std::shared_ptr<const Mesh> mesh =
 			coarse_level > level ? levels.get_mesh(coarse_level) : nullptr;
-	if (mesh) {
-		const double limit_m = levels.get_min_half_width(coarse_level) *
-				compute_max_stretch(p_instance.world_from_node);
+	const double limit_m = levels.get_min_half_width(coarse_level) *
+			compute_max_stretch(p_instance.world_from_node);
+	// No penumbra of a point light is wider than the light, measured at the caster.
+	if (mesh && (p_light.type == LightType::DIRECTIONAL || limit_m < p_disc_radius)) {
 		meshes[0].end_half_width_m = limit_m;
 		meshes.push_back({ std::move(mesh), limit_m });
 	}
@@ -185,15 +190,22 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	const Bounds scene_bounds = p_inputs.scene.compute_bounds();
 	std::map<uint32_t, std::vector<std::shared_ptr<const Mesh>>> with_faces; // by instance
 	bool is_deformed = false; // some mesh is deformed on the GPU, so the CPU has no face positions
-	for (const uint32_t index : collect_casters(p_inputs, view_indices)) {
+	const std::vector<uint32_t> indices = collect_casters(p_inputs, view_indices);
+	uint64_t triangle_count = 0;
+	for (const uint32_t index : indices) {
+		triangle_count += p_inputs.scene.instances[index].caster_mesh->get_triangle_count();
+	}
+	const bool may_have_levels = triangle_count <= MAX_COUNT_WITH_LEVELS;
+	for (const uint32_t index : indices) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
 		if (volume == 0 || !std::isfinite(volume)) {
 			++result.collapsed_instance_count;
 			continue;
 		}
-		const std::vector<CasterMesh> meshes =
-				list_caster_meshes(instance, p_inputs.light, scene_bounds);
+		const std::vector<CasterMesh> meshes = may_have_levels
+				? list_caster_meshes(instance, p_inputs.light, scene_bounds, p_disc_radius)
+				: std::vector<CasterMesh>(1, { instance.caster_mesh });
 		CountCaster caster;
 		caster.pose_hash = instance.get_pose_hash();
 		caster.views = find_seeing_views(p_inputs, index);

@@ -184,7 +184,8 @@ void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 	RGBuffer dispatches;
 	for (uint32_t attempt = 0; attempt < attempt_count; ++attempt) {
 		const shader::CountFaceListPush push = { p_view_index, 0, p_passes.capacities.face_count,
-			attempt == 0 ? 1u : 0u, attempt + 2 == attempt_count ? 1u : 0u, 0, 0, 0 };
+			attempt == 0 ? 1u : 0u, attempt + 2 == attempt_count ? 1u : 0u,
+			p_passes.may_overflow ? 1u : 0u, 0, 0 };
 		const auto push_bytes = std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push));
 		const std::string suffix = attempt == 0 ? view : text(view, " attempt ", attempt);
 		if (attempt == 0) {

@@ -18,14 +18,14 @@ layout(push_constant) uniform Push {
 	CountFaceListPush push;
 };
 
-/// How often the map's size is halved: as often as when the lists fitted last, or once less if an eighth of the nodes was
-/// enough. Texels of half the width need about four times the nodes, which leaves a margin of a factor of two.
+/// How often the map's size is halved: as often as when the lists fitted last, or once less if a quarter of the nodes was
+/// enough, since texels of half the width need about four times the nodes. 0 if the lists are known to fit.
 uint choose_first_level() {
 	const uvec2 size_px = light.views[push.view].map_size_px;
 	const uint last_level = uint(findMSB(max(size_px.x, size_px.y))); // one texel
 	const uint level = min(totals[EDGE_COUNT_TOTAL_LEVELS + push.view], last_level);
-	const bool is_roomy = totals[EDGE_COUNT_TOTAL_NODES + push.view] <= light.node_capacity / 8u;
-	return level > 0u && is_roomy ? level - 1u : level;
+	const bool is_roomy = totals[EDGE_COUNT_TOTAL_NODES + push.view] <= light.node_capacity / 4u;
+	return push.may_overflow != 0u && level > 0u ? (is_roomy ? level - 1u : level) : 0u;
 }
 
 void main() {

@@ -36,9 +36,12 @@ uint find_chain(uint p_block, uint p_part) {
 	return (p_block * PART_COUNT + p_part) * uint(EDGE_COUNT_CHAIN_WORDS);
 }
 
-/// See EDGE_COUNT_CHAIN_DISTANCE. The part must have receivers.
-float load_part_distance(uint p_block, uint p_part) {
-	return uintBitsToFloat(chains[find_chain(p_block, p_part) + uint(EDGE_COUNT_CHAIN_DISTANCE)]);
+/// See EDGE_COUNT_CHAIN_DISTANCE. 0, which selects fine levels of detail, if rounding puts a receiver at the border of
+/// two views into a part that has none. p_parts: see load_parts.
+float load_part_distance(uint p_block, uint p_parts, uint p_part) {
+	const bool has_receivers = (p_parts >> p_part & 1u) != 0u;
+	const uint word = find_chain(p_block, has_receivers ? p_part : 0u) + uint(EDGE_COUNT_CHAIN_DISTANCE);
+	return has_receivers ? uintBitsToFloat(chains[word]) : 0.0;
 }
 
 #endif

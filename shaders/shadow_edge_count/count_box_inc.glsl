@@ -76,7 +76,7 @@ struct CountBox {
 	float margin; // rounding error of distances from planes
 	float depth_far_m;
 	bool is_directional;
-	vec2 distances; // range of the distances of its parts, see EDGE_COUNT_CHAIN_DISTANCE
+	vec2 distances; // range of the distances of its parts, see EDGE_COUNT_CHAIN_DISTANCE; unlimited until it is set
 };
 
 /// Upper bound of |normal.Y| for points Y of the discs of all receivers P that have normal.P >= p_min. Y is
@@ -147,21 +147,9 @@ vec4 find_above_directional(CountLightConstants p_light, CountBounds p_bounds, v
 			: vec4(0.0, 0.0, -1.0, p_light.depth_far_m - p_w_range.x);
 }
 
-/// Bounds of the distances of the parts in these bounds, see EDGE_COUNT_CHAIN_DISTANCE. If there is one part, its
-/// distance is the lower bound.
-vec2 find_part_distances(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
-	if (p_light.is_directional != 0u) {
-		return p_light.depth_far_m - p_w_range.yx;
-	}
-	const vec2 nearest = clamp(vec2(0.0), p_bounds.minimum, p_bounds.maximum);
-	const vec2 farthest = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
-	return sqrt(1.0 + vec2(dot(nearest, nearest), dot(farthest, farthest))) / max(p_w_range.yx, 1e-37);
-}
-
 CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds) {
 	const float WIDENING = 1.0001; // for rounding of the centre
 	const float MARGIN = 2e-6;
-	const float ROUNDING = 1e-4; // of the distances
 	CountBox box;
 	box.view = p_view;
 	box.center = 0.5 * (p_bounds.minimum + p_bounds.maximum);
@@ -178,8 +166,7 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 	const vec3 y = p_view.axis_y.xyz;
 	const vec3 z = p_view.axis_z.xyz;
 	box.smooth_fraction = find_smooth_fraction(p_light, p_bounds, w_range);
-	const vec2 distances = find_part_distances(p_light, p_bounds, w_range);
-	box.distances = vec2(distances.x - ROUNDING * abs(distances.x), distances.y + ROUNDING * abs(distances.y));
+	box.distances = vec2(-COUNT_FAR, COUNT_FAR);
 	if (box.is_directional) {
 		box.above = find_above_directional(p_light, p_bounds, w_range);
 		box.below = vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.y) /

@@ -114,11 +114,11 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 			uint i = gl_SubgroupInvocationID;
 			do {
 				choose_edge_of_bundle(p_box, first_bundle + lane, i, end, choice);
-				choose_edge_of_bundle(p_box, first_bundle + lane, i + SUBGROUP_SIZE, end, choice);
-				choose_edge_of_bundle(p_box, first_bundle + lane, i + 2u * SUBGROUP_SIZE, end, choice);
-				choose_edge_of_bundle(p_box, first_bundle + lane, i + 3u * SUBGROUP_SIZE, end, choice);
-				i += 4u * SUBGROUP_SIZE;
-			} while (4u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
+				if (SUBGROUP_SIZE < size) {
+					choose_edge_of_bundle(p_box, first_bundle + lane, i + SUBGROUP_SIZE, end, choice);
+				}
+				i += 2u * SUBGROUP_SIZE;
+			} while (2u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
 		} while (subgroupBallotBitCount(needed) != 0u);
 	} while (choice.next < p_end && has_choice_room(choice, size));
 	return choice;
@@ -387,7 +387,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	}
 	const bool is_counted = is_receiver && may_count_at(point);
 	const uint own_part = is_sorted ? p_sorted_part : point.view;
-	const float distance = is_counted ? load_part_distance(p_block, own_part) : 0.0;
+	const float distance = is_counted ? load_part_distance(p_block, p_parts, own_part) : 0.0;
 	const CountReceiver receiver = make_count_receiver(light, point.position, distance);
 	CountCrossings crossings = CountCrossings(0, 0, 0);
 	if (is_counted) {

@@ -24,7 +24,7 @@ layout(std430, set = 0, binding = COUNT_BINDING_BOXES) readonly buffer Boxes {
 layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) readonly buffer BlockReceivers {
 	uint block_receivers[]; // per block, EDGE_COUNT_RECEIVERS_*
 };
-layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) writeonly buffer Chains {
+layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) buffer Chains {
 	uint chains[];
 };
 layout(std430, set = 0, binding = COUNT_BINDING_LISTS) writeonly buffer Lists {
@@ -296,8 +296,7 @@ uint collect_part_bundles(CountBox p_box, uint p_needed_count) {
 
 /// Collects in reached_edges the edges within the reach of a part's box, from item r_first on, until all are tested or
 /// the next ones may not fit. Returns their number. candidates has the edges, or their bundles if p_has_bundles.
-uint collect_reached_edges(
-		CountBox p_box, float p_distance, bool p_has_bundles, uint p_edge_count, inout uint r_first) {
+uint collect_reached_edges(CountBox p_box, bool p_has_bundles, uint p_edge_count, inout uint r_first) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint light_edge_count = find_edge_count();
 	uint count = 0u;
@@ -308,7 +307,7 @@ uint collect_reached_edges(
 		const uint index = p_has_bundles ? candidate * size + candidate_index % size : candidate;
 		const bool is_valid = item < p_edge_count && index < light_edge_count;
 		const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
-		const bool is_reached = is_valid && is_count_level(p_distance, edge) &&
+		const bool is_reached = is_valid && is_count_level(p_box.distances.x, edge) &&
 				is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
 		const uvec4 reached = subgroup_ballot(is_reached);
 		if (is_reached) {
@@ -323,11 +322,11 @@ uint collect_reached_edges(
 }
 
 /// Tests p_edge_count edges and lists those that a part may need; see collect_reached_edges.
-void list_candidates(CountBox p_box, float p_distance, bool p_has_bundles, uint p_edge_count,
+void list_candidates(CountBox p_box, bool p_has_bundles, uint p_edge_count,
 		inout float r_min_fraction, inout Chain r_chain) {
 	uint next = 0u;
 	do {
-		const uint count = collect_reached_edges(p_box, p_distance, p_has_bundles, p_edge_count, next);
+		const uint count = collect_reached_edges(p_box, p_has_bundles, p_edge_count, next);
 		uint first = 0u;
 		do {
 			const uint item = first + gl_SubgroupInvocationID;
@@ -352,12 +351,13 @@ void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count, ui
 	do {
 		const bool is_valid = parts != 0u;
 		const uint i = is_valid ? uint(findLSB(parts)) : 0u;
-		const CountBox box = make_count_box(light, load_count_view(p_view), load_box(p_tile, p_parts, i));
+		CountBox box = make_count_box(light, load_count_view(p_view), load_box(p_tile, p_parts, i));
+		box.distances = vec2(part_distances[i]);
 		Chain chain = part_chains[i];
 		float min_fraction = COUNT_FAR;
 		const uint bundle_count = collect_part_bundles(box, is_valid ? p_needed_count : 0u);
 		const uint edge_count = has_bundles ? bundle_count * uint(EDGE_COUNT_BUNDLE_SIZE) : p_candidate_edge_count;
-		list_candidates(box, part_distances[i], has_bundles, is_valid ? edge_count : 0u, min_fraction, chain);
+		list_candidates(box, has_bundles, is_valid ? edge_count : 0u, min_fraction, chain);
 		chain.is_smooth = chain.is_smooth && subgroup_all(min_fraction >= box.smooth_fraction);
 		if (is_valid && gl_SubgroupInvocationID == 0u) {
 			part_chains[i] = chain;
@@ -495,6 +495,29 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 	} while (is_part_left(p_parts, first));
 }
 
+void load_distances_of_tile(uvec2 p_tile) {
+	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
+		const uint block = find_block(p_tile, i % BLOCKS_PER_TILE);
+		const bool is_valid = (load_parts(block) & (1u << i / BLOCKS_PER_TILE)) != 0u;
+		const uint word = is_valid
+				? find_part_index(p_tile, i) * uint(EDGE_COUNT_CHAIN_WORDS) + uint(EDGE_COUNT_CHAIN_DISTANCE)
+				: 0u;
+		part_distances[i] = is_valid ? uintBitsToFloat(chains[word]) : 0.0;
+	}
+	sync_subgroup_memory();
+}
+
+/// The range of the distances of the tile's parts in a view.
+vec2 find_distances_of_tile(uint p_parts) {
+	vec2 distances = vec2(COUNT_FAR, -COUNT_FAR);
+	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
+		const bool is_valid = (p_parts >> i & 1u) != 0u;
+		distances.x = is_valid ? min(distances.x, part_distances[i]) : distances.x;
+		distances.y = is_valid ? max(distances.y, part_distances[i]) : distances.y;
+	}
+	return vec2(subgroup_min(distances.x), subgroup_max(distances.y));
+}
+
 /// Lists the edges that the tile's receivers in one view may need.
 void list_view(uvec2 p_tile, uint p_view) {
 	const uint bundle_count = find_bundle_count(find_edge_count());
@@ -503,7 +526,9 @@ void list_view(uvec2 p_tile, uint p_view) {
 	}
 	sync_subgroup_memory();
 	const uint parts = find_parts_of_tile(p_tile, p_view);
-	const BoxPair pair = find_tile_pair(p_tile, p_view, parts);
+	BoxPair pair = find_tile_pair(p_tile, p_view, parts);
+	pair.near.distances = find_distances_of_tile(parts);
+	pair.far.distances = pair.near.distances;
 	uint next = 0u;
 	do {
 		const uint needed_count = choose_bundles(pair, bundle_count, next);
@@ -530,21 +555,6 @@ void list_view(uvec2 p_tile, uint p_view) {
 	check_faces_of_view(p_tile, p_view, parts);
 }
 
-/// Computes the distances of the tile's parts. The passes that count read them too, so that all select the same levels
-/// of detail.
-void find_distances_of_tile(uvec2 p_tile) {
-	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
-		const uint part = i / BLOCKS_PER_TILE;
-		const bool is_valid = (load_parts(find_block(p_tile, i % BLOCKS_PER_TILE)) & (1u << part)) != 0u;
-		const CountBounds bounds = load_box(p_tile, is_valid ? 1u << i : 0u, i);
-		part_distances[i] = is_valid ? find_part_distances(light, bounds, find_w_range(bounds)).x : 0.0;
-		if (is_valid) {
-			chains[find_part_index(p_tile, i) * uint(EDGE_COUNT_CHAIN_WORDS) + uint(EDGE_COUNT_CHAIN_DISTANCE)] =
-					floatBitsToUint(part_distances[i]);
-		}
-	}
-}
-
 /// Adds a block to the list of its kind. The order is arbitrary and does not affect the mask.
 void add_block(uint p_entry, uint p_kind) {
 	const uint first = 3u * p_kind;
@@ -569,7 +579,7 @@ void main() {
 		block_solids[i] = (parts & EDGE_COUNT_IS_PARTLY_LIT) != 0u ? SOME_ARE_LIT : 0u;
 	}
 	views = subgroup_or(views);
-	find_distances_of_tile(tile);
+	load_distances_of_tile(tile);
 	do {
 		list_view(tile, views != 0u ? uint(findLSB(views)) : 0u);
 		views &= views - 1u;

@@ -18,6 +18,10 @@ layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) writeonly buffe
 	uint block_receivers[]; // per block, EDGE_COUNT_RECEIVERS_*
 };
 
+layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) writeonly buffer Chains {
+	uint chains[]; // per block and part, EDGE_COUNT_CHAIN_*; only the distances are written here
+};
+
 const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
 #include "common/subgroup_inc.glsl"
@@ -79,11 +83,24 @@ CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_se
 			vec2(subgroup_min(bounds.range.x), subgroup_max(bounds.range.y)));
 }
 
-void write_box(uint p_block, uint p_part, CountBounds p_bounds) {
-	if (subgroupElect()) {
-		boxes[p_block * PART_COUNT + p_part] = CountBlockBox(
-				vec4(p_bounds.minimum, p_bounds.maximum), vec4(p_bounds.slope, p_bounds.range));
+/// Writes the bounds and the distance of a part, which has the receivers for which p_is_selected is true. Returns false
+/// if there is none.
+bool write_part(uint p_block, uint p_part, CountPoint p_points[PIXELS_PER_INVOCATION],
+		bool p_is_selected[PIXELS_PER_INVOCATION]) {
+	const CountBounds bounds = find_bounds(p_points, p_is_selected);
+	float distance_m = COUNT_FAR;
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		const vec3 position = p_points[i].position;
+		distance_m = p_is_selected[i] ? min(distance_m, light.is_directional != 0u ? position.z : length(position))
+									  : distance_m;
 	}
+	distance_m = subgroup_min(distance_m);
+	if (subgroupElect()) {
+		const uint index = p_block * PART_COUNT + p_part;
+		boxes[index] = CountBlockBox(vec4(bounds.minimum, bounds.maximum), vec4(bounds.slope, bounds.range));
+		chains[index * uint(EDGE_COUNT_CHAIN_WORDS) + uint(EDGE_COUNT_CHAIN_DISTANCE)] = floatBitsToUint(distance_m);
+	}
+	return !is_count_bounds_empty(bounds);
 }
 
 shared float sort_keys[PIXEL_COUNT];
@@ -134,9 +151,7 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 			is_selected[i] = p_points[i].view != NO_VIEW && parts[i] == part;
 		}
-		const CountBounds bounds = find_bounds(p_points, is_selected);
-		write_box(p_block, part, bounds);
-		found |= is_count_bounds_empty(bounds) ? 0u : 1u << part;
+		found |= write_part(p_block, part, p_points, is_selected) ? 1u << part : 0u;
 	}
 	return found;
 }
@@ -194,7 +209,7 @@ void main() {
 			minimum = is_selected[i] ? min(minimum, depth) : minimum;
 			maximum = is_selected[i] ? max(maximum, depth) : maximum;
 		}
-		write_box(block, view, find_bounds(points, is_selected));
+		write_part(block, view, points, is_selected);
 		depth_range = vec2(subgroup_min(minimum), subgroup_max(maximum));
 		is_deep = is_deep || needs_sorting(depth_range);
 		parts |= 1u << view;

@@ -22,7 +22,7 @@ void main() {
 		const bool is_counted = may_count_at(point);
 		const uint part = (parts & EDGE_COUNT_IS_SORTED) != 0u ? block_pixel.sorted_part : point.view;
 		const CountReceiver receiver =
-				make_count_receiver(light, point.position, is_counted ? load_part_distance(block, part) : 0.0);
+				make_count_receiver(light, point.position, is_counted ? load_part_distance(block, parts, part) : 0.0);
 		visibility = !is_counted || count_solids(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver) == 0
 				? 1.0
 				: 0.0;

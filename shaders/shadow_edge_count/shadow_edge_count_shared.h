@@ -127,8 +127,8 @@ SHARED_SIZE(CountCasterPush, 112);
 // chunk's next chunk.
 #define EDGE_COUNT_CHUNK_SIZE 64
 // Words per block and part: the first chunk, the number of listed edges, and float bits of the
-// part's distance, which is a lower bound of its receivers' distances from the light's centre
-// (directional: of their z in light space), in metres.
+// part's distance, which is the least distance of its receivers from the light's centre
+// (directional: their least z in light space), in metres.
 #define EDGE_COUNT_CHAIN_FIRST 0
 #define EDGE_COUNT_CHAIN_COUNT 1
 #define EDGE_COUNT_CHAIN_DISTANCE 2
@@ -296,9 +296,9 @@ struct SHARED_ALIGN CountFaceListPush {
 	uint is_first;		// the first attempt
 	uint is_next_final; // the next attempt is the final one: its map has one texel, where all faces
 						// fit
+	uint may_overflow;	// it is not known that the lists fit with texels of the usual size
 	uint padding0;
 	uint padding1;
-	uint padding2;
 };
 SHARED_SIZE(CountFaceListPush, 32);
 // Offsets, in words, of the indirect dispatch arguments of a further attempt: to clear the map, and

@@ -1,6 +1,7 @@
 // Levels of detail of cut-outs, chosen for each receiver.
 
-#include "modules/scene/cut_levels.h"
+#include "modules/scene/cut_mesh.h"
+#include "modules/shadow_edge_count/count_mesh.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
 #include "tests/test_random.h"
@@ -15,10 +16,8 @@ namespace {
 
 const glm::uvec2 SIZE_PX(192);
 
-/// Round leaves above the ground, under a light of some width.
-SmallScene make_leaves(LightType p_type) {
-	SmallScene scene(p_type);
-	scene.box->surfaces.clear();
+/// A round leaf.
+Material make_leaf_material() {
 	std::vector<uint8_t> texels;
 	for (int y = 0; y < 64; ++y) {
 		for (int x = 0; x < 64; ++x) {
@@ -30,6 +29,28 @@ SmallScene make_leaves(LightType p_type) {
 	Material material;
 	material.alpha_mode = AlphaMode::MASK;
 	material.base_color_texture.image = make_image("leaf", { 64, 64 }, std::move(texels));
+	return material;
+}
+
+/// The source parts of a mesh whose triangles show the leaf, given three corners each.
+CountMesh cut_triangles(const std::vector<glm::vec3> &p_corners) {
+	MeshAttributes attributes;
+	std::vector<uint32_t> indices;
+	for (uint32_t corner = 0; corner < p_corners.size(); ++corner) {
+		attributes.uvs[0].emplace_back(corner % 3 == 1 ? 1 : 0, corner % 3 == 2 ? 1 : 0);
+		indices.push_back(corner);
+	}
+	const auto source =
+			make_mesh("source", p_corners, {}, std::move(indices), std::move(attributes));
+	const CutMesh cut = cut_mesh(source, make_leaf_material());
+	REQUIRE(cut.mesh);
+	return build_count_mesh(*get_topology(cut.mesh), cut.mesh->source);
+}
+
+/// Round leaves above the ground, under a light of some width.
+SmallScene make_leaves(LightType p_type) {
+	SmallScene scene(p_type);
+	scene.box->surfaces.clear();
 	TestRandom random;
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -51,7 +72,7 @@ SmallScene make_leaves(LightType p_type) {
 	}
 	MeshInstance3D &tree = add_mesh(scene.scene, "Tree",
 			make_mesh("tree", positions, {}, indices, std::move(attributes)), {});
-	tree.surfaces[0].material = std::make_shared<const Material>(material);
+	tree.surfaces[0].material = std::make_shared<const Material>(make_leaf_material());
 	scene.light->properties["light_size"] = 0.3;
 	scene.light->properties["light_angular_distance"] = 8.0;
 	return scene;
@@ -81,6 +102,25 @@ MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_
 }
 
 } // namespace
+
+TEST_CASE("[EdgeCount] source parts are connected by edges, whatever their winding") {
+	const glm::vec3 low(0, 0, 0);
+	const glm::vec3 high(0, 1, 0);
+	// Three half cards about an axis, one of them turned over.
+	const CountMesh fan = cut_triangles(
+			{ low, high, { 1, 0, 0 }, low, high, { -1, 0, 0.5f }, high, low, { -1, 0, -0.5f } });
+	REQUIRE(fan.source_parts.size() == 1);
+	CHECK(fan.source_parts[0].w > 0.9f);
+	const CountMesh apart =
+			cut_triangles({ low, high, { 1, 0, 0 }, { 5, 0, 0 }, { 5, 1, 0 }, { 6, 0, 0 } });
+	REQUIRE(apart.source_parts.size() == 2);
+	for (const shader::CountMeshFace &face : apart.faces) {
+		CHECK((face.kind & EDGE_COUNT_SOURCE_PART_MASK) < 2);
+	}
+	CHECK(apart.faces.front().kind != apart.faces.back().kind);
+	// Two corners at the same place: no face of the mesh has a part of its topology.
+	CHECK(cut_triangles({ low, low, { 1, 0, 0 } }).source_parts.size() == 1);
+}
 
 TEST_CASE("[GPU][EdgeCount] only receivers that see a wide penumbra get coarse outlines") {
 	MaskFixture fixture;

@@ -76,7 +76,7 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 		};
 		commands.barriers({ &barrier, 1 });
 	};
-	const shader::CountFaceListPush push = { 0, 0, uint32_t(p_faces.size()), 1, 0, 0, 0, 0 };
+	const shader::CountFaceListPush push = { 0, 0, uint32_t(p_faces.size()), 1, 0, 1, 0, 0 };
 	commands.bind_pipeline(r_fixture.device->get_compute_pipeline(
 			{ .name = "clear", .shader = "shadow_edge_count/clear_faces.comp" }));
 	commands.bind_resources({ { FACE_LIST_BINDING_LIGHT, light.get() },
@@ -192,6 +192,6 @@ TEST_CASE("[GPU][EdgeCount] face lists start with the size of texels that fitted
 	};
 	CHECK(find_level(0, 0) == 0);
 	CHECK(find_level(2, light.node_capacity / 2) == 2);
-	CHECK(find_level(2, light.node_capacity / 8) == 1); // smaller texels would fit, too
+	CHECK(find_level(2, light.node_capacity / 4) == 1); // smaller texels would fit, too
 	CHECK(find_level(31, light.node_capacity) == 6);	// a map of 64 texels has one at level 6
 }
