@@ -2,11 +2,9 @@
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
+#include "modules/shadow_edge_count/source_parts.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <numeric>
 #include <utility>
 
 namespace gnomon {
@@ -50,70 +48,6 @@ std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
 		edges.push_back(edge);
 	}
 	return edges;
-}
-
-/// The connected parts of a mesh before the alpha test.
-struct SourceParts {
-	std::vector<uint32_t> part_of_triangle;
-	std::vector<glm::vec4> spheres; // centre and radius, one per part; at least one
-};
-
-/// Finds the parts, in which triangles are connected if they have an edge in common, by the
-/// positions of its ends. Unlike MeshTopology::parts, they do not depend on winding, joints or
-/// degenerate triangles: an edge of what is cut out of the mesh never joins two parts.
-SourceParts find_source_parts(const Mesh &p_mesh) {
-	const float WIDENING = 1.00001f; // for rounding
-	const uint32_t triangle_count = p_mesh.get_triangle_count();
-	std::vector<uint32_t> parents(triangle_count);
-	std::iota(parents.begin(), parents.end(), 0u);
-	const auto find_root = [&](uint32_t p_triangle) {
-		while (parents[p_triangle] != p_triangle) {
-			parents[p_triangle] = parents[parents[p_triangle]];
-			p_triangle = parents[p_triangle];
-		}
-		return p_triangle;
-	};
-	const auto get_position = [&](uint32_t p_triangle, uint32_t p_corner) {
-		return p_mesh.positions_node[p_mesh.indices[3 * size_t(p_triangle) + p_corner % 3]] + 0.0f;
-	};
-	using Position = std::array<float, 3>;
-	std::map<std::pair<Position, Position>, uint32_t> first_triangles; // of each edge
-	for (uint32_t triangle = 0; triangle < triangle_count; ++triangle) {
-		for (uint32_t corner = 0; corner < 3; ++corner) {
-			const glm::vec3 a = get_position(triangle, corner);
-			const glm::vec3 b = get_position(triangle, corner + 1);
-			std::pair ends(Position{ a.x, a.y, a.z }, Position{ b.x, b.y, b.z });
-			if (ends.second < ends.first) {
-				std::swap(ends.first, ends.second);
-			}
-			const auto [found, is_new] = first_triangles.try_emplace(ends, triangle);
-			parents[find_root(triangle)] = find_root(found->second);
-		}
-	}
-	SourceParts parts;
-	parts.part_of_triangle.resize(triangle_count);
-	std::map<uint32_t, uint32_t> part_of_root;
-	std::vector<Bounds> bounds;
-	for (uint32_t triangle = 0; triangle < triangle_count; ++triangle) {
-		const auto [found, is_new] =
-				part_of_root.try_emplace(find_root(triangle), static_cast<uint32_t>(bounds.size()));
-		bounds.resize(part_of_root.size());
-		parts.part_of_triangle[triangle] = found->second;
-		for (uint32_t corner = 0; corner < 3; ++corner) {
-			bounds[found->second].add(get_position(triangle, corner));
-		}
-	}
-	for (const Bounds &part : bounds) {
-		parts.spheres.emplace_back(0.5 * (part.minimum + part.maximum), 0.0);
-	}
-	for (uint32_t triangle = 0; triangle < triangle_count; ++triangle) {
-		glm::vec4 &sphere = parts.spheres[parts.part_of_triangle[triangle]];
-		for (uint32_t corner = 0; corner < 3; ++corner) {
-			sphere.w = std::max(sphere.w,
-					WIDENING * glm::distance(glm::vec3(sphere), get_position(triangle, corner)));
-		}
-	}
-	return parts;
 }
 
 } // namespace

@@ -23,8 +23,8 @@ vec4 load_count_plane1(CountEdgeRecord p_edge) {
 			EDGE_COUNT_FACE_MASK);
 }
 
-/// True if receivers of a part with this distance see the edge's level of detail.
-bool is_count_level(float p_part_distance, CountEdgeRecord p_edge) {
+/// True if the edge is of the level of detail that receivers of a part with this distance see.
+bool is_in_distance_range(float p_part_distance, CountEdgeRecord p_edge) {
 	const int first = int(3u * (p_edge.a_face0.w & EDGE_COUNT_FACE_MASK));
 	return p_part_distance >= uintBitsToFloat(FETCH_UVEC4(faces_buffer, first + 1).w) &&
 			p_part_distance < uintBitsToFloat(FETCH_UVEC4(faces_buffer, first + 2).w);

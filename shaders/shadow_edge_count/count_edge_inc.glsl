@@ -212,7 +212,7 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const vec2 from = (is_in_front ? leave.xy : enter.xy) * p_receiver.inverse_radius;
 	const vec2 to = (is_in_front ? enter.xy : leave.xy) * p_receiver.inverse_radius;
 	const bool is_valid =
-			is_counted && any(is_in) && !all(is_in) && is_count_level(p_receiver.part_distance, p_face);
+			is_counted && any(is_in) && !all(is_in) && is_in_distance_range(p_receiver.part_distance, p_face);
 	const DiscEdges edges = DiscEdges(vec2(from.x), vec2(from.y), vec2(to.x), vec2(to.y));
 	count_sectors(make_count_sectors(edges, bvec2(is_between), ivec2(1), bvec2(is_valid, false)), r_state);
 }

@@ -34,7 +34,7 @@ void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_in_f
 	const vec2 c = count_offset(p_receiver, uintBitsToFloat(p_face.c_end_distance.xyz)).xy;
 	const bool is_left = is_count_left(a, b);
 	const bool is_crossed = is_left == is_count_left(b, c) && is_left == is_count_left(c, a) &&
-			is_count_level(p_receiver.part_distance, p_face);
+			is_in_distance_range(p_receiver.part_distance, p_face);
 	const bool is_open = p_face.a_kind.w != 0u;
 	r_found.double_sided += is_crossed && is_open ? 1 : 0;
 	r_found.back_facing += is_crossed && !is_open && p_is_in_front ? 1 : 0;

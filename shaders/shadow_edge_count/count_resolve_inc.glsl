@@ -84,7 +84,7 @@ void choose_edge_of_bundle(CountBox p_box, uint p_bundle, uint p_index, uint p_e
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint edge = p_bundle * size + p_index;
 	const bool is_valid = p_index < size && edge < p_end;
-	const bool is_seen = is_valid && is_count_level(p_box.distances.x, load_count_edge(is_valid ? edge : 0u));
+	const bool is_seen = is_valid && is_in_distance_range(p_box.distances.x, load_count_edge(is_valid ? edge : 0u));
 	choose_edge(p_box, is_valid ? edge : 0u, is_seen, r_choice);
 }
 

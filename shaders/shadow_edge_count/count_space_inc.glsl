@@ -90,8 +90,8 @@ bool is_count_in_front(vec4 p_plane, vec3 p_point) {
 	return side > 0.0;
 }
 
-/// True if receivers of a part with this distance see the face's level of detail.
-bool is_count_level(float p_part_distance, CountFaceRecord p_face) {
+/// True if the face is of the level of detail that receivers of a part with this distance see.
+bool is_in_distance_range(float p_part_distance, CountFaceRecord p_face) {
 	return p_part_distance >= uintBitsToFloat(p_face.b_first_distance.w) &&
 			p_part_distance < uintBitsToFloat(p_face.c_end_distance.w);
 }

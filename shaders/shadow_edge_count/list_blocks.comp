@@ -9,6 +9,7 @@
 
 #include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_constants_inc.glsl"
+#include "shadow_edge_count/box_solids_inc.glsl"
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_parts_inc.glsl"
 
@@ -174,12 +175,7 @@ struct Chain {
 shared Chain part_chains[PARTS_PER_TILE]; // of the current view
 shared float part_distances[PARTS_PER_TILE]; // EDGE_COUNT_CHAIN_DISTANCE
 shared uint block_edge_counts[BLOCKS_PER_TILE]; // of all views
-// Flags of block_solids: whether solids are between a block's receivers and the light's centre, for parts without
-// edges. MAY_VARY: a face may separate receivers of one part.
-const uint SOME_ARE_LIT = 1u;
-const uint SOME_ARE_DARK = 2u;
-const uint MAY_VARY = 4u;
-shared uint block_solids[BLOCKS_PER_TILE];
+shared uint block_solids[BLOCKS_PER_TILE]; // flags, see find_box_solids
 shared uint blocks_have_room[BLOCKS_PER_TILE];
 shared uint blocks_are_smooth[BLOCKS_PER_TILE];
 
@@ -307,7 +303,7 @@ uint collect_reached_edges(CountBox p_box, bool p_has_bundles, uint p_edge_count
 		const uint index = p_has_bundles ? candidate * size + candidate_index % size : candidate;
 		const bool is_valid = item < p_edge_count && index < light_edge_count;
 		const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
-		const bool is_reached = is_valid && is_count_level(p_box.distances.x, edge) &&
+		const bool is_reached = is_valid && is_in_distance_range(p_box.distances.x, edge) &&
 				is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
 		const uvec4 reached = subgroup_ballot(is_reached);
 		if (is_reached) {
@@ -406,72 +402,6 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 	} while (first < item_count && iteration_count < MAX_ITERATIONS);
 }
 
-// Limit of steps through lists of faces. High enough that usual scenes do not reach it with any size of the map, so
-// that the kind of a block does not depend on the map. Low enough that the views of an omni light stay below llvmpipe's
-// limit of iterations.
-const uint MAX_STEPS = 2048u;
-uint step_count = 0u;
-
-/// True if the whole face is in front of all receivers of the box, towards the light, or behind all of them, or if
-/// they see another level of detail.
-bool is_face_irrelevant(CountBox p_box, float p_distance, uint p_face) {
-	const CountFaceRecord face = load_count_face(p_face);
-	const vec3 a = uintBitsToFloat(face.a_kind.xyz);
-	const vec3 b = uintBitsToFloat(face.b_first_distance.xyz);
-	const vec3 c = uintBitsToFloat(face.c_end_distance.xyz);
-	const float min_in_front =
-			min(find_linear(p_box.below, a), min(find_linear(p_box.below, b), find_linear(p_box.below, c)));
-	const float max_behind =
-			max(find_linear(p_box.above, a), max(find_linear(p_box.above, b), find_linear(p_box.above, c)));
-	return min_in_front > p_box.margin || max_behind < -p_box.margin || !is_count_level(p_distance, face);
-}
-
-/// True if no face that the texels p_first..p_last list can separate receivers of the box: all are on the same side of
-/// its plane, or the face is entirely in front of them or behind them. False if the test takes too many steps.
-bool has_no_separating_face(CountBox p_box, float p_distance, uint p_view, uvec2 p_first, uvec2 p_last) {
-	uvec2 texel = p_first;
-	uint next = load_count_first_node(p_view, texel);
-	const uint end = step_count + MAX_STEPS;
-	bool is_one_sided = true;
-	// A single loop over all lists, since each loop takes as many iterations as its slowest invocation.
-	while (texel.y <= p_last.y && is_one_sided) {
-		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
-		const vec4 plane = load_count_plane(node.x);
-		const bool is_known = next == 0u || find_count_side(p_box, plane) != 0 || is_face_irrelevant(p_box, p_distance, node.x);
-		is_one_sided = is_known && step_count < end;
-		const bool is_end = next == 0u || node.y == 0u;
-		const bool is_row_end = is_end && texel.x == p_last.x;
-		texel.x = is_row_end ? p_first.x : (is_end ? texel.x + 1u : texel.x);
-		texel.y += is_row_end ? 1u : 0u;
-		next = is_end ? load_count_first_node(p_view, min(texel, p_last)) : node.y;
-		++step_count;
-	}
-	return is_one_sided;
-}
-
-/// The flag of block_solids for a box whose receivers need no edge: then the number of solids in front of the light's
-/// centre changes only across a face.
-uint find_box_solids(uint p_view, float p_distance, CountBounds p_bounds) {
-	const CountViewConstants view = load_count_view(p_view);
-	const CountBox box = make_count_box(light, view, p_bounds);
-	const vec2 minimum = box.center - box.half_size;
-	const vec2 maximum = box.center + box.half_size;
-	const bool is_inside = all(greaterThanEqual(minimum, -view.half_extent)) &&
-			all(lessThanEqual(maximum, view.half_extent));
-	const bool is_even = is_inside &&
-			has_no_separating_face(
-					box, p_distance, p_view, find_count_texel(p_view, minimum), find_count_texel(p_view, maximum));
-	// A receiver in the middle of the box.
-	const float w = dot(box.slope, box.center) + box.range.x;
-	const vec3 in_view = box.is_directional ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
-	const vec3 position = in_view.x * view.axis_x.xyz + in_view.y * view.axis_y.xyz + in_view.z * view.axis_z.xyz;
-	if (!is_even) {
-		return MAY_VARY;
-	}
-	const int solids = count_solids(light, p_view, box.center, make_count_receiver(light, position, p_distance));
-	return solids == 0 ? SOME_ARE_LIT : SOME_ARE_DARK;
-}
-
 /// Looks for faces that may separate receivers of a part. Sets the flags of block_solids from parts without edges. If
 /// such a face is in a part with edges, the block is not smooth. One invocation per part.
 void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
@@ -495,6 +425,7 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 	} while (is_part_left(p_parts, first));
 }
 
+/// Loads the distances of the tile's parts, 0 for parts without receivers.
 void load_distances_of_tile(uvec2 p_tile) {
 	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
 		const uint block = find_block(p_tile, i % BLOCKS_PER_TILE);
