@@ -87,9 +87,8 @@ void VulkanDevice::fail_as_hung(uint64_t p_finished_number) {
 	std::string where = "before any pass began";
 	if (stuck && !stuck->span_names.empty()) {
 		const size_t begun_count = count_begun_spans(*stuck);
-		where = begun_count > 0
-				? text("in pass '", stuck->span_names[begun_count - 1], "' (last pass that began)")
-				: text("before pass '", stuck->span_names.front(), "' began");
+		where = begun_count > 0 ? describe_begun_span(stuck->span_names[begun_count - 1])
+								: text("before pass '", stuck->span_names.front(), "' began");
 	}
 	is_hung = true;
 	lost_text = text("The device has made no progress for ", wait_limit_s, " s, ", where,

@@ -25,7 +25,7 @@ void VulkanDevice::check(VkResult p_result, const char *p_call) {
 		return;
 	}
 	if (p_result == VK_ERROR_DEVICE_LOST) {
-		fail_as_lost(find_last_span_begun());
+		fail_as_lost(describe_last_span());
 	}
 	fail(p_call, " failed on device \"", physical.info.name, "\": ", get_result_name(p_result),
 			". Lower the sizes in use, or choose another device with --device.");
@@ -37,18 +37,20 @@ void VulkanDevice::fail_if_lost() const {
 	}
 }
 
-void VulkanDevice::fail_as_lost(const std::string &p_span_name) {
+void VulkanDevice::fail_as_lost(const std::string &p_where) {
 	if (lost_text.empty()) {
-		lost_text = p_span_name.empty()
-				? "The device was lost before any pass began. "
-				: "The device was lost during pass '" + p_span_name + "' (last pass that began). ";
-		lost_text += "Restart the program; if it happens again, lower the sizes this pass works "
-					 "with, update the driver, or choose another device with --device.";
+		lost_text = text("The device was lost ", p_where,
+				". Restart the program; if it happens again, lower the sizes this pass works with, "
+				"update the driver, or choose another device with --device.");
 	}
 	throw DeviceLost(lost_text);
 }
 
-std::string VulkanDevice::find_last_span_begun() const {
+std::string VulkanDevice::describe_begun_span(const std::string &p_span_name) {
+	return text("in pass '", p_span_name, "' (last pass that began)");
+}
+
+std::string VulkanDevice::describe_last_span() const {
 	// Newest submission first; the memory of the breadcrumbs stays readable after the loss.
 	const SubmissionSlot *ordered[SLOT_COUNT] = { &slots[0], &slots[1] };
 	if (ordered[0]->number < ordered[1]->number) {
@@ -56,16 +58,17 @@ std::string VulkanDevice::find_last_span_begun() const {
 	}
 	for (const SubmissionSlot *slot : ordered) {
 		if (const size_t begun_count = count_begun_spans(*slot); begun_count > 0) {
-			return slot->span_names[begun_count - 1];
+			return describe_begun_span(slot->span_names[begun_count - 1]);
 		}
 	}
-	// No breadcrumb was written. Name the last recorded pass, although it may not have begun.
+	// No breadcrumb was written.
 	for (const SubmissionSlot *slot : ordered) {
 		if (!slot->span_names.empty()) {
-			return slot->span_names.back();
+			return text("(no pass is known to have begun; the last recorded one is '",
+					slot->span_names.back(), "')");
 		}
 	}
-	return "";
+	return "before any pass was recorded";
 }
 
 std::vector<LiveResource> VulkanDevice::find_live_resources() {

@@ -177,7 +177,7 @@ bool VulkanDevice::apply_injected_fault(const SubmissionSlot &p_slot) {
 	}
 	const Fault fault = std::exchange(injected_fault, {}).fault;
 	if (fault == Fault::DEVICE_LOST) {
-		fail_as_lost(*pass);
+		fail_as_lost(describe_begun_span(*pass));
 	}
 	if (fault == Fault::OUT_OF_MEMORY) {
 		throw std::bad_alloc();

@@ -240,8 +240,12 @@ public:
 	/// that began.
 	void check(VkResult p_result, const char *p_call);
 	void fail_if_lost() const;
-	[[noreturn]] void fail_as_lost(const std::string &p_span_name);
-	std::string find_last_span_begun() const;
+	/// p_where: the end of the sentence "The device was lost ...".
+	[[noreturn]] void fail_as_lost(const std::string &p_where);
+	/// Where the device was lost, for fail_as_lost: during the last pass that began, as far as
+	/// known.
+	std::string describe_last_span() const;
+	static std::string describe_begun_span(const std::string &p_span_name);
 	[[noreturn]] void fail_out_of_memory(
 			const std::string &p_resource, const MemoryRequest &p_request);
 	/// Lists live resources by name, without the images of the swapchain.
