@@ -15,9 +15,9 @@ public:
 	/// scene has none of that name, its first.
 	explicit Timeline(std::string p_default = {}) : default_name(std::move(p_default)) {}
 
-	/// Call it after a scene was loaded or reloaded. If the scene has an animation of the shown
-	/// one's name, that is shown at the same time; otherwise the scene is at rest. r_scene must
-	/// outlive this object.
+	/// Must be called before any other method, and again after the scene was reloaded. If the scene
+	/// has an animation with the name of the current one, it is selected and keeps its time and
+	/// play state; otherwise the scene is at rest. r_scene must outlive this object.
 	void set_scene(Scene &r_scene);
 	/// Chooses an animation by name, from its start; an empty or unknown name puts the scene at
 	/// rest, paused.

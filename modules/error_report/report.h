@@ -57,7 +57,7 @@ inline constexpr const char *TRIANGLES_GROUP = "triangles";
 inline constexpr const char *LIGHT_SIZE_GROUP = "light_size";
 inline constexpr const char *LIGHTS_GROUP = "lights";
 inline constexpr const char *RESOLUTION_GROUP = "resolution";
-inline constexpr const char *ANIMATION_GROUP = "animation"; // see AnimationPart
+inline constexpr const char *ANIMATION_GROUP = "animation"; // also the id of AnimationPart
 inline constexpr const char *STABILITY_GROUP = "stability"; // see StabilitySweep
 
 /// A scene with a light of one size, for which all techniques are measured.

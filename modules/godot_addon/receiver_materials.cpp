@@ -62,6 +62,7 @@ void ReceiverMaterials::copy_code(godot::RID p_original, Copy &r_copy) const {
 			server.shader_set_default_texture_parameter(r_copy.shader, name.c_str(), texture, 0);
 		}
 	}
+	// Godot does not report compile errors, but a shader that does not compile has no parameters.
 	if (server.get_shader_parameter_list(r_copy.shader).get_size() < parameters.get_size()) {
 		free(r_copy.shader);
 		r_copy.receiver.kind = ReceiverKind::GODOT;
@@ -112,7 +113,7 @@ ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const god
 		}
 		if (kind == ReceiverKind::GODOT && !std::exchange(state.is_warned, true)) {
 			log_warning(describe(p_material, p_owner), " ", copy.receiver.reason,
-					": it stays in Godot's light and shadow.");
+					": it keeps Godot's light and shadows, without Gnomon's.");
 		}
 	}
 	if (const godot::Ref<godot::Material> next = p_material.get_next_pass()) {
@@ -169,11 +170,12 @@ void ReceiverMaterials::take_inspected_shaders() {
 			}
 		}
 	} else if (++incomplete_frames == MAX_INCOMPLETE_FRAMES) {
-		log_warning("Godot returned the shaders of ", inspected_shaders.size(), " of ",
-				queried.size(), " materials in ", MAX_INCOMPLETE_FRAMES,
-				" frames, must return all: such materials stay in "
-				"Godot's light and shadow. Use Godot 4.6, or ShaderMaterials that include "
-				"gnomon.gdshaderinc.");
+		log_warning("In ", MAX_INCOMPLETE_FRAMES,
+				" frames in a row, Godot returned the shaders of only some built-in materials (at "
+				"last ",
+				inspected_shaders.size(), " of ", queried.size(),
+				"). Those whose shader is not known keep Godot's light and shadows, without "
+				"Gnomon's. Use Godot 4.6, or ShaderMaterials that include gnomon.gdshaderinc.");
 	}
 	inspected_shaders.clear();
 	queried.clear();

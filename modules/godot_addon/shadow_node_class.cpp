@@ -106,7 +106,7 @@ std::string make_range_hint(const PropertyInfo &p_info) {
 		range.minimum = std::min(range.minimum, std::stod(p_info.special));
 	}
 	std::string hint = text(range.minimum, ",", range.maximum, ",", range.step);
-	// A slider over kilometres is of no use, so the editor shows a field to drag in.
+	// A slider over so large a range is too coarse, so the editor shows a number field instead.
 	hint += range.maximum > 1000 ? ",hide_slider" : "";
 	return hint + (p_info.unit.empty() ? "" : ",suffix:" + p_info.unit);
 }

@@ -11,11 +11,13 @@
 
 namespace gnomon {
 
-/// Computes the edges of large meshes (get_topology of mesh_tools) on a worker thread, so that a
-/// new mesh does not stall the frame. Small meshes are ready at once.
+/// Builds the topology of large meshes, which is their edges with the adjacent faces (get_topology
+/// of mesh_tools, which caches it), on a worker thread, so that a new mesh does not stall the
+/// frame. Small meshes are ready at once.
 class TopologyWorker {
 public:
-	/// Meshes of up to this many triangles are ready at once: their edges take a few milliseconds.
+	/// Meshes of up to this many triangles are ready at once: their topology takes a few
+	/// milliseconds.
 	static constexpr uint32_t MAX_IMMEDIATE_TRIANGLES = 10'000;
 
 	TopologyWorker() = default;
@@ -23,9 +25,9 @@ public:
 	TopologyWorker(const TopologyWorker &) = delete;
 	TopologyWorker &operator=(const TopologyWorker &) = delete;
 
-	/// Starts to compute the edges of a large mesh.
+	/// Starts to build the topology of a large mesh.
 	void prepare(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Whether the worker has computed the edges of the mesh, or need not. True for null.
+	/// Whether the worker has built the topology of the mesh, or need not. True for null.
 	bool is_ready(const std::shared_ptr<const Mesh> &p_mesh);
 	/// Removes freed meshes.
 	void forget_unused();

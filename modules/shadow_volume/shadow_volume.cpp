@@ -54,7 +54,8 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 				"their transform collapses them to a line or a point");
 	}
 	if (casters.group_count > 1) {
-		r_plan.run(text("groups that the stencil can count: ", casters.group_count));
+		r_plan.run(
+				text("groups of casters, each with its own stencil count: ", casters.group_count));
 	}
 }
 

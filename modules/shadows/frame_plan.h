@@ -16,7 +16,7 @@ struct FramePlanEntry {
 };
 
 /// The passes that a frame runs and those that it skips (doc/architecture.md), built before any
-/// pass is recorded. Skipping a pass never changes the image, bit for bit.
+/// pass is recorded. Skipping does not change the image, bit for bit (one exception: doc/lean.md).
 class FramePlan {
 public:
 	/// Sets the light of all entries that are added until the next call. Empty: the whole frame.

@@ -40,8 +40,9 @@ StabilityDraft make_start() {
 // One function per sweep, which changes the start scene. The second argument is the value of the
 // sweep; StabilitySweep::quantity states its unit.
 
-/// A single, small caster near the light. p_value: the light's distance to its target divided by
-/// that to the caster.
+/// A single caster near the light. p_value: the light's distance to its target divided by its
+/// distance to the caster. The caster and the light's radius scale with the latter, so that the
+/// shadow on the target hardly changes, and only the range of depths does.
 void change_depth_range(StabilityDraft &r_draft, double p_value) {
 	r_draft.clear_casters();
 	const double near_m = r_draft.get_distance_m() / p_value;

@@ -15,10 +15,10 @@ vec3 spread_in_pixels(ivec2 p_pixel, Receiver p_receiver) {
 	float weight_sum = 0.0;
 	for (uint ring = 0u; ring < counts.x; ++ring) {
 		for (uint sector = 0u; sector < counts.y; ++sector) {
+			const float across = next_random(random);
 			const float along = next_random(random);
-			const float around = next_random(random);
 			const vec2 offset_px =
-					find_cell_point(uvec2(ring, sector), counts, radius_px, vec2(along, around));
+					find_cell_point(uvec2(ring, sector), counts, radius_px, vec2(across, along));
 			const ivec2 other = p_pixel + ivec2(round(offset_px));
 			if (!is_in_image(other)) {
 				continue;

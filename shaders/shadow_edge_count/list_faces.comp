@@ -3,9 +3,11 @@
 #include "shadow_edge_count/cut_faces_inc.glsl"
 #include "shadow_edge_count/texel_rows_inc.glsl"
 
-// Adds each face of a range to the lists of the texels that it may cover in one view's map. The lists are linked
-// and unordered, which does not affect the count of solids. Nodes beyond the capacity are only counted, and a further
-// attempt with larger texels follows. One invocation per face; the whole work group processes the rows of large faces.
+// Adds each face of a range, except those that may cut the light's disc (cut_faces_inc.glsl), to the lists of the texels
+// that it may cover in one view's map. This map is a grid of texels with one linked list each, not a depth map. The order
+// of a list depends on scheduling, but not what receivers count. Nodes beyond the capacity are only counted, and
+// retry_faces.comp prepares a further attempt with a map of half the size or less. One invocation per face; the whole
+// work group processes the rows of large faces.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -58,8 +60,8 @@ void add_small_face(uint p_face, TexelRows p_rows) {
 	}
 }
 
-/// Allocates the nodes of a row with one atomic, and extends the lists of four texels in a row: atomics have a long
-/// latency on GPUs, and a large face covers thousands of texels.
+/// Allocates all nodes of a row with one atomicAdd. The loop is unrolled by four, so that the latencies of four
+/// atomicExchange overlap: a large face covers thousands of texels.
 void add_row(uint p_face, int p_row, ivec2 p_columns) {
 	const uint head = find_head(p_row, p_columns.x);
 	const uint count = uint(max(p_columns.y - p_columns.x + 1, 0));

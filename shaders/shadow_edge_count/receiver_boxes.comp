@@ -48,14 +48,14 @@ CountPoint load_point(uint p_index, inout bool r_is_lit) {
 }
 
 /// Distance of a receiver from the camera in metres.
-float find_depth(CountPoint p_point) {
+float find_camera_distance(CountPoint p_point) {
 	return distance(p_point.position, light_from_camera[3].xyz);
 }
 
 /// True if distances from the camera differ so much that the receivers are sorted by distance.
-bool needs_sorting(vec2 p_depth_range) {
+bool needs_sorting(vec2 p_camera_range) {
 	const float MIN_SORTED_RANGE_SIZES = 0.05; // of S
-	return p_depth_range.y - p_depth_range.x > MIN_SORTED_RANGE_SIZES * light.scene_size_m;
+	return p_camera_range.y - p_camera_range.x > MIN_SORTED_RANGE_SIZES * light.scene_size_m;
 }
 
 /// The bounds of the receivers for which p_is_selected is true, relative to the plane of one of them. Empty if there is
@@ -83,8 +83,8 @@ CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_se
 			vec2(subgroup_min(bounds.range.x), subgroup_max(bounds.range.y)));
 }
 
-/// Writes the bounds and the distance of a part, which has the receivers for which p_is_selected is true. Returns false
-/// if there is none.
+/// Writes a part's bounds, and the distance of its nearest receiver from the light (EDGE_COUNT_CHAIN_DISTANCE). The
+/// part has the receivers for which p_is_selected is true. Returns false if there is none.
 bool write_part(uint p_block, uint p_part, CountPoint p_points[PIXELS_PER_INVOCATION],
 		bool p_is_selected[PIXELS_PER_INVOCATION]) {
 	const CountBounds bounds = find_bounds(p_points, p_is_selected);
@@ -109,28 +109,28 @@ shared uint sorted_pixels[PIXEL_COUNT];
 /// Sorts the block's pixels by distance from the camera, those without a receiver last. Writes their order, and the
 /// boxes of their parts, which divide the range of distances evenly. All receivers must be in one view. Returns the bit
 /// mask of parts that have receivers.
-uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2 p_depth_range) {
+uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2 p_camera_range) {
 	const float SORTED_PART_COUNT = float(EDGE_COUNT_SORTED_PARTS);
-	const float parts_per_m = SORTED_PART_COUNT / (p_depth_range.y - p_depth_range.x);
-	float depths[PIXELS_PER_INVOCATION];
+	const float parts_per_m = SORTED_PART_COUNT / (p_camera_range.y - p_camera_range.x);
+	float distances[PIXELS_PER_INVOCATION];
 	uint parts[PIXELS_PER_INVOCATION];
 	uint ranks[PIXELS_PER_INVOCATION];
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
 		const bool is_selected = p_points[i].view != NO_VIEW;
-		depths[i] = is_selected ? find_depth(p_points[i]) : COUNT_FAR;
-		parts[i] = is_selected ? uint(clamp((depths[i] - p_depth_range.x) * parts_per_m, 0.0, SORTED_PART_COUNT - 1.0)) : 0u;
+		distances[i] = is_selected ? find_camera_distance(p_points[i]) : COUNT_FAR;
+		parts[i] = is_selected ? uint(clamp((distances[i] - p_camera_range.x) * parts_per_m, 0.0, SORTED_PART_COUNT - 1.0)) : 0u;
 		ranks[i] = 0u;
 		if (pixel < PIXEL_COUNT) {
-			sort_keys[pixel] = depths[i];
+			sort_keys[pixel] = distances[i];
 		}
 	}
 	sync_subgroup_memory();
 	for (uint other = 0u; other < PIXEL_COUNT; ++other) {
-		const float depth = sort_keys[other];
+		const float distance_m = sort_keys[other];
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 			const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
-			ranks[i] += depth < depths[i] || (depth == depths[i] && other < pixel) ? 1u : 0u;
+			ranks[i] += distance_m < distances[i] || (distance_m == distances[i] && other < pixel) ? 1u : 0u;
 		}
 	}
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
@@ -189,7 +189,7 @@ void main() {
 	uint parts = 0u;
 	uint view = 0u;
 	bool is_deep = false;
-	vec2 depth_range = vec2(0.0);
+	vec2 camera_range = vec2(0.0);
 	while (true) {
 		// The next view that contains a receiver.
 		uint next = NO_VIEW;
@@ -205,13 +205,13 @@ void main() {
 		float maximum = -COUNT_FAR;
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 			is_selected[i] = points[i].view == view;
-			const float depth = find_depth(points[i]);
-			minimum = is_selected[i] ? min(minimum, depth) : minimum;
-			maximum = is_selected[i] ? max(maximum, depth) : maximum;
+			const float distance_m = find_camera_distance(points[i]);
+			minimum = is_selected[i] ? min(minimum, distance_m) : minimum;
+			maximum = is_selected[i] ? max(maximum, distance_m) : maximum;
 		}
 		write_part(block, view, points, is_selected);
-		depth_range = vec2(subgroup_min(minimum), subgroup_max(maximum));
-		is_deep = is_deep || needs_sorting(depth_range);
+		camera_range = vec2(subgroup_min(minimum), subgroup_max(maximum));
+		is_deep = is_deep || needs_sorting(camera_range);
 		parts |= 1u << view;
 		++view;
 	}
@@ -220,7 +220,7 @@ void main() {
 		parts |= is_smooth(points) ? EDGE_COUNT_IS_SMOOTH : 0u;
 	}
 	if (has_one_view && is_deep) {
-		parts = write_sorted(block, points, depth_range) |
+		parts = write_sorted(block, points, camera_range) |
 				uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
 	}
 	parts |= subgroup_any(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u;

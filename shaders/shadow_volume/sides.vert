@@ -3,8 +3,10 @@
 #include "common/silhouette_inc.glsl"
 #include "shadow_volume/volume_inc.glsl"
 
-// Extrudes the sides of the listed silhouette edges without a geometry shader: one side per edge or, with robust faces,
-// two. The second side collapses to a point where the edge has one face only, or where its faces are not robust.
+// Extrudes the sides of the listed silhouette edges without a geometry shader: one side per edge or, if the caster has
+// robust faces, two. A robust face has a volume of its own even if it faces away from the light (see "Robust parts" in
+// doc/techniques/shadow_volume.md). At a silhouette edge between two robust faces, both volumes have the same side, with
+// the same winding, so it is drawn twice. Otherwise the second side collapses to a point.
 layout(std430, set = 0, binding = VOLUMES_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];
 };

@@ -102,7 +102,7 @@ def is_soft(fine, x, y):
 
 
 def measure_resolutions(folder):
-    lines = ["| s | method | mean change | mean change where it is soft | 99 of 100 pixels there |", "|---|---|---|---|---|"]
+    lines = ["| s | method | mean change, all receivers | mean change, soft pixels | p99 of the change, soft pixels |", "|---|---|---|---|---|"]
     for scene, scatter in SCENES:
         for name, settings in (METHODS[1], METHODS[4]):
             masks = []

@@ -115,8 +115,8 @@ def list_properties():
     return found
 
 
-def compare_properties(out, path, bad_path):
-    """Write the custom properties before an export, after it, and after one whose exporter writes no file, with its message."""
+def compare_properties(out, path, once_folder):
+    """Write the custom properties before an export, after it, and after an export that fails, with its error message."""
     import gnomon_shadows
 
     gnomon_shadows.register()
@@ -125,8 +125,8 @@ def compare_properties(out, path, bad_path):
     before = list_properties()
     bpy.ops.export_scene.gnomon(filepath=path)
     after = list_properties()
-    # An exporter that writes no file. It removes a folder, so that a second call would fail.
-    gnomon_shadows.run_exporter = lambda *_: os.rmdir(bad_path)
+    # Simulate an exporter that writes no file. rmdir fails at a second call: the add-on must call its exporter only once.
+    gnomon_shadows.run_exporter = lambda *_: os.rmdir(once_folder)
     message = ""
     try:
         bpy.ops.export_scene.gnomon(filepath=path)
@@ -179,7 +179,7 @@ def install(out, program):
         preferences.program = path
         lists.append([name for name, _ in module.search_techniques(light, bpy.context, "")])
     was_registered = hasattr(bpy.types, "GNOMON_PT_shadow") and "gnomon" in dir(bpy.ops.export_scene)
-    light.gnomon_technique, light.gnomon_outer_width = "", -0.5  # back to the defaults: nothing is stored
+    light.gnomon_technique, light.gnomon_outer_width = "", -0.5  # both mean the default (any negative width is -1), so nothing may be stored
     stored_properties = dict(light.items())
     bpy.ops.preferences.addon_disable(module="gnomon_shadows")
     is_still_registered = hasattr(bpy.types, "GNOMON_PT_shadow") or hasattr(bpy.types.Light, "gnomon_technique")

@@ -25,8 +25,8 @@ using namespace gnomon;
 namespace {
 
 const uint32_t FRAMES_PER_SCENE = 25;
-const uint32_t MAX_BLOCK_FRAMES = 500;	// different frames of a block, which is then repeated
-const uint32_t CLOSING_FRAME_COUNT = 4; // the transient pool caches three frame layouts
+const uint32_t MAX_BLOCK_FRAMES = 500; // different frames of a block, which is then repeated
+const uint32_t IDLE_FRAME_COUNT = 4;   // the transient pool caches three frame layouts
 const double FRAME_LIMIT_S = 60;
 const uint64_t MIB = 1 << 20;
 const uint32_t REPEAT_COUNT = 3;
@@ -97,7 +97,7 @@ public:
 		device = create_rendering_device(options);
 		device_resources = measure();
 		renderer = std::make_unique<Renderer>(*device);
-		closed_resources = close();
+		idle_resources = measure_idle();
 	}
 	~Soak() {
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
@@ -157,7 +157,7 @@ private:
 
 	void close_scene() {
 		scene.reset();
-		CHECK(describe_difference(closed_resources, close()) == "");
+		CHECK(describe_difference(idle_resources, measure_idle()) == "");
 	}
 
 	LiveResources measure() {
@@ -166,13 +166,13 @@ private:
 	}
 
 	/// Enables all modules, then draws empty frames until the previous scene's resources are freed.
-	LiveResources close() {
+	LiveResources measure_idle() {
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 			if (!module.is_enabled) {
 				ModuleRegistry::set_enabled(module.name, true);
 			}
 		}
-		for (uint32_t index = 0; index < CLOSING_FRAME_COUNT; ++index) {
+		for (uint32_t index = 0; index < IDLE_FRAME_COUNT; ++index) {
 			RenderRequest request;
 			request.scene = empty.snap();
 			request.size_px = glm::uvec2(16 + index); // another layout each time
@@ -233,7 +233,7 @@ private:
 	std::unique_ptr<Renderer> renderer;
 	std::unique_ptr<RandomScene> scene;
 	LiveResources device_resources; // of the device alone
-	LiveResources closed_resources;
+	LiveResources idle_resources;
 	const unsigned message_count = get_validation_message_count();
 };
 

@@ -95,5 +95,6 @@ TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts over one pixel
 	}
 	const MaskResult frame = render_volumes(fixture, scene, { { "culling", std::string("off") } });
 	check_against_rays(scene, frame, 500); // more tolerance: each plate has a border
-	CHECK(frame.plan.to_text().find("groups that the stencil can count: 2") != std::string::npos);
+	CHECK(frame.plan.to_text().find("groups of casters, each with its own stencil count: 2") !=
+			std::string::npos);
 }
