@@ -19,11 +19,11 @@ const double MIN_HALF_WIDTH_PER_TOLERANCE = 80;
 const double MIN_HALF_WIDTH_PER_COARSE_TOLERANCE = 350;
 const double COARSE_TOLERANCE_PX = 0.25;
 // For a receiver whose own penumbra is known to have this half width, in tolerances, a coarse
-// outline adds less than 0.0006 to the MAE of trees (leaves, courtyard); 4 would add 0.002.
-const double MIN_HALF_WIDTH_PER_RECEIVER_TOLERANCE = 6;
+// outline adds at most 0.002 to the MAE of trees (leaves, courtyard); 4 would add 0.003.
+const double MIN_HALF_WIDTH_PER_RECEIVER_TOLERANCE = 4.5;
 // A coarse level that only few receivers could use is not worth its memory: the widest penumbra
 // must have this half width, in tolerances.
-const double MAX_HALF_WIDTH_PER_TOLERANCE = 8;
+const double MAX_HALF_WIDTH_PER_TOLERANCE = 5.5;
 const uint32_t MIN_LEVEL_STEP = 2; // to the coarse level: a fourth of the tolerance
 // Where the texture repeats within a triangle, the outline's error repeats too and does not average
 // out.

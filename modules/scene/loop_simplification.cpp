@@ -1,5 +1,7 @@
 #include "modules/scene/loop_simplification.h"
 
+#include "modules/scene/line_moments.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -95,36 +97,155 @@ bool is_fixed(const Chain &p_chain, uint32_t p_point, const glm::ivec2 &p_size) 
 	return is_on_x || is_on_y;
 }
 
-Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::ivec2 &p_size) {
-	const uint32_t count = static_cast<uint32_t>(p_loop.size());
-	Chain chain{ &p_loop, std::vector<uint8_t>(count) };
+std::vector<uint32_t> find_fixed_points(const PolygonLoop &p_loop, const glm::ivec2 &p_size) {
+	const Chain chain{ &p_loop, {} };
 	std::vector<uint32_t> fixed;
-	for (uint32_t point = 0; point < count; ++point) {
+	for (uint32_t point = 0; point < p_loop.size(); ++point) {
 		if (is_fixed(chain, point, p_size)) {
 			fixed.push_back(point);
 		}
 	}
-	if (fixed.size() < 2) {
-		const uint32_t first = fixed.empty() ? 0 : fixed[0];
-		double distance = 0;
-		// A closed chain is split at the point farthest from its start.
-		fixed = { first, chain.find_farthest(first, first + count, distance) % count };
-		std::sort(fixed.begin(), fixed.end());
-	}
-	for (size_t i = 0; i < fixed.size(); ++i) {
-		chain.keep(fixed[i]);
-		chain.simplify(
-				fixed[i], i + 1 < fixed.size() ? fixed[i + 1] : fixed[0] + count, p_tolerance);
-	}
-	if (std::count(chain.is_kept.begin(), chain.is_kept.end(), 1) < 3) { // too thin
-		double distances[2];
-		const uint32_t points[] = {
-			chain.find_farthest(fixed[0], fixed[1], distances[0]),
-			chain.find_farthest(fixed[1], fixed[0] + count, distances[1]),
-		};
-		chain.keep(points[distances[1] > distances[0] ? 1 : 0]);
+	return fixed;
+}
+
+/// Keeps some points, in ascending order, and between them as few as the tolerance allows.
+Chain thin_out(const PolygonLoop &p_loop, const std::vector<uint32_t> &p_kept, double p_tolerance) {
+	const uint32_t count = static_cast<uint32_t>(p_loop.size());
+	Chain chain{ &p_loop, std::vector<uint8_t>(count) };
+	for (size_t i = 0; i < p_kept.size(); ++i) {
+		const uint32_t end = i + 1 < p_kept.size() ? p_kept[i + 1] : p_kept[0] + count;
+		chain.simplify(p_kept[i], end, p_tolerance);
 	}
 	return chain;
+}
+
+/// Keeps a triangle of a loop of which fewer points would remain.
+void keep_triangle(Chain &r_chain) {
+	const uint32_t count = static_cast<uint32_t>(r_chain.loop->size());
+	const auto found = std::find(r_chain.is_kept.begin(), r_chain.is_kept.end(), 1);
+	const uint32_t first = static_cast<uint32_t>(found - r_chain.is_kept.begin());
+	double distance = 0;
+	const uint32_t second = r_chain.find_farthest(first, first + count, distance);
+	double distances[2];
+	const uint32_t third[] = {
+		r_chain.find_farthest(first, second, distances[0]),
+		r_chain.find_farthest(second, first + count, distances[1]),
+	};
+	r_chain.keep(second);
+	r_chain.keep(third[distances[1] > distances[0] ? 1 : 0]);
+}
+
+/// Keeps as few points of a loop as the tolerance allows. The number depends on where the first
+/// line starts: of several starts that with the fewest points is chosen, and of all tolerances that
+/// lead to this number a small one. Long loops would gain little.
+Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::ivec2 &p_size) {
+	const uint32_t MAX_STARTS = 64;
+	const double TOLERANCE_FACTOR = 0.93; // from one attempt to the next
+	const int MAX_ATTEMPTS = 16;
+	const int64_t MAX_POINTS = 64; // of a loop that is worth it
+	const auto count_kept = [](const Chain &p_chain) {
+		return std::count(p_chain.is_kept.begin(), p_chain.is_kept.end(), 1);
+	};
+	const std::vector<uint32_t> fixed = find_fixed_points(p_loop, p_size);
+	std::vector<uint32_t> starts = fixed.empty() ? std::vector<uint32_t>{ 0 } : fixed;
+	Chain best = thin_out(p_loop, starts, p_tolerance);
+	if (fixed.empty() && count_kept(best) <= MAX_POINTS) {
+		const uint32_t count = static_cast<uint32_t>(p_loop.size());
+		const uint32_t line_end = std::min(best.find_line_end(0, count, p_tolerance), count - 1);
+		const uint32_t step = (line_end + MAX_STARTS - 1) / MAX_STARTS;
+		for (uint32_t start = step; start <= line_end; start += step) {
+			Chain chain = thin_out(p_loop, { start }, p_tolerance);
+			if (count_kept(chain) < count_kept(best)) {
+				best = std::move(chain);
+				starts = { start };
+			}
+		}
+	}
+	double tolerance = p_tolerance;
+	for (int i = 0; i < MAX_ATTEMPTS && count_kept(best) <= MAX_POINTS; ++i) {
+		tolerance *= TOLERANCE_FACTOR;
+		Chain chain = thin_out(p_loop, starts, tolerance);
+		if (count_kept(chain) > count_kept(best)) {
+			break;
+		}
+		best = std::move(chain);
+	}
+	if (count_kept(best) < 3) { // too thin
+		keep_triangle(best);
+	}
+	return best;
+}
+
+std::vector<uint32_t> list_kept_points(const Chain &p_chain) {
+	std::vector<uint32_t> kept;
+	for (uint32_t point = 0; point < p_chain.is_kept.size(); ++point) {
+		if (p_chain.is_kept[point]) {
+			kept.push_back(point);
+		}
+	}
+	return kept;
+}
+
+/// Returns the point between two others where the lines fitted to both sides of it have the least
+/// error, among those whose chords stay within the tolerance. p_point: the current one, returned if
+/// no other is better. p_before < p_point < p_after, see Chain::find_farthest.
+uint32_t find_best_corner(const Chain &p_chain, const LineMoments &p_moments, uint32_t p_before,
+		uint32_t p_point, uint32_t p_after, double p_tolerance) {
+	const double MIN_GAIN = 1e-9; // relative, above rounding
+	const auto compute_error = [&](uint32_t p_corner) {
+		return p_moments.fit(p_before, p_corner).square_error +
+				p_moments.fit(p_corner, p_after).square_error;
+	};
+	uint32_t best = p_point;
+	double best_error = compute_error(p_point);
+	for (uint32_t corner = p_before + 1; corner < p_after; ++corner) {
+		const double error = compute_error(corner);
+		if (error >= best_error * (1 - MIN_GAIN)) {
+			continue;
+		}
+		double distances[2];
+		p_chain.find_farthest(p_before, corner, distances[0]);
+		p_chain.find_farthest(corner, p_after, distances[1]);
+		if (std::max(distances[0], distances[1]) <= p_tolerance) {
+			best_error = error;
+			best = corner;
+		}
+	}
+	return best;
+}
+
+/// Moves kept points along the loop to where the lines between them fit it best. Their number and
+/// fixed points remain.
+void move_corners(double p_tolerance, const glm::ivec2 &p_size, Chain &r_chain) {
+	const int MAX_ROUNDS = 8;
+	// The fitted lines are nearer to the loop than the chords.
+	const double CHORD_TOLERANCE_FACTOR = 1.25;
+	const uint32_t count = static_cast<uint32_t>(r_chain.loop->size());
+	const LineMoments moments(*r_chain.loop);
+	std::vector<uint32_t> kept = list_kept_points(r_chain);
+	bool has_moved = kept.size() >= 3;
+	for (int round = 0; round < MAX_ROUNDS && has_moved; ++round) {
+		has_moved = false;
+		for (size_t i = 0; i < kept.size(); ++i) {
+			if (is_fixed(r_chain, kept[i], p_size)) {
+				continue;
+			}
+			const uint32_t before = kept[(i + kept.size() - 1) % kept.size()];
+			const auto get_index = [&](uint32_t p_point) { // above `before`
+				return p_point <= before ? p_point + count : p_point;
+			};
+			const uint32_t corner = find_best_corner(r_chain, moments, before, get_index(kept[i]),
+											get_index(kept[(i + 1) % kept.size()]),
+											p_tolerance * CHORD_TOLERANCE_FACTOR) %
+					count;
+			if (corner != kept[i]) {
+				r_chain.is_kept[kept[i]] = 0;
+				r_chain.keep(corner);
+				kept[i] = corner;
+				has_moved = true;
+			}
+		}
+	}
 }
 
 struct Segment {
@@ -284,47 +405,36 @@ void restore_area(int64_t p_twice_area, double p_max_distance, const glm::ivec2 
 	}
 }
 
-/// Returns the retained points of a chain, moved by at most twice p_tolerance so that each line has
-/// as much area of the original loop on one side as on the other: chords alone would shrink round
-/// shapes. Points on the rectangle's border stay; restore_area lets the other lines compensate.
-PolygonLoop balance_areas(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
-	struct Line {
-		glm::dvec2 normal;
-		double offset; // along it
-	};
-	std::vector<uint32_t> kept_points;
-	for (uint32_t point = 0; point < p_chain.loop->size(); ++point) {
-		if (p_chain.is_kept[point]) {
-			kept_points.push_back(point);
-		}
-	}
-	const size_t count = kept_points.size();
-	std::vector<Line> lines;
+/// Returns the retained points of a chain, moved by at most twice p_tolerance to where the lines
+/// fitted to the loop between them meet: chords alone would shrink round shapes. Points on the
+/// rectangle's border stay; restore_area lets the other lines compensate.
+PolygonLoop fit_lines(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
+	const std::vector<uint32_t> kept = list_kept_points(p_chain);
+	const size_t count = kept.size();
+	const LineMoments moments(*p_chain.loop);
+	std::vector<FittedLine> lines;
 	for (size_t i = 0; i < count; ++i) {
-		const uint32_t begin = kept_points[i];
-		const uint32_t end = kept_points[(i + 1) % count] +
-				(i + 1 < count ? 0 : static_cast<uint32_t>(p_chain.loop->size()));
-		int64_t twice_area = 0;
-		for (uint32_t point = begin; point < end; ++point) {
-			twice_area += compute_twice_signed_area(
-					p_chain.get(begin), p_chain.get(point), p_chain.get(point + 1));
-		}
-		const double length = glm::length(glm::dvec2(p_chain.get(end) - p_chain.get(begin)));
-		lines.push_back({ find_normal(p_chain.get(begin), p_chain.get(end)),
-				double(twice_area) / 2 / length });
+		const bool wraps = i + 1 == count;
+		const uint32_t round = wraps ? static_cast<uint32_t>(p_chain.loop->size()) : 0;
+		lines.push_back(moments.fit(kept[i], kept[(i + 1) % count] + round));
 	}
 	PolygonLoop moved;
 	for (size_t i = 0; i < count; ++i) {
-		const Line &before = lines[(i + count - 1) % count];
-		const Line &after = lines[i];
-		glm::dvec2 shift = (before.normal * before.offset + after.normal * after.offset) * 0.5;
-		const double cross = before.normal.x * after.normal.y - before.normal.y * after.normal.x;
-		if (std::abs(cross) > 0.1) { // not nearly parallel: where both moved lines meet
-			shift = glm::dvec2(before.offset * after.normal.y - after.offset * before.normal.y,
-							after.offset * before.normal.x - before.offset * after.normal.x) /
+		const FittedLine &before = lines[(i + count - 1) % count];
+		const FittedLine &after = lines[i];
+		const glm::dvec2 point(p_chain.get(kept[i]));
+		const glm::dvec2 normal_before(before.direction.y, -before.direction.x);
+		const glm::dvec2 normal_after(after.direction.y, -after.direction.x);
+		const double offset_before = glm::dot(normal_before, before.centroid - point);
+		const double offset_after = glm::dot(normal_after, after.centroid - point);
+		glm::dvec2 shift = (normal_before * offset_before + normal_after * offset_after) * 0.5;
+		const double cross = normal_before.x * normal_after.y - normal_before.y * normal_after.x;
+		if (std::abs(cross) > 0.1) { // not nearly parallel: where both lines meet
+			shift = glm::dvec2(offset_before * normal_after.y - offset_after * normal_before.y,
+							offset_after * normal_before.x - offset_before * normal_after.x) /
 					cross;
 		}
-		moved.push_back(move_point(p_chain.get(kept_points[i]), shift, p_tolerance, p_size));
+		moved.push_back(move_point(p_chain.get(kept[i]), shift, p_tolerance, p_size));
 	}
 	restore_area(compute_twice_area(*p_chain.loop), p_tolerance, p_size, moved);
 	return moved;
@@ -353,20 +463,20 @@ std::vector<PolygonLoop> simplify_loops(
 	}
 	while (restore_intersecting(chains)) { // ends at the latest when all points are restored
 	}
-	std::vector<PolygonLoop> balanced;
+	std::vector<PolygonLoop> fitted;
 	for (const Chain &chain : chains) {
-		balanced.push_back(balance_areas(chain, p_tolerance, p_size));
+		Chain moved = chain;
+		move_corners(p_tolerance, p_size, moved);
+		fitted.push_back(fit_lines(moved, p_tolerance, p_size));
 	}
-	if (!has_intersection(balanced)) {
-		return balanced;
+	if (!has_intersection(fitted)) {
+		return fitted;
 	}
 	std::vector<PolygonLoop> simplified;
 	for (const Chain &chain : chains) {
 		PolygonLoop &loop = simplified.emplace_back();
-		for (uint32_t point = 0; point < chain.loop->size(); ++point) {
-			if (chain.is_kept[point]) {
-				loop.push_back((*chain.loop)[point]);
-			}
+		for (const uint32_t point : list_kept_points(chain)) {
+			loop.push_back((*chain.loop)[point]);
 		}
 	}
 	return simplified;
