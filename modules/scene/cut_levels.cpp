@@ -19,7 +19,7 @@ const double MIN_HALF_WIDTH_PER_TOLERANCE = 80;
 const double MIN_HALF_WIDTH_PER_COARSE_TOLERANCE = 350;
 const double COARSE_TOLERANCE_PX = 0.25;
 // For a receiver whose own penumbra is known to have this half width, in tolerances, a coarse
-// outline adds at most 0.002 to the MAE of trees (leaves, courtyard); 4 would add 0.003.
+// outline adds at most 0.0025 to the MAE of trees (leaves, courtyard), which is then below 0.006.
 const double MIN_HALF_WIDTH_PER_RECEIVER_TOLERANCE = 4.5;
 // A coarse level that only few receivers could use is not worth its memory: the widest penumbra
 // must have this half width, in tolerances.

@@ -26,7 +26,7 @@ double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const 
 /// One loop, and which of its points are retained.
 struct Chain {
 	const PolygonLoop *loop;
-	std::vector<uint8_t> is_kept; // per point
+	std::vector<uint8_t> is_retained; // per point
 
 	const glm::ivec2 &get(uint32_t p_point) const { return (*loop)[p_point % loop->size()]; }
 	/// Returns the point between two others that is farthest from the line between them; p_end is
@@ -35,7 +35,7 @@ struct Chain {
 	/// Returns the end of the longest line from a point that has all points between within the
 	/// tolerance.
 	uint32_t find_line_end(uint32_t p_begin, uint32_t p_end, double p_tolerance) const;
-	void keep(uint32_t p_point) { is_kept[p_point % loop->size()] = 1; }
+	void retain(uint32_t p_point) { is_retained[p_point % loop->size()] = 1; }
 	void simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance);
 };
 
@@ -76,7 +76,7 @@ uint32_t Chain::find_line_end(uint32_t p_begin, uint32_t p_end, double p_toleran
 void Chain::simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance) {
 	for (uint32_t begin = p_begin; begin < p_end;) {
 		begin = find_line_end(begin, p_end, p_tolerance);
-		keep(begin);
+		retain(begin);
 	}
 }
 
@@ -108,22 +108,23 @@ std::vector<uint32_t> find_fixed_points(const PolygonLoop &p_loop, const glm::iv
 	return fixed;
 }
 
-/// Keeps some points, in ascending order, and between them as few as the tolerance allows.
-Chain thin_out(const PolygonLoop &p_loop, const std::vector<uint32_t> &p_kept, double p_tolerance) {
+/// Retains some points, in ascending order, and between them as few as the tolerance allows.
+Chain thin_out(
+		const PolygonLoop &p_loop, const std::vector<uint32_t> &p_retained, double p_tolerance) {
 	const uint32_t count = static_cast<uint32_t>(p_loop.size());
 	Chain chain{ &p_loop, std::vector<uint8_t>(count) };
-	for (size_t i = 0; i < p_kept.size(); ++i) {
-		const uint32_t end = i + 1 < p_kept.size() ? p_kept[i + 1] : p_kept[0] + count;
-		chain.simplify(p_kept[i], end, p_tolerance);
+	for (size_t i = 0; i < p_retained.size(); ++i) {
+		const uint32_t end = i + 1 < p_retained.size() ? p_retained[i + 1] : p_retained[0] + count;
+		chain.simplify(p_retained[i], end, p_tolerance);
 	}
 	return chain;
 }
 
-/// Keeps a triangle of a loop of which fewer points would remain.
-void keep_triangle(Chain &r_chain) {
+/// Retains a triangle of a loop of which fewer points would remain.
+void retain_triangle(Chain &r_chain) {
 	const uint32_t count = static_cast<uint32_t>(r_chain.loop->size());
-	const auto found = std::find(r_chain.is_kept.begin(), r_chain.is_kept.end(), 1);
-	const uint32_t first = static_cast<uint32_t>(found - r_chain.is_kept.begin());
+	const auto found = std::find(r_chain.is_retained.begin(), r_chain.is_retained.end(), 1);
+	const uint32_t first = static_cast<uint32_t>(found - r_chain.is_retained.begin());
 	double distance = 0;
 	const uint32_t second = r_chain.find_farthest(first, first + count, distance);
 	double distances[2];
@@ -131,11 +132,11 @@ void keep_triangle(Chain &r_chain) {
 		r_chain.find_farthest(first, second, distances[0]),
 		r_chain.find_farthest(second, first + count, distances[1]),
 	};
-	r_chain.keep(second);
-	r_chain.keep(third[distances[1] > distances[0] ? 1 : 0]);
+	r_chain.retain(second);
+	r_chain.retain(third[distances[1] > distances[0] ? 1 : 0]);
 }
 
-/// Keeps as few points of a loop as the tolerance allows. The number depends on where the first
+/// Retains as few points of a loop as the tolerance allows. The number depends on where the first
 /// line starts: of several starts that with the fewest points is chosen, and of all tolerances that
 /// lead to this number a small one. Long loops would gain little.
 Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::ivec2 &p_size) {
@@ -143,52 +144,52 @@ Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::iv
 	const double TOLERANCE_FACTOR = 0.93; // from one attempt to the next
 	const int MAX_ATTEMPTS = 16;
 	const int64_t MAX_POINTS = 64; // of a loop that is worth it
-	const auto count_kept = [](const Chain &p_chain) {
-		return std::count(p_chain.is_kept.begin(), p_chain.is_kept.end(), 1);
+	const auto count_retained = [](const Chain &p_chain) {
+		return std::count(p_chain.is_retained.begin(), p_chain.is_retained.end(), 1);
 	};
 	const std::vector<uint32_t> fixed = find_fixed_points(p_loop, p_size);
 	std::vector<uint32_t> starts = fixed.empty() ? std::vector<uint32_t>{ 0 } : fixed;
 	Chain best = thin_out(p_loop, starts, p_tolerance);
-	if (fixed.empty() && count_kept(best) <= MAX_POINTS) {
+	if (fixed.empty() && count_retained(best) <= MAX_POINTS) {
 		const uint32_t count = static_cast<uint32_t>(p_loop.size());
 		const uint32_t line_end = std::min(best.find_line_end(0, count, p_tolerance), count - 1);
 		const uint32_t step = (line_end + MAX_STARTS - 1) / MAX_STARTS;
 		for (uint32_t start = step; start <= line_end; start += step) {
 			Chain chain = thin_out(p_loop, { start }, p_tolerance);
-			if (count_kept(chain) < count_kept(best)) {
+			if (count_retained(chain) < count_retained(best)) {
 				best = std::move(chain);
 				starts = { start };
 			}
 		}
 	}
 	double tolerance = p_tolerance;
-	for (int i = 0; i < MAX_ATTEMPTS && count_kept(best) <= MAX_POINTS; ++i) {
+	for (int i = 0; i < MAX_ATTEMPTS && count_retained(best) <= MAX_POINTS; ++i) {
 		tolerance *= TOLERANCE_FACTOR;
 		Chain chain = thin_out(p_loop, starts, tolerance);
-		if (count_kept(chain) > count_kept(best)) {
+		if (count_retained(chain) > count_retained(best)) {
 			break;
 		}
 		best = std::move(chain);
 	}
-	if (count_kept(best) < 3) { // too thin
-		keep_triangle(best);
+	if (count_retained(best) < 3) { // too thin
+		retain_triangle(best);
 	}
 	return best;
 }
 
-std::vector<uint32_t> list_kept_points(const Chain &p_chain) {
-	std::vector<uint32_t> kept;
-	for (uint32_t point = 0; point < p_chain.is_kept.size(); ++point) {
-		if (p_chain.is_kept[point]) {
-			kept.push_back(point);
+std::vector<uint32_t> list_retained_points(const Chain &p_chain) {
+	std::vector<uint32_t> retained;
+	for (uint32_t point = 0; point < p_chain.is_retained.size(); ++point) {
+		if (p_chain.is_retained[point]) {
+			retained.push_back(point);
 		}
 	}
-	return kept;
+	return retained;
 }
 
 /// Returns the point between two others where the lines fitted to both sides of it have the least
-/// error, among those whose chords stay within the tolerance. p_point: the current one, returned if
-/// no other is better. p_before < p_point < p_after, see Chain::find_farthest.
+/// error, or p_point, the current one, if none is better or its chords leave the tolerance.
+/// p_before < p_point < p_after, see Chain::find_farthest.
 uint32_t find_best_corner(const Chain &p_chain, const LineMoments &p_moments, uint32_t p_before,
 		uint32_t p_point, uint32_t p_after, double p_tolerance) {
 	const double MIN_GAIN = 1e-9; // relative, above rounding
@@ -197,51 +198,49 @@ uint32_t find_best_corner(const Chain &p_chain, const LineMoments &p_moments, ui
 				p_moments.fit(p_corner, p_after).square_error;
 	};
 	uint32_t best = p_point;
-	double best_error = compute_error(p_point);
+	double best_error = compute_error(p_point) * (1 - MIN_GAIN);
 	for (uint32_t corner = p_before + 1; corner < p_after; ++corner) {
 		const double error = compute_error(corner);
-		if (error >= best_error * (1 - MIN_GAIN)) {
-			continue;
-		}
-		double distances[2];
-		p_chain.find_farthest(p_before, corner, distances[0]);
-		p_chain.find_farthest(corner, p_after, distances[1]);
-		if (std::max(distances[0], distances[1]) <= p_tolerance) {
+		if (error < best_error) {
 			best_error = error;
 			best = corner;
 		}
 	}
-	return best;
+	double distances[2];
+	p_chain.find_farthest(p_before, best, distances[0]);
+	p_chain.find_farthest(best, p_after, distances[1]);
+	return std::max(distances[0], distances[1]) <= p_tolerance ? best : p_point;
 }
 
-/// Moves kept points along the loop to where the lines between them fit it best. Their number and
-/// fixed points remain.
+/// Moves retained points, the corners, along the loop to where the lines between them fit it best.
+/// Their number and fixed points remain.
 void move_corners(double p_tolerance, const glm::ivec2 &p_size, Chain &r_chain) {
 	const int MAX_ROUNDS = 8;
 	// The fitted lines are nearer to the loop than the chords.
 	const double CHORD_TOLERANCE_FACTOR = 1.25;
 	const uint32_t count = static_cast<uint32_t>(r_chain.loop->size());
 	const LineMoments moments(*r_chain.loop);
-	std::vector<uint32_t> kept = list_kept_points(r_chain);
-	bool has_moved = kept.size() >= 3;
+	std::vector<uint32_t> corners = list_retained_points(r_chain);
+	bool has_moved = corners.size() >= 3;
 	for (int round = 0; round < MAX_ROUNDS && has_moved; ++round) {
 		has_moved = false;
-		for (size_t i = 0; i < kept.size(); ++i) {
-			if (is_fixed(r_chain, kept[i], p_size)) {
+		for (size_t i = 0; i < corners.size(); ++i) {
+			if (is_fixed(r_chain, corners[i], p_size)) {
 				continue;
 			}
-			const uint32_t before = kept[(i + kept.size() - 1) % kept.size()];
+			const uint32_t before = corners[(i + corners.size() - 1) % corners.size()];
 			const auto get_index = [&](uint32_t p_point) { // above `before`
 				return p_point <= before ? p_point + count : p_point;
 			};
-			const uint32_t corner = find_best_corner(r_chain, moments, before, get_index(kept[i]),
-											get_index(kept[(i + 1) % kept.size()]),
-											p_tolerance * CHORD_TOLERANCE_FACTOR) %
+			const uint32_t corner =
+					find_best_corner(r_chain, moments, before, get_index(corners[i]),
+							get_index(corners[(i + 1) % corners.size()]),
+							p_tolerance * CHORD_TOLERANCE_FACTOR) %
 					count;
-			if (corner != kept[i]) {
-				r_chain.is_kept[kept[i]] = 0;
-				r_chain.keep(corner);
-				kept[i] = corner;
+			if (corner != corners[i]) {
+				r_chain.is_retained[corners[i]] = 0;
+				r_chain.retain(corner);
+				corners[i] = corner;
 				has_moved = true;
 			}
 		}
@@ -263,12 +262,12 @@ std::vector<Segment> list_segments(const std::vector<Chain> &p_chains) {
 		const Chain &chain = p_chains[index];
 		const uint32_t count = static_cast<uint32_t>(chain.loop->size());
 		uint32_t first = 0;
-		while (!chain.is_kept[first]) {
+		while (!chain.is_retained[first]) {
 			++first;
 		}
 		uint32_t begin = first;
 		for (uint32_t point = first + 1; point <= first + count; ++point) {
-			if (chain.is_kept[point % count]) {
+			if (chain.is_retained[point % count]) {
 				segments.push_back({ index, begin, point, chain.get(begin), chain.get(point) });
 				begin = point;
 			}
@@ -339,7 +338,7 @@ bool restore_intersecting(std::vector<Chain> &r_chains) {
 		const uint32_t point =
 				r_chains[p_segment.chain].find_farthest(p_segment.begin, p_segment.end, distance);
 		if (point != p_segment.begin) {
-			r_chains[p_segment.chain].keep(point);
+			r_chains[p_segment.chain].retain(point);
 			has_restored = true;
 		}
 	};
@@ -409,20 +408,20 @@ void restore_area(int64_t p_twice_area, double p_max_distance, const glm::ivec2 
 /// fitted to the loop between them meet: chords alone would shrink round shapes. Points on the
 /// rectangle's border stay; restore_area lets the other lines compensate.
 PolygonLoop fit_lines(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
-	const std::vector<uint32_t> kept = list_kept_points(p_chain);
-	const size_t count = kept.size();
+	const std::vector<uint32_t> retained = list_retained_points(p_chain);
+	const size_t count = retained.size();
 	const LineMoments moments(*p_chain.loop);
 	std::vector<FittedLine> lines;
 	for (size_t i = 0; i < count; ++i) {
 		const bool wraps = i + 1 == count;
 		const uint32_t round = wraps ? static_cast<uint32_t>(p_chain.loop->size()) : 0;
-		lines.push_back(moments.fit(kept[i], kept[(i + 1) % count] + round));
+		lines.push_back(moments.fit(retained[i], retained[(i + 1) % count] + round));
 	}
 	PolygonLoop moved;
 	for (size_t i = 0; i < count; ++i) {
 		const FittedLine &before = lines[(i + count - 1) % count];
 		const FittedLine &after = lines[i];
-		const glm::dvec2 point(p_chain.get(kept[i]));
+		const glm::dvec2 point(p_chain.get(retained[i]));
 		const glm::dvec2 normal_before(before.direction.y, -before.direction.x);
 		const glm::dvec2 normal_after(after.direction.y, -after.direction.x);
 		const double offset_before = glm::dot(normal_before, before.centroid - point);
@@ -434,7 +433,7 @@ PolygonLoop fit_lines(const Chain &p_chain, double p_tolerance, const glm::ivec2
 							offset_after * normal_before.x - offset_before * normal_after.x) /
 					cross;
 		}
-		moved.push_back(move_point(p_chain.get(kept[i]), shift, p_tolerance, p_size));
+		moved.push_back(move_point(p_chain.get(retained[i]), shift, p_tolerance, p_size));
 	}
 	restore_area(compute_twice_area(*p_chain.loop), p_tolerance, p_size, moved);
 	return moved;
@@ -475,7 +474,7 @@ std::vector<PolygonLoop> simplify_loops(
 	std::vector<PolygonLoop> simplified;
 	for (const Chain &chain : chains) {
 		PolygonLoop &loop = simplified.emplace_back();
-		for (const uint32_t point : list_kept_points(chain)) {
+		for (const uint32_t point : list_retained_points(chain)) {
 			loop.push_back((*chain.loop)[point]);
 		}
 	}

@@ -424,9 +424,10 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		uint chunk = 0u;
 		if (!HAS_NO_LIST) {
 			const uint chain = find_chain(p_block, part);
-			// A part without receivers has no chain.
-			end = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_COUNT)] : 0u;
-			chunk = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
+			// A part without receivers has no chain. Rounding can put a receiver into one, see load_part_distance.
+			const bool has_chain = is_any && (p_parts >> part & 1u) != 0u;
+			end = has_chain ? chains[chain + uint(EDGE_COUNT_CHAIN_COUNT)] : 0u;
+			chunk = has_chain ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
 		}
 		uint next = 0u; // in the list
 		const LoadedEdge none = LoadedEdge(COUNT_ADDS_NOTHING << COUNT_PACKED_WEIGHT_SHIFT, vec3(0.0), vec3(0.0));
