@@ -1,6 +1,7 @@
 #include "modules/scene/polygon_triangulation.h"
 
 #include "modules/core/error.h"
+#include "modules/scene/diagonal_flips.h"
 
 #include <algorithm>
 #include <set>
@@ -124,7 +125,11 @@ std::vector<uint32_t> Triangulator::run() {
 		is_valid = is_valid && signed_area >= 0;
 		twice_area -= signed_area;
 	}
-	return is_valid && twice_area == 0 ? std::move(triangles) : std::vector<uint32_t>();
+	if (!is_valid || twice_area != 0) {
+		return {};
+	}
+	shorten_diagonals(points, triangles);
+	return std::move(triangles);
 }
 
 bool Triangulator::split_into_monotone() {

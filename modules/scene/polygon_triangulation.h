@@ -22,8 +22,9 @@ int64_t compute_twice_signed_area(
 
 /// Returns three indices per triangle, into the concatenated points of the loops, counterclockwise;
 /// adds no points. Sweeps over monotone pieces (de Berg et al., Computational Geometry, 2008,
-/// chapter 3) in exact arithmetic. The result is empty if a loop has fewer than three points, or if
-/// loops cross or touch themselves or each other, so that the inside is not well defined.
+/// chapter 3) in exact arithmetic, then flips diagonals to shorter ones. The result is empty if a
+/// loop has fewer than three points, or if loops cross or touch themselves or each other, so that
+/// the inside is not well defined.
 std::vector<uint32_t> triangulate(std::span<const PolygonLoop> p_loops);
 
 } // namespace gnomon
