@@ -16,12 +16,15 @@ void load_light() {
 	light = light_block;
 }
 
-/// Avoids indexing if the light has one view.
+/// Selects by comparison, since a read with an index that differs between invocations takes longer.
 CountViewConstants load_count_view(uint p_view) {
-	if (VIEW_COUNT == 1u) {
-		return light.views[0];
+	CountViewConstants view = light.views[0];
+	for (uint i = 1u; i < VIEW_COUNT; ++i) {
+		if (p_view == i) {
+			view = light.views[i];
+		}
 	}
-	return light_block.views[p_view];
+	return view;
 }
 
 #endif

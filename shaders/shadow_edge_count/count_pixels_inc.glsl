@@ -9,11 +9,13 @@
 // Copies of constants, for speed: see count_constants_inc.glsl.
 FrameConstants frame_copy;
 mat4 light_from_camera;
+mat4 axes_from_camera; // to the light's own axes, see find_view
 
 void load_count_constants() {
 	load_light();
 	frame_copy = frame;
 	light_from_camera = light_views.views[0].view_from_camera_relative;
+	axes_from_camera = light_views.light_from_camera_relative;
 }
 
 /// The position in the 8 x 8 block of the pixel with this index, 0..63. The order is Morton's, so that pixels with
@@ -37,7 +39,7 @@ CountPoint load_count_point(ivec2 p_pixel) {
 	const float EDGE_ON_COSINE = 1e-7; // cosine of normal and light direction, below which the plane is edge-on
 	const ReceiverPixel pixel = load_receiver(frame_copy, p_pixel);
 	CountPoint point;
-	point.view = VIEW_COUNT == 1u ? 0u : find_view(light_views, pixel.position);
+	point.view = VIEW_COUNT == 1u ? 0u : find_view_of_direction((axes_from_camera * vec4(pixel.position, 1.0)).xyz);
 	point.position = (light_from_camera * vec4(pixel.position, 1.0)).xyz;
 	const CountViewConstants view = load_count_view(point.view);
 	const mat3 light_from_view = mat3(view.axis_x.xyz, view.axis_y.xyz, view.axis_z.xyz);
