@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 // Each flip reduces the sum of lengths, so flipping always ends; this bounds the time of hostile
-// outlines. Outlines of leaves, fences and noise need fewer than one flip per point.
+// outlines. After it, triangles stay valid, but not all diagonals are short.
 const size_t MAX_FLIPS_PER_POINT = 64;
 const size_t NO_SIDE = SIZE_MAX;
 
