@@ -32,22 +32,27 @@ const int LARGE_ROWS = 8; // faces that cover more rows are processed by the who
 shared uint large_count;
 shared uint large_faces[FACE_LIST_GROUP_SIZE];
 
+// The view's constants, which main() copies: see count_constants_inc.glsl.
+CountViewConstants view;
+uint node_capacity;
+uint first_node;
+uint first_head;
+
 TexelRows find_rows(uint p_face, uint p_level) {
-	return make_texel_rows(light, light.views[push.view], p_level, uintBitsToFloat(faces[p_face].a_kind.xyz),
+	return make_texel_rows(light, view, p_level, uintBitsToFloat(faces[p_face].a_kind.xyz),
 			uintBitsToFloat(faces[p_face].b_first_distance.xyz), uintBitsToFloat(faces[p_face].c_end_distance.xyz));
 }
 
 /// Inserts node p_node, with the face, at the head of a texel's list, if the node fits.
 void add_texel(uint p_face, uint p_head, uint p_node, bool p_is_valid) {
-	const bool has_room = p_is_valid && p_node < light.node_capacity;
+	const bool has_room = p_is_valid && p_node < node_capacity;
 	if (has_room) {
-		nodes[push.view * light.node_capacity + p_node] = uvec2(p_face, atomicExchange(heads[p_head], p_node + 1u));
+		nodes[first_node + p_node] = uvec2(p_face, atomicExchange(heads[p_head], p_node + 1u));
 	}
 }
 
 uint find_head(int p_row, int p_column) {
-	const uvec2 size_px = light.views[push.view].map_size_px;
-	return (push.view * size_px.y + uint(p_row)) * size_px.x + uint(p_column);
+	return first_head + uint(p_row) * view.map_size_px.x + uint(p_column);
 }
 
 void add_small_face(uint p_face, TexelRows p_rows) {
@@ -75,6 +80,10 @@ void add_row(uint p_face, int p_row, ivec2 p_columns) {
 }
 
 void main() {
+	view = light.views[push.view];
+	node_capacity = light.node_capacity;
+	first_node = push.view * node_capacity;
+	first_head = push.view * view.map_size_px.x * view.map_size_px.y;
 	if (gl_LocalInvocationID.x == 0u) {
 		large_count = 0u;
 	}
