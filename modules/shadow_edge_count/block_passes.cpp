@@ -55,6 +55,13 @@ std::vector<PassBinding> make_count_bindings(
 	return bindings;
 }
 
+std::vector<SpecializationConstant> make_pipeline_constants(
+		const ShadowTechnique::Inputs &p_inputs) {
+	return { { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(p_inputs.views.size()) },
+		{ EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, p_inputs.device.get_features().subgroup_size },
+		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_inputs.views.front().is_orthographic ? 1u : 0u } };
+}
+
 /// Adds an indirect dispatch over the blocks of one kind.
 void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, const std::string &p_name, const std::string &p_shader,
@@ -62,15 +69,12 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	const shader::CountBlockPush push = { p_kind, p_kind * p_blocks.block_count,
 		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, 0 };
-	const PipelineRID pipeline = inputs.device.get_compute_pipeline({ p_shader, p_shader,
-			{ { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(inputs.views.size()) },
-					{ EDGE_COUNT_CONSTANT_SUBGROUP_SIZE,
-							inputs.device.get_features().subgroup_size },
-					{ EDGE_COUNT_CONSTANT_HAS_NO_LIST,
-							p_kind == EDGE_COUNT_BLOCKS_UNLISTED ||
-											p_kind == EDGE_COUNT_BLOCKS_FILTERED
-									? 1u
-									: 0u } } });
+	std::vector<SpecializationConstant> constants = make_pipeline_constants(inputs);
+	const bool has_no_list =
+			p_kind == EDGE_COUNT_BLOCKS_UNLISTED || p_kind == EDGE_COUNT_BLOCKS_FILTERED;
+	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, has_no_list ? 1u : 0u });
+	const PipelineRID pipeline =
+			inputs.device.get_compute_pipeline({ p_shader, p_shader, std::move(constants) });
 	PassBuilder pass = r_graph.add_pass(p_name);
 	declare_bindings(pass, p_bindings);
 	pass.reads(p_blocks.dispatches, Access::INDIRECT_READ);
@@ -163,9 +167,8 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	// Each work group is one subgroup.
 	const uint32_t subgroup_size = inputs.device.get_features().subgroup_size;
 	const auto get_pipeline = [&](const std::string &p_shader) {
-		return inputs.device.get_compute_pipeline({ p_shader, p_shader,
-				{ { EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, subgroup_size },
-						{ EDGE_COUNT_CONSTANT_VIEW_COUNT, constants.view_count } } });
+		return inputs.device.get_compute_pipeline(
+				{ p_shader, p_shader, make_pipeline_constants(inputs) });
 	};
 	std::vector<PassBinding> bindings = blocks.receivers;
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants));

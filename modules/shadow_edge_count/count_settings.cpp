@@ -79,7 +79,6 @@ shader::CountLightConstants make_count_light_constants(
 	constants.nearer_tolerance = static_cast<float>(NEARER_TOLERANCE *
 			(first.is_orthographic ? std::max(p_scene_size_m, depth_range_m / DEPTH_RANGE_DIVISOR)
 								   : 1.0));
-	constants.is_directional = first.is_orthographic ? 1 : 0;
 	constants.view_count = static_cast<uint32_t>(p_views.size());
 	return constants;
 }

@@ -168,7 +168,8 @@ void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 	const CountFrameBuffers buffers = p_passes.buffers;
 	const std::string view = text(" view ", p_view_index);
 	const auto get_pipeline = [&](const char *p_shader) {
-		return p_device.get_compute_pipeline({ p_shader, p_shader, {} });
+		return p_device.get_compute_pipeline({ p_shader, p_shader,
+				{ { EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_passes.is_directional ? 1u : 0u } } });
 	};
 	const PipelineRID clear = get_pipeline("shadow_edge_count/clear_faces.comp");
 	const PipelineRID list = get_pipeline("shadow_edge_count/list_faces.comp");

@@ -10,7 +10,8 @@ struct CountFindPasses {
 	const CountCasters &casters;
 	CountCapacities capacities;
 	CountFrameBuffers buffers;
-	RGBuffer constants;		  // CountLightConstants
+	RGBuffer constants; // CountLightConstants
+	bool is_directional = false;
 	bool has_edges = true;	  // R > 0: a light without size needs no edges
 	bool may_overflow = true; // a view's face lists may need more nodes than their capacity
 };

@@ -162,8 +162,8 @@ void ShadowEdgeCount::at_light_view(
 				make_block_constants(p_inputs, settings, buffers.get_capacities(), 0));
 	}
 	const CountFindPasses passes = { cached.casters, buffers.get_capacities(),
-		buffers.import(r_graph), constants, settings.disc_radius > 0,
-		!do_face_lists_fit() || !p_inputs.may_skip };
+		buffers.import(r_graph), constants, p_inputs.views.front().is_orthographic,
+		settings.disc_radius > 0, !do_face_lists_fit() || !p_inputs.may_skip };
 	if (!are_casters_found) {
 		add_find_passes(r_graph, p_inputs.device, passes);
 		are_casters_found = true;

@@ -70,7 +70,7 @@ uint find_box_solids(uint p_view, float p_distance, CountBounds p_bounds) {
 			has_no_separating_face(box, p_view, find_count_texel(p_view, minimum), find_count_texel(p_view, maximum));
 	// A receiver in the middle of the box.
 	const float w = dot(box.slope, box.center) + box.range.x;
-	const vec3 in_view = box.is_directional ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
+	const vec3 in_view = IS_DIRECTIONAL ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
 	const vec3 position = in_view.x * view.axis_x.xyz + in_view.y * view.axis_y.xyz + in_view.z * view.axis_z.xyz;
 	if (!is_even) {
 		return MAY_VARY;

@@ -75,7 +75,6 @@ struct CountBox {
 	float radius; // R
 	float margin; // rounding error of distances from planes
 	float depth_far_m;
-	bool is_directional;
 	vec2 distances; // range of the distances of its parts, see EDGE_COUNT_CHAIN_DISTANCE; unlimited until it is set
 };
 
@@ -131,10 +130,10 @@ float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds, ve
 	const float inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
 	const float inverse_w = 1.0 / max(p_w_range.x, 1e-37);
 	const float most = p_light.interpolation;
-	const bool is_known = most > 0.0 && (p_light.is_directional != 0u || p_w_range.x > 0.0);
-	const float across = half_size * inverse_radius * (p_light.is_directional != 0u ? 1.0 : inverse_w);
-	const float along = half_range * (p_light.is_directional != 0u ? 1.0 : inverse_w);
-	return is_known ? (across + along) / (p_light.is_directional != 0u ? most : most + across) : COUNT_FAR;
+	const bool is_known = most > 0.0 && (IS_DIRECTIONAL || p_w_range.x > 0.0);
+	const float across = half_size * inverse_radius * (IS_DIRECTIONAL ? 1.0 : inverse_w);
+	const float along = half_range * (IS_DIRECTIONAL ? 1.0 : inverse_w);
+	return is_known ? (across + along) / (IS_DIRECTIONAL ? most : most + across) : COUNT_FAR;
 }
 
 /// `above` of a directional light, whose d is in metres.
@@ -158,7 +157,6 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 	box.range = 0.5 * vec2(p_bounds.range.x + p_bounds.range.y, WIDENING * (p_bounds.range.y - p_bounds.range.x));
 	box.radius = p_light.disc_radius;
 	box.depth_far_m = p_light.depth_far_m;
-	box.is_directional = p_light.is_directional != 0u;
 	const vec2 w_range = find_w_range(p_bounds);
 	const vec2 minimum = box.center - box.half_size;
 	const vec2 maximum = box.center + box.half_size;
@@ -167,7 +165,7 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 	const vec3 z = p_view.axis_z.xyz;
 	box.smooth_fraction = find_smooth_fraction(p_light, p_bounds, w_range);
 	box.distances = vec2(-COUNT_FAR, COUNT_FAR);
-	if (box.is_directional) {
+	if (IS_DIRECTIONAL) {
 		box.above = find_above_directional(p_light, p_bounds, w_range);
 		box.below = vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.y) /
 				(1.0 + p_light.disc_radius * length(p_bounds.slope));
@@ -215,7 +213,7 @@ float find_min_distance(CountBox p_box, vec3 p_a, vec3 p_b) {
 	const float MIN_SINE = 1e-4; // of the angle between p_a and p_b; below, rounding dominates the plane's normal
 	vec2 across;
 	float middle;
-	if (p_box.is_directional) {
+	if (IS_DIRECTIONAL) {
 		const vec2 edge_direction = p_b.xy - p_a.xy;
 		across = vec2(edge_direction.y, -edge_direction.x) * inversesqrt(max(dot(edge_direction, edge_direction), 1e-37));
 		middle = dot(across, p_box.center - p_a.xy);
@@ -246,7 +244,7 @@ bool is_edge_in_reach(CountBox p_box, vec3 p_a, vec3 p_b) {
 	const float side_distance = find_min_distance(p_box, a, b);
 	const vec2 widening = p_box.radius * max(vec2(above_a, above_b), 0.0);
 	const vec2 depth = vec2(dot(p_box.view.axis_z.xyz, a), dot(p_box.view.axis_z.xyz, b));
-	const vec2 beyond = p_box.is_directional ? vec2(side_distance) - widening
+	const vec2 beyond = IS_DIRECTIONAL ? vec2(side_distance) - widening
 											 : (depth - widening) * side_distance - widening;
 	return is_in_reach && (beyond.x <= 0.0 || beyond.y <= 0.0);
 }
@@ -280,12 +278,12 @@ int find_count_side(CountBox p_box, vec4 p_plane) {
 	// axis.
 	const vec3 normal = vec3(dot(p_plane.xyz, p_box.view.axis_x.xyz), dot(p_plane.xyz, p_box.view.axis_y.xyz),
 			dot(p_plane.xyz, p_box.view.axis_z.xyz));
-	const float per_w = p_box.is_directional ? -normal.z : p_plane.w;
-	const float constant = p_box.is_directional ? normal.z * p_box.depth_far_m + p_plane.w : normal.z;
+	const float per_w = IS_DIRECTIONAL ? -normal.z : p_plane.w;
+	const float constant = IS_DIRECTIONAL ? normal.z * p_box.depth_far_m + p_plane.w : normal.z;
 	const vec2 change = normal.xy + per_w * p_box.slope;
 	const float side = dot(change, p_box.center) + per_w * p_box.range.x + constant;
 	const float w = dot(abs(p_box.slope), abs(p_box.center) + p_box.half_size) + abs(p_box.range.x) + p_box.range.y;
-	const float size = p_box.is_directional ? 1.0 : 1.0 + abs(per_w) * w; // of the terms, for their rounding
+	const float size = IS_DIRECTIONAL ? 1.0 : 1.0 + abs(per_w) * w; // of the terms, for their rounding
 	const float reach = dot(abs(change), p_box.half_size) + abs(per_w) * p_box.range.y + p_box.margin * size;
 	return side > reach ? 1 : (side < -reach ? -1 : 0);
 }
@@ -296,7 +294,7 @@ int find_light_side(CountBox p_box, vec3 p_point) {
 	const vec2 across = vec2(dot(p_box.view.axis_x.xyz, p_point), dot(p_box.view.axis_y.xyz, p_point));
 	const float middle = dot(across, p_box.center) + dot(p_box.view.axis_z.xyz, p_point);
 	const float reach = dot(abs(across), p_box.half_size);
-	return p_box.is_directional || middle > reach ? 1 : (middle < -reach ? -1 : 0);
+	return IS_DIRECTIONAL || middle > reach ? 1 : (middle < -reach ? -1 : 0);
 }
 
 // An entry of an edge list: an edge index in the low 26 bits, and above it a packed weight, which is COUNT_HAS_WEIGHT

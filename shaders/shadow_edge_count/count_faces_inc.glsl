@@ -69,7 +69,7 @@ uint count_node(CountLightConstants p_light, uint p_view, uint p_node, CountRece
 	const uvec2 node = load_count_node(p_view * p_light.node_capacity + max(p_node, 1u) - 1u);
 	const vec4 plane = load_count_plane(node.x);
 	const bool is_in_front = is_count_in_front(plane, p_receiver.position);
-	if (p_node != 0u && is_in_front != is_count_light_in_front(p_light.is_directional != 0u, plane)) {
+	if (p_node != 0u && is_in_front != is_count_light_in_front(plane)) {
 		count_face(p_receiver, load_count_face(node.x), is_in_front, r_found);
 	}
 	return p_node != 0u ? node.y : 0u;

@@ -46,10 +46,9 @@ CountPoint load_count_point(ivec2 p_pixel) {
 	const vec3 r = VIEW_COUNT == 1u ? point.position : point.position * light_from_view;
 	const vec3 normal_light = mat3(light_from_camera) * pixel.normal;
 	const vec3 n = VIEW_COUNT == 1u ? normal_light : normal_light * light_from_view;
-	const bool is_directional = light.is_directional != 0u;
-	point.warped = is_directional ? vec3(r.xy, light.depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;
-	const float height = is_directional ? n.z : dot(n, r);
-	const float threshold = EDGE_ON_COSINE * (is_directional ? 1.0 : length(r));
+	point.warped = IS_DIRECTIONAL ? vec3(r.xy, light.depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;
+	const float height = IS_DIRECTIONAL ? n.z : dot(n, r);
+	const float threshold = EDGE_ON_COSINE * (IS_DIRECTIONAL ? 1.0 : length(r));
 	point.slope = abs(height) >= threshold ? n.xy / height : vec2(0.0);
 	return point;
 }
@@ -57,7 +56,7 @@ CountPoint load_count_point(ivec2 p_pixel) {
 /// False if no caster of the view can hide the receiver: the receiver is behind the light, or the view is one of
 /// CountLightConstants::empty_views.
 bool may_count_at(CountPoint p_point) {
-	const bool is_in_front = light.is_directional != 0u || p_point.warped.z > 0.0;
+	const bool is_in_front = IS_DIRECTIONAL || p_point.warped.z > 0.0;
 	return (light.empty_views & (1u << p_point.view)) == 0u && is_in_front;
 }
 

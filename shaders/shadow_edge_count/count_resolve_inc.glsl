@@ -148,7 +148,7 @@ bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 			(dot(a, edge_direction) > direction_length * (radius * d_a + ROUNDING * length_a) ||
 					dot(b, edge_direction) < -direction_length * (radius * d_b + ROUNDING * length_b));
 	const bool is_below = max(d_a, d_b) <= 0.0;
-	const bool is_above = light.is_directional == 0u && min(d_a, d_b) > 1.001;
+	const bool is_above = !IS_DIRECTIONAL && min(d_a, d_b) > 1.001;
 	return !is_outside_disc && !is_beyond && !is_below && !is_above;
 }
 
@@ -398,7 +398,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		const uint face = load_cut_face(i);
 		const vec4 plane = load_count_plane(face);
 		const bool is_in_front = is_count_in_front(plane, receiver.position);
-		if (is_in_front != is_count_light_in_front(light.is_directional != 0u, plane)) {
+		if (is_in_front != is_count_light_in_front(plane)) {
 			count_face(receiver, load_count_face(face), is_in_front, crossings);
 		}
 	}

@@ -6,6 +6,9 @@
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
+/// The light is directional. A constant, since software drivers would execute the code for other lights too.
+layout(constant_id = EDGE_COUNT_CONSTANT_IS_DIRECTIONAL) const bool IS_DIRECTIONAL = false;
+
 const float COUNT_MAX_D = 3e38;
 
 /// A receiver in light space, and the light's disc, which is turned to face it.
@@ -36,7 +39,7 @@ CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position, 
 	receiver.part_distance = p_part_distance;
 	receiver.inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
 	receiver.min_d = p_light.nearer_tolerance;
-	if (p_light.is_directional != 0u) {
+	if (IS_DIRECTIONAL) {
 		receiver.disc_x = vec3(1.0, 0.0, 0.0);
 		receiver.disc_y = vec3(0.0, 1.0, 0.0);
 		receiver.to_light = vec3(0.0, 0.0, -1.0);
@@ -63,6 +66,9 @@ CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position, 
 /// light than to the receiver are measured from the light, which avoids cancellation.
 vec3 count_offset(CountReceiver p_receiver, vec3 p_point) {
 	precise const vec3 o = p_point - p_receiver.position;
+	if (IS_DIRECTIONAL) {
+		return vec3(o.xy, -o.z);
+	}
 	precise const float from_light = dot(p_receiver.to_light, p_point);
 	const bool is_near_light = from_light > p_receiver.near_light_limit;
 	precise const vec3 offset = vec3(is_near_light ? p_point.x : o.x, is_near_light ? p_point.y : o.y,
@@ -97,8 +103,8 @@ bool is_in_distance_range(float p_part_distance, CountFaceRecord p_face) {
 }
 
 /// True if the light's centre is in front of the face.
-bool is_count_light_in_front(bool p_is_directional, vec4 p_plane) {
-	return (p_is_directional ? -p_plane.z : p_plane.w) > 0.0;
+bool is_count_light_in_front(vec4 p_plane) {
+	return (IS_DIRECTIONAL ? -p_plane.z : p_plane.w) > 0.0;
 }
 
 #endif

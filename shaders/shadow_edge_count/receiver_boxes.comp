@@ -91,7 +91,7 @@ bool write_part(uint p_block, uint p_part, CountPoint p_points[PIXELS_PER_INVOCA
 	float distance_m = COUNT_FAR;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const vec3 position = p_points[i].position;
-		distance_m = p_is_selected[i] ? min(distance_m, light.is_directional != 0u ? position.z : length(position))
+		distance_m = p_is_selected[i] ? min(distance_m, IS_DIRECTIONAL ? position.z : length(position))
 									  : distance_m;
 	}
 	distance_m = subgroup_min(distance_m);

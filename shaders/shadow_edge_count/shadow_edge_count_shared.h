@@ -122,7 +122,8 @@ SHARED_SIZE(CountCasterPush, 112);
 #define EDGE_COUNT_CONSTANT_SUBGROUP_SIZE 0 // invocations of a subgroup
 #define EDGE_COUNT_CONSTANT_VIEW_COUNT                                                             \
 	1 // views of the light; with one view, shaders need not search the receiver's
-#define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2 // the blocks of the pass read all edges of the light
+#define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2	 // the blocks of the pass read all edges of the light
+#define EDGE_COUNT_CONSTANT_IS_DIRECTIONAL 3 // the light is directional
 // The edge list of one part of a block is a chain of chunks. After all chunks, the buffer has each
 // chunk's next chunk.
 #define EDGE_COUNT_CHUNK_SIZE 64
@@ -159,7 +160,6 @@ struct SHARED_ALIGN CountLightConstants {
 							// many metres
 	uvec2 block_count;		// columns and rows of blocks in the image
 	uvec2 tile_count;		// columns and rows of tiles
-	uint is_directional;
 	uint view_count;
 	uint empty_views;	 // bit i: view i has no casters or no receivers
 	uint chunk_capacity; // chunks for the lists of all blocks together
@@ -171,7 +171,8 @@ struct SHARED_ALIGN CountLightConstants {
 							 // EDGE_COUNT_BLOCKS_SMOOTH, in R
 	uint max_cut_face_count; // capacity of the list of faces that may cut the light's disc
 	uint max_bundle_count;	 // capacity of bundles; the groups of bundles start at this index
-	uint padding;
+	uint padding0;
+	uint padding1;
 };
 SHARED_SIZE(CountLightConstants, 464);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);

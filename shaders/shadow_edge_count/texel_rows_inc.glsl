@@ -32,7 +32,7 @@ vec3 make_texel_side(vec3 p_from, vec3 p_to, float p_orientation, vec2 p_half_ex
 /// z > 0.
 vec3 find_homogeneous(CountLightConstants p_light, CountViewConstants p_view, vec3 p_point) {
 	const vec2 across = vec2(dot(p_view.axis_x.xyz, p_point), dot(p_view.axis_y.xyz, p_point));
-	return vec3(across, p_light.is_directional != 0u ? 1.0 : dot(p_view.axis_z.xyz, p_point));
+	return vec3(across, IS_DIRECTIONAL ? 1.0 : dot(p_view.axis_z.xyz, p_point));
 }
 
 /// The rows of texels that the face p_a, p_b, p_c may cover. p_level: how often the map's size is halved.

@@ -20,7 +20,8 @@ struct KernelFixture : DeviceFixture {
 
 	std::vector<glm::vec4> run(const std::string &p_kernel, const std::vector<glm::vec4> &p_input,
 			size_t p_item_count, size_t p_output_per_item,
-			std::vector<Binding> p_more_bindings = {}) {
+			std::vector<Binding> p_more_bindings = {},
+			std::vector<SpecializationConstant> p_constants = {}) {
 		const uint64_t size_bytes = p_item_count * p_output_per_item * sizeof(glm::vec4);
 		const OwnedBuffer input = make_buffer("kernel input", p_input);
 		const OwnedBuffer output(*device,
@@ -28,8 +29,9 @@ struct KernelFixture : DeviceFixture {
 						.size_bytes = size_bytes,
 						.usage = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE }));
 		const OwnedBuffer readback = make_readback(size_bytes);
-		const PipelineRID pipeline =
-				device->get_compute_pipeline({ .name = p_kernel, .shader = "tests/" + p_kernel });
+		const PipelineRID pipeline = device->get_compute_pipeline({ .name = p_kernel,
+				.shader = "tests/" + p_kernel,
+				.constants = std::move(p_constants) });
 		p_more_bindings.push_back({ BINDING_INPUT, input.get() });
 		p_more_bindings.push_back({ BINDING_OUTPUT, output.get() });
 		CommandList &commands = device->begin_commands();

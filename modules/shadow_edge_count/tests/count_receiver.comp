@@ -60,7 +60,7 @@ void main() {
 	const CountReceiver receiver = make_count_receiver(light, items[item].xyz, 0.0);
 	const CountCrossings crossings = count_crossings(light, 0u, vec2(0.0), receiver);
 	CountState state = make_count_state(sum_crossings(crossings));
-	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && light.is_directional == 0u; ++i) {
+	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && !IS_DIRECTIONAL; ++i) {
 		count_add_cut(receiver, faces[i], planes[i], crossings.back_facing >= crossings.light_facing, state);
 	}
 	for (uint i = 0u; i < uint(edges.length()) && light.disc_radius > 0.0; ++i) {

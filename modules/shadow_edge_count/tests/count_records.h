@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/rendering_device/resource_types.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
@@ -16,6 +17,7 @@ struct CountArrays {
 	/// Of the faces, then two for each edge: face indices in `edges` are indices of these planes.
 	std::vector<glm::vec4> planes;
 	shader::CountLightConstants light = {};
+	std::vector<SpecializationConstant> pipeline_constants;
 
 	static glm::uvec4 pack(const glm::dvec3 &p_point, uint32_t p_word) {
 		return { std::bit_cast<uint32_t>(float(p_point.x)),
@@ -41,13 +43,14 @@ struct CountArrays {
 							pack(edge.b, edge.has_face1 ? plane + 1 : EDGE_COUNT_NO_FACE) });
 		}
 		const CountSpace &space = p_scene.get_space();
+		pipeline_constants = { { EDGE_COUNT_CONSTANT_IS_DIRECTIONAL,
+				space.is_directional ? 1u : 0u } };
 		light.views[0] = { glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0),
 			glm::vec2(float(p_scene.half_extent)), glm::uvec2(p_map_size_px) };
 		light.disc_radius = float(space.disc_radius);
 		light.depth_far_m = 3.0f * float(space.scene_size_m);
 		light.scene_size_m = float(space.scene_size_m);
 		light.nearer_tolerance = float(space.nearer_tolerance);
-		light.is_directional = space.is_directional ? 1 : 0;
 		light.view_count = 1;
 		light.face_count = uint32_t(faces.size());
 	}

@@ -58,7 +58,7 @@ public:
 		light_from_world = views[0].view_from_world;
 		const shader::CountLightConstants constants =
 				make_count_light_constants(views, settings.disc_radius, scene_size_m);
-		space = { constants.is_directional != 0, settings.disc_radius, constants.nearer_tolerance,
+		space = { views[0].is_orthographic, settings.disc_radius, constants.nearer_tolerance,
 			scene_size_m };
 		// All casters, also those that the renderer culls.
 		for (const InstanceSnapshot &instance : p_scene.instances) {

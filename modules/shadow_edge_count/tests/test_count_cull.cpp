@@ -90,7 +90,8 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 	const OwnedBuffer planes = r_fixture.make_buffer("planes", arrays.planes);
 	const auto results =
 			r_fixture.run("count_cull.comp", input, p_boxes.size() * arrays.edges.size(), 1,
-					{ { 2, light.get() }, { 3, edges.get() }, { 4, planes.get() } });
+					{ { 2, light.get() }, { 3, edges.get() }, { 4, planes.get() } },
+					arrays.pipeline_constants);
 	CullResult result;
 	for (const glm::vec4 &found : results) {
 		result.is_used.push_back(found.x > 0.5f);

@@ -33,7 +33,8 @@ std::vector<glm::vec4> run_receivers(const CountScene &p_scene, KernelFixture &r
 	const OwnedBuffer masks = r_fixture.make_buffer("masks", p_scene.get_masks()[0].get_table());
 	return r_fixture.run("count_receiver.comp", input, input.size(), 1,
 			{ { 2, light.get() }, { 3, edges.get() }, { 4, faces.get() }, { 5, planes.get() },
-					{ 6, masks.get() } });
+					{ 6, masks.get() } },
+			arrays.pipeline_constants);
 }
 
 /// Compares the shader with the double version, for receivers on the ground.

@@ -43,7 +43,7 @@ struct Lists {
 
 /// Runs the passes that list the faces of one view. p_totals: what an earlier frame left.
 Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces,
-		const shader::CountLightConstants &p_light,
+		bool p_is_directional, const shader::CountLightConstants &p_light,
 		const std::vector<uint32_t> &p_totals = std::vector<uint32_t>(EDGE_COUNT_TOTAL_COUNT)) {
 	const auto pack = [](const glm::dvec3 &p_point) {
 		return glm::uvec4(std::bit_cast<uint32_t>(float(p_point.x)),
@@ -85,8 +85,9 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 	commands.dispatch_items({ texel_count, 1, 1 });
 	wait(heads, Access::SHADER_WRITE_COMPUTE);
 	wait(totals, Access::SHADER_WRITE_COMPUTE);
-	commands.bind_pipeline(r_fixture.device->get_compute_pipeline(
-			{ .name = "list", .shader = "shadow_edge_count/list_faces.comp" }));
+	commands.bind_pipeline(r_fixture.device->get_compute_pipeline({ .name = "list",
+			.shader = "shadow_edge_count/list_faces.comp",
+			.constants = { { EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_is_directional ? 1u : 0u } } }));
 	commands.bind_resources({ { FACE_LIST_BINDING_LIGHT, light.get() },
 			{ FACE_LIST_BINDING_FACES, faces.get() }, { FACE_LIST_BINDING_HEADS, heads.get() },
 			{ FACE_LIST_BINDING_NODES, nodes.get() }, { FACE_LIST_BINDING_TOTALS, totals.get() } });
@@ -135,11 +136,10 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 			shader::CountLightConstants light = {};
 			light.views[0] = { glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0),
 				glm::vec2(is_directional ? 3.0f : 1.1f), glm::uvec2(map_size_px) };
-			light.is_directional = is_directional ? 1 : 0;
 			light.view_count = 1;
 			light.node_capacity = 1u << 20;
 			light.face_count = uint32_t(faces.size());
-			const Lists lists = list_faces(fixture, faces, light);
+			const Lists lists = list_faces(fixture, faces, is_directional, light);
 			const uint32_t node_count = lists.totals[EDGE_COUNT_TOTAL_NODES];
 			REQUIRE(node_count <= light.node_capacity);
 			CHECK(lists.totals[EDGE_COUNT_TOTAL_LEVELS] == 0);
@@ -188,7 +188,7 @@ TEST_CASE("[GPU][EdgeCount] face lists start with the size of texels that fitted
 		std::vector<uint32_t> totals(EDGE_COUNT_TOTAL_COUNT);
 		totals[EDGE_COUNT_TOTAL_LEVELS] = p_level;
 		totals[EDGE_COUNT_TOTAL_NODES] = p_node_count;
-		return list_faces(fixture, faces, light, totals).totals[EDGE_COUNT_TOTAL_LEVELS];
+		return list_faces(fixture, faces, false, light, totals).totals[EDGE_COUNT_TOTAL_LEVELS];
 	};
 	CHECK(find_level(0, 0) == 0);
 	CHECK(find_level(2, light.node_capacity / 2) == 2);
