@@ -4,8 +4,9 @@
     measure_cut_outs.py [--write] [--scenes A,B] [--techniques A,B] [--times | --unseen]
 
 Errors are those of one light at a time, compared with 2304 rays per receiver, at 512 x 512 pixels, for light radii of 2, 10 and 30 % of
-the scene size S; in courtyard for a sun of 2 degrees and a lamp of 0.1 m. --times: medians of three runs of 7 frames in which everything
-moves, compared with the same scene with opaque cards and with pcss; the runs of the three alternate. --unseen: errors with textures and seeds for which
+the scene size S; in courtyard for a sun of 2 degrees and a lamp of 0.1 m. --times: medians of five runs of 7 frames in which everything
+moves, compared with the same scene with opaque cards and with pcss; the runs of the three alternate, and each ratio is the median of the
+runs' ratios. --unseen: errors with textures and seeds for which
 the outlines were not tuned; --scenes has no effect on them.
 """
 
@@ -34,7 +35,7 @@ SAMPLES = 2304
 TECHNIQUES = ("edge_count", "pcss", "views", "shadow_map")
 UNSEEN_TECHNIQUES = ("edge_count", "pcss")
 ALL_SCENES = ("leaf", "fence", "leaves", "courtyard")
-TIMED_RUNS = 3
+TIMED_RUNS = 5
 TIMED_FRAMES = 7  # of each run
 RADIUS_FRACTIONS = {"2 %": 0.02, "10 %": 0.1, "30 %": 0.3}  # light radius as a fraction of the scene size S
 UNSEEN = {
@@ -104,20 +105,31 @@ def build_errors(scenes, techniques):
     return lines
 
 
+def format_times(scene, light, size, runs):
+    """Return a row. runs: (edge_count, with opaque cards, pcss) in ms of each run."""
+    cut, whole, pcss = (statistics.median(times) for times in zip(*runs))
+    to_whole, to_pcss = (statistics.median(run[0] / run[other] for run in runs) for other in (1, 2))
+    return "| `%s` | %s | %s | %.1f | %.1f | %.2f | %.1f | %.2f |" % (scene, light, size, cut, whole, to_whole, pcss, to_pcss)
+
+
 def build_times(scenes):
     lines = ["| scene | light | size | `edge_count` ms | opaque cards | ratio | `pcss` ms | ratio |", "|---" * 8 + "|"]
     for scene in scenes:
         with tempfile.TemporaryDirectory() as folder:
             opaque = make_opaque(scene, folder)
+            path = os.path.join(SCENES, scene + ".gltf")
+            compared = [(path, "edge_count"), (opaque, "edge_count"), (path, "pcss")]
+            runs_by_light = []
             for light, size, setting in list_lights(scene):
                 if scene == "leaves" and light != "Spot":
                     continue  # minutes a row
-                path = os.path.join(SCENES, scene + ".gltf")
-                compared = [(path, "edge_count"), (opaque, "edge_count"), (path, "pcss")]
                 runs = [[measure_time(file, light, setting, technique, folder) for file, technique in compared] for _ in range(TIMED_RUNS)]
-                cut, whole, pcss = (statistics.median(times) for times in zip(*runs))
-                lines.append("| `%s` | %s | %s | %.1f | %.1f | %.2f | %.1f | %.2f |" % (
-                    scene, light, size, cut, whole, cut / whole, pcss, cut / pcss))
+                runs_by_light.append(runs)
+                lines.append(format_times(scene, light, size, runs))
+                print(lines[-1], flush=True)
+            if scene == "courtyard":
+                sums = [[sum(times) for times in zip(*runs)] for runs in zip(*runs_by_light)]
+                lines.append(format_times(scene, "both", "", sums))
                 print(lines[-1], flush=True)
     return lines
 
