@@ -229,15 +229,16 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 }
 
 /// Returns the list entry of an edge within the reach of a part's box. r_is_used: false if it adds nothing to any
-/// receiver of the box. r_min_fraction: lowered to find_min_fraction of the edge, if that is used.
+/// receiver of the box, or is of a level of detail that they do not see. r_min_fraction: lowered to find_min_fraction of
+/// the edge, if that is used.
 uint make_entry(CountBox p_box, uint p_index, bool p_is_valid, out bool r_is_used, inout float r_min_fraction) {
 	const CountEdgeRecord edge = load_count_edge(p_index);
 	const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
 	const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
 	const uint packed_weight = find_packed_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
 			load_count_plane0(edge), load_count_plane1(edge));
-	r_is_used = p_is_valid && packed_weight != COUNT_ADDS_NOTHING &&
-			max(find_light_side(p_box, a), find_light_side(p_box, b)) >= 0;
+	r_is_used = p_is_valid && is_in_distance_range(p_box.distances.x, edge) &&
+			packed_weight != COUNT_ADDS_NOTHING && max(find_light_side(p_box, a), find_light_side(p_box, b)) >= 0;
 	r_min_fraction = r_is_used ? min(r_min_fraction, find_min_fraction(p_box, a, b)) : r_min_fraction;
 	return p_index | packed_weight << COUNT_PACKED_WEIGHT_SHIFT;
 }
@@ -303,7 +304,7 @@ uint collect_reached_edges(CountBox p_box, bool p_has_bundles, uint p_edge_count
 		const uint index = p_has_bundles ? candidate * size + candidate_index % size : candidate;
 		const bool is_valid = item < p_edge_count && index < light_edge_count;
 		const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
-		const bool is_reached = is_valid && is_in_distance_range(p_box.distances.x, edge) &&
+		const bool is_reached = is_valid &&
 				is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
 		const uvec4 reached = subgroup_ballot(is_reached);
 		if (is_reached) {

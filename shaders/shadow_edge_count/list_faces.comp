@@ -38,9 +38,9 @@ uint node_capacity;
 uint first_node;
 uint first_head;
 
-TexelRows find_rows(uint p_face, uint p_level) {
-	return make_texel_rows(light, view, p_level, uintBitsToFloat(faces[p_face].a_kind.xyz),
-			uintBitsToFloat(faces[p_face].b_first_distance.xyz), uintBitsToFloat(faces[p_face].c_end_distance.xyz));
+TexelRows find_rows(CountFaceRecord p_face, uint p_level) {
+	return make_texel_rows(light, view, p_level, uintBitsToFloat(p_face.a_kind.xyz),
+			uintBitsToFloat(p_face.b_first_distance.xyz), uintBitsToFloat(p_face.c_end_distance.xyz));
 }
 
 /// Inserts node p_node, with the face, at the head of a texel's list, if the node fits.
@@ -89,9 +89,11 @@ void main() {
 	}
 	barrier();
 	const uint level = totals[EDGE_COUNT_TOTAL_LEVELS + push.view];
-	const uint face = push.first_face + gl_GlobalInvocationID.x;
-	if (gl_GlobalInvocationID.x < push.face_count && !is_cut_face(light, faces[face])) {
-		const TexelRows rows = find_rows(face, level);
+	const bool is_valid = gl_GlobalInvocationID.x < push.face_count;
+	const uint face = push.first_face + (is_valid ? gl_GlobalInvocationID.x : 0u);
+	const CountFaceRecord record = faces[face];
+	if (is_valid && !is_cut_face(light, record)) {
+		const TexelRows rows = find_rows(record, level);
 		if (rows.last_row - rows.first_row >= LARGE_ROWS) {
 			large_faces[atomicAdd(large_count, 1u)] = face;
 		} else {
@@ -100,7 +102,7 @@ void main() {
 	}
 	barrier();
 	for (uint i = 0u; i < large_count; ++i) {
-		const TexelRows rows = find_rows(large_faces[i], level);
+		const TexelRows rows = find_rows(faces[large_faces[i]], level);
 		for (int y = rows.first_row + int(gl_LocalInvocationID.x); y <= rows.last_row; y += FACE_LIST_GROUP_SIZE) {
 			add_row(large_faces[i], y, find_columns(rows, y));
 		}
