@@ -226,6 +226,12 @@ class BadArguments(CommandLineTest):
         result = run("run", CONTACT_BOX, "--headless", *SMALL, "--capture", self.path("gone/a.png"))
         self.assert_refused(result, "gone")
 
+    def test_a_mask_with_the_name_of_another_image_format_is_refused(self):
+        target = self.path("mask.png")
+        result = run("visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", target, *SMALL)
+        self.assert_refused(result, target, "mask.exr", "--png")
+        self.assertFalse(os.path.exists(target))
+
     def test_an_invalid_size_is_refused(self):
         for size in ("0x64", "64", "64x", "axb", "-4x4", "64x64x64", "1000000x1000000", "1e3x4", ""):
             with self.subTest(size=size):
