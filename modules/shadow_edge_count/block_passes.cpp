@@ -55,6 +55,7 @@ std::vector<PassBinding> make_count_bindings(
 	return bindings;
 }
 
+/// The constants of every shader that processes blocks: a pipeline per kind of light and device.
 std::vector<SpecializationConstant> make_pipeline_constants(
 		const ShadowTechnique::Inputs &p_inputs) {
 	return { { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(p_inputs.views.size()) },

@@ -6,8 +6,7 @@
 Errors are those of one light at a time, compared with 2304 rays per receiver, at 512 x 512 pixels, for light radii of 2, 10 and 30 % of
 the scene size S; in courtyard for a sun of 2 degrees and a lamp of 0.1 m. --times: medians of five runs of 7 frames in which everything
 moves, compared with the same scene with opaque cards and with pcss; all runs of a scene alternate, and each ratio is the median of the
-runs' ratios. --unseen: errors with textures and seeds for which
-the outlines were not tuned; --scenes has no effect on them.
+runs' ratios. --unseen: errors with textures and seeds for which the outlines were not tuned; --scenes has no effect on them.
 """
 
 import argparse
