@@ -10,6 +10,8 @@ namespace {
 
 // Below this, shaders that use subgroups would need more shared memory than they declare.
 const uint32_t MIN_SUBGROUP_SIZE = 4;
+// Of texel buffers that hold a large scene's faces. Desktop GPUs have at least this many.
+const uint32_t MIN_TEXEL_BUFFER_ELEMENTS = 1u << 26;
 
 /// The feature structures that Gnomon enables, chained.
 struct FeatureChain {
@@ -121,7 +123,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	features.depth_bounds = present_v10.depthBounds;
 	features.conditional_rendering = present.conditional.conditionalRendering;
 	features.fragment_stores = present_v10.fragmentStoresAndAtomics;
-	features.storage_and_texel_buffers = true;
+	features.storage_and_texel_buffers = limits.maxTexelBufferElements >= MIN_TEXEL_BUFFER_ELEMENTS;
 	features.copies_to_textures = true;
 	features.timestamps = timestamp_mask != 0;
 	features.max_storage_buffer_bytes = limits.maxStorageBufferRange;

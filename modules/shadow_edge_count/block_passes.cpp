@@ -1,7 +1,7 @@
 #include "modules/shadow_edge_count/block_passes.h"
 
 #include "modules/core/text.h"
-#include "modules/shadow_edge_count/fetched_buffers.h"
+#include "modules/shadows/fetched_buffers.h"
 #include "modules/shadows/mask.h"
 #include "modules/shadows/nearest_caster.h"
 

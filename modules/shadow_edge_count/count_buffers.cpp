@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/text.h"
-#include "modules/shadow_edge_count/fetched_buffers.h"
+#include "modules/shadows/fetched_buffers.h"
 
 #include <algorithm>
 #include <array>
@@ -86,8 +86,8 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	};
 	planes = make("planes", needed.face_count, sizeof(glm::vec4), Format::RGBA32_SFLOAT);
 	faces = make("faces", needed.face_count, sizeof(shader::CountFaceRecord), Format::RGBA32_UINT);
-	words = make("edge words", needed.word_count, sizeof(uint32_t));
-	blocks = make("edge blocks", needed.block_count, sizeof(uint32_t));
+	words = make("edge words", needed.word_count, sizeof(uint32_t), Format::R32_UINT);
+	blocks = make("edge blocks", needed.block_count, sizeof(uint32_t), Format::R32_UINT);
 	edges = make("edges", needed.edge_count, sizeof(shader::CountEdgeRecord), Format::RGBA32_UINT);
 	bundles = make("bundles", needed.get_bundle_count() + needed.get_bundle_group_count(),
 			sizeof(shader::CountEdgeBundle), Format::RGBA32_SFLOAT);

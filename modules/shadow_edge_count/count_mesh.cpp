@@ -3,6 +3,7 @@
 #include "modules/core/files.h"
 #include "modules/core/text.h"
 #include "modules/shadow_edge_count/source_parts.h"
+#include "modules/shadows/fetched_buffers.h"
 
 #include <algorithm>
 #include <limits>
@@ -118,20 +119,21 @@ CountGpuMesh upload_count_mesh(
 	if (gpu.face_count == 0) {
 		return gpu;
 	}
-	const auto upload = [&](const char *p_what, const auto &p_values) {
+	const auto upload = [&](const char *p_what, const auto &p_values, Format p_format) {
 		const auto bytes = bytes_of(std::span(p_values));
-		const BufferDesc desc{ text(p_mesh->name, " ", p_what), bytes.size(),
-			BufferUsage::STORAGE | BufferUsage::COPY_TARGET };
+		BufferDesc desc = make_fetched_buffer_desc(
+				p_device, text(p_mesh->name, " ", p_what), bytes.size(), p_format);
+		desc.usage = desc.usage | BufferUsage::COPY_TARGET;
 		return OwnedBuffer(p_device, p_device.create_buffer_with_data(desc, bytes));
 	};
 	const CountMesh mesh = build_count_mesh(*topology, p_mesh->source);
 	gpu.edge_count = static_cast<uint32_t>(mesh.edges.size());
 	gpu.word_count = mesh.get_word_count();
 	gpu.block_count = mesh.get_block_count();
-	gpu.faces = upload("counted faces", mesh.faces);
-	gpu.source_parts = upload("source parts", mesh.source_parts);
+	gpu.faces = upload("counted faces", mesh.faces, Format::RGBA32_UINT);
+	gpu.source_parts = upload("source parts", mesh.source_parts, Format::RGBA32_SFLOAT);
 	if (gpu.edge_count > 0) {
-		gpu.edges = upload("counted edges", mesh.edges);
+		gpu.edges = upload("counted edges", mesh.edges, Format::RGBA32_UINT);
 	}
 	return gpu;
 }

@@ -1,6 +1,7 @@
 #include "modules/shadow_edge_count/find_passes.h"
 
 #include "modules/core/text.h"
+#include "modules/shadows/fetched_buffers.h"
 
 namespace gnomon {
 
@@ -13,7 +14,8 @@ using Content = PassBuilder::Content;
 template <typename Items, typename Bind>
 void add_caster_pass(RenderingDevice &p_device, PassBuilder p_pass, const char *p_shader,
 		const CountFindPasses &p_passes, Items p_items, Bind p_bind) {
-	const PipelineRID pipeline = p_device.get_compute_pipeline({ p_shader, p_shader, {} });
+	const PipelineRID pipeline = p_device.get_compute_pipeline(
+			{ p_shader, choose_fetching_shader(p_device, p_shader), {} });
 	std::vector<CountCaster> casters;
 	for (const CountCaster &caster : p_passes.casters.casters) {
 		if (p_items(caster) > 0) {
@@ -68,8 +70,8 @@ void add_edge_passes(
 					{ FIND_BINDING_TOTALS, p_context.get(buffers.totals) } };
 			});
 	add_compute_pass(r_graph, "bound edges",
-			p_device.get_compute_pipeline(
-					{ "bound edges", "shadow_edge_count/bound_edges.comp", {} }),
+			p_device.get_compute_pipeline({ "bound edges",
+					choose_fetching_shader(p_device, "shadow_edge_count/bound_edges.comp"), {} }),
 			{ PassBinding::read(FIND_BINDING_EDGES, buffers.edges),
 					PassBinding::read(FIND_BINDING_FACES, buffers.faces),
 					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
@@ -148,8 +150,9 @@ void add_find_passes(
 	}
 	if (p_passes.capacities.cut_face_count > 0) {
 		add_compute_pass(r_graph, "list cut faces",
-				p_device.get_compute_pipeline(
-						{ "list cut faces", "shadow_edge_count/list_cut_faces.comp", {} }),
+				p_device.get_compute_pipeline({ "list cut faces",
+						choose_fetching_shader(p_device, "shadow_edge_count/list_cut_faces.comp"),
+						{} }),
 				{ PassBinding::constants(FACE_LIST_BINDING_LIGHT, p_passes.constants),
 						PassBinding::read(FACE_LIST_BINDING_FACES, buffers.faces),
 						PassBinding::write(
@@ -167,12 +170,13 @@ void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 	const uint32_t attempt_count = p_passes.may_overflow ? 5 : 1;
 	const CountFrameBuffers buffers = p_passes.buffers;
 	const std::string view = text(" view ", p_view_index);
-	const auto get_pipeline = [&](const char *p_shader) {
+	const auto get_pipeline = [&](const std::string &p_shader) {
 		return p_device.get_compute_pipeline({ p_shader, p_shader,
 				{ { EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_passes.is_directional ? 1u : 0u } } });
 	};
 	const PipelineRID clear = get_pipeline("shadow_edge_count/clear_faces.comp");
-	const PipelineRID list = get_pipeline("shadow_edge_count/list_faces.comp");
+	const PipelineRID list =
+			get_pipeline(choose_fetching_shader(p_device, "shadow_edge_count/list_faces.comp"));
 	const PassBinding constants =
 			PassBinding::constants(FACE_LIST_BINDING_LIGHT, p_passes.constants);
 	const PassBinding totals =

@@ -3,9 +3,9 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/shadow_edge_count/disc_masks.h"
-#include "modules/shadow_edge_count/fetched_buffers.h"
 #include "modules/shadow_edge_count/find_passes.h"
 #include "modules/shadows/caster_pass.h"
+#include "modules/shadows/fetched_buffers.h"
 #include "modules/shadows/mask.h"
 
 #include <algorithm>
@@ -258,14 +258,14 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
-	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
-				 "bound_edges.comp", "bound_bundles.comp", "list_cut_faces.comp",
-				 "clear_faces.comp", "list_faces.comp", "retry_faces.comp", "receiver_boxes.comp",
-				 "resolve_even.comp", "filter_blocks.comp" }) {
+	for (const char *name : { "bound_bundles.comp", "clear_faces.comp", "retry_faces.comp",
+				 "receiver_boxes.comp", "resolve_even.comp", "filter_blocks.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
-	for (const char *name : { "list_blocks.comp", "resolve_plain.comp", "resolve_smooth.comp",
-				 "resolve_smooth_fine.comp", "resolve.comp", "resolve_fine.comp", "debug.comp" }) {
+	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
+				 "bound_edges.comp", "list_cut_faces.comp", "list_faces.comp", "list_blocks.comp",
+				 "resolve_plain.comp", "resolve_smooth.comp", "resolve_smooth_fine.comp",
+				 "resolve.comp", "resolve_fine.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 		files.push_back(get_storage_variant(files.back()));
 	}

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/shadows/fetched_buffers.h"
 
 namespace gnomon {
 
@@ -87,8 +88,10 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyBuffer p_buffers) {
 		const auto bytes = bytes_of(std::span(values));
 		r_buffer = OwnedBuffer(p_device,
 				p_device.create_buffer_with_data(
-						{ text(named ? named->name : "mesh", " ", p_what), bytes.size(),
-								p_usage | BufferUsage::COPY_TARGET },
+						{ .name = text(named ? named->name : "mesh", " ", p_what),
+								.size_bytes = bytes.size(),
+								.usage = p_usage | BufferUsage::COPY_TARGET,
+								.texel_format = Format::RGBA32_SFLOAT }, // of the positions
 						bytes));
 		pose_hash = 0; // so that the deform pass also fills the new buffer
 	};
@@ -101,7 +104,8 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyBuffer p_buffers) {
 	};
 	const MeshTopology &source = *topology;
 	const BufferUsage vertices = BufferUsage::VERTEX | BufferUsage::STORAGE;
-	make(TopologyBuffer::POSITIONS, positions, "welded positions", vertices,
+	make(TopologyBuffer::POSITIONS, positions, "welded positions",
+			vertices | get_fetched_usage(p_device),
 			[&] { return widen(source.welded_positions_node, 1.0f); });
 	make(TopologyBuffer::NORMALS, normals, "welded normals", vertices,
 			[&] { return widen(source.normals_node, 0.0f); });

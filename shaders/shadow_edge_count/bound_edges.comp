@@ -1,15 +1,13 @@
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/fetch_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
 // Computes the bounds of each bundle of edges in a light's list. One invocation per bundle.
 layout(local_size_x = 64) in;
-layout(std430, set = 0, binding = FIND_BINDING_EDGES) readonly buffer Edges {
-	CountEdgeRecord edges[];
-};
-layout(std430, set = 0, binding = FIND_BINDING_FACES) readonly buffer Faces {
-	CountFaceRecord faces[];
-};
+FETCHED_UVEC4S(FIND_BINDING_EDGES, edges_buffer); // CountEdgeRecord
+FETCHED_UVEC4S(FIND_BINDING_FACES, faces_buffer); // CountFaceRecord
 layout(std430, set = 0, binding = FIND_BINDING_TOTALS) readonly buffer Totals {
 	uint totals[];
 };
@@ -30,13 +28,15 @@ void main() {
 	vec3 maximum = vec3(-FAR);
 	vec2 distances = vec2(FAR, -FAR);
 	for (uint i = bundle * size; i < min((bundle + 1u) * size, end); ++i) {
-		const vec3 a = uintBitsToFloat(edges[i].a_face0.xyz);
-		const vec3 b = uintBitsToFloat(edges[i].b_face1.xyz);
+		const CountEdgeRecord edge =
+				CountEdgeRecord(FETCH_UVEC4(edges_buffer, 2u * i), FETCH_UVEC4(edges_buffer, 2u * i + 1u));
+		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
+		const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
 		minimum = min(minimum, min(a, b));
 		maximum = max(maximum, max(a, b));
-		const uint face = edges[i].a_face0.w & EDGE_COUNT_FACE_MASK;
-		distances.x = min(distances.x, uintBitsToFloat(faces[face].b_first_distance.w));
-		distances.y = max(distances.y, uintBitsToFloat(faces[face].c_end_distance.w));
+		const uint face = 3u * (edge.a_face0.w & EDGE_COUNT_FACE_MASK);
+		distances.x = min(distances.x, uintBitsToFloat(FETCH_UVEC4(faces_buffer, face + 1u).w));
+		distances.y = max(distances.y, uintBitsToFloat(FETCH_UVEC4(faces_buffer, face + 2u).w));
 	}
 	const vec3 center = 0.5 * minimum + 0.5 * maximum;
 	bundles[bundle] = CountEdgeBundle(vec4(center, distances.x),

@@ -1,21 +1,18 @@
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/caster_positions_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
 // Computes the vertices and planes of one caster's faces in light space. One invocation per face.
 layout(local_size_x = 64) in;
-layout(std430, set = 0, binding = FIND_BINDING_MESH_FACES) readonly buffer MeshFaces {
-	CountMeshFace mesh_faces[];
-};
+FETCHED_UVEC4S(FIND_BINDING_MESH_FACES, mesh_faces_buffer); // CountMeshFace
+FETCHED_VEC4S(FIND_BINDING_SOURCE_PARTS, source_parts_buffer); // centre and radius, see CountMesh::source_parts
 layout(std430, set = 0, binding = FIND_BINDING_PLANES) writeonly buffer Planes {
 	vec4 planes[];
 };
 layout(std430, set = 0, binding = FIND_BINDING_FACES) writeonly buffer Faces {
 	CountFaceRecord faces[];
-};
-layout(std430, set = 0, binding = FIND_BINDING_SOURCE_PARTS) readonly buffer SourceParts {
-	vec4 source_parts_node[]; // centre and radius, see CountMesh::source_parts
 };
 
 const float FAR = 3e38;
@@ -40,7 +37,7 @@ vec2 find_distances(uint p_source_part) {
 	if ((push.flags & EDGE_COUNT_CASTER_LEVEL) == 0u) {
 		return vec2(-FAR, FAR);
 	}
-	const vec4 part_node = source_parts_node[p_source_part];
+	const vec4 part_node = FETCH_VEC4(source_parts_buffer, p_source_part);
 	precise const vec3 center = (push.light_from_node * vec4(part_node.xyz, 1.0)).xyz;
 	precise const vec4 part = vec4(center, push.scale * part_node.w);
 	return vec2(find_switch_distance(part, push.first_half_width), find_switch_distance(part, push.end_half_width));
@@ -51,7 +48,8 @@ void main() {
 	if (index >= push.face_count) {
 		return;
 	}
-	const CountMeshFace face = mesh_faces[index];
+	const uvec4 words = FETCH_UVEC4(mesh_faces_buffer, index);
+	const CountMeshFace face = CountMeshFace(words.x, words.y, words.z, words.w);
 	const vec3 a = load_light_position(face.a);
 	const vec3 b = load_light_position(face.b);
 	const vec3 c = load_light_position(face.c);

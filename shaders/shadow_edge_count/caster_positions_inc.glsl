@@ -3,17 +3,16 @@
 #ifndef CASTER_POSITIONS_INC_GLSL
 #define CASTER_POSITIONS_INC_GLSL
 
+#include "common/fetch_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-layout(std430, set = 0, binding = FIND_BINDING_POSITIONS) readonly buffer Positions {
-	vec4 positions_node[];
-};
+FETCHED_VEC4S(FIND_BINDING_POSITIONS, positions_buffer); // in the node's space
 layout(push_constant) uniform Push {
 	CountCasterPush push;
 };
 
 vec3 load_light_position(uint p_vertex) {
-	const vec3 p = positions_node[p_vertex].xyz;
+	const vec3 p = FETCH_VEC4(positions_buffer, p_vertex).xyz;
 	const mat4 m = push.light_from_node;
 	precise const vec3 position = ((m[0].xyz * p.x + m[1].xyz * p.y) + m[2].xyz * p.z) + m[3].xyz;
 	return position;

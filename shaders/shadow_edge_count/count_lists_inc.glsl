@@ -3,7 +3,7 @@
 #define COUNT_LISTS_INC_GLSL
 
 #include "shadow_edge_count/count_faces_inc.glsl"
-#include "shadow_edge_count/count_fetch_inc.glsl"
+#include "common/fetch_inc.glsl"
 
 FETCHED_UINTS(COUNT_BINDING_HEADS, heads_buffer);
 FETCHED_UVEC2S(COUNT_BINDING_NODES, nodes_buffer);

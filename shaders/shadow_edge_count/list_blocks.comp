@@ -294,25 +294,31 @@ uint collect_part_bundles(CountBox p_box, uint p_needed_count) {
 /// Collects in reached_edges the edges within the reach of a part's box, from item r_first on, until all are tested or
 /// the next ones may not fit. Returns their number. candidates has the edges, or their bundles if p_has_bundles.
 uint collect_reached_edges(CountBox p_box, bool p_has_bundles, uint p_edge_count, inout uint r_first) {
-	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
+	const uint shift = p_has_bundles ? uint(findMSB(EDGE_COUNT_BUNDLE_SIZE)) : 0u; // log2 of a candidate's edges
 	const uint light_edge_count = find_edge_count();
 	uint count = 0u;
 	do {
-		const uint item = r_first + gl_SubgroupInvocationID;
-		const uint candidate_index = item < p_edge_count ? item : 0u;
-		const uint candidate = candidates[p_has_bundles ? candidate_index / size : candidate_index];
-		const uint index = p_has_bundles ? candidate * size + candidate_index % size : candidate;
-		const bool is_valid = item < p_edge_count && index < light_edge_count;
-		const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
-		const bool is_reached = is_valid &&
-				is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
-		const uvec4 reached = subgroup_ballot(is_reached);
-		if (is_reached) {
-			reached_edges[count + subgroupBallotExclusiveBitCount(reached)] = index;
-		}
-		count += subgroupBallotBitCount(reached);
-		r_first += GROUP_SIZE;
-		++iteration_count;
+		// Each invocation loads a candidate, and the others get it by shuffles: llvmpipe loads from shared memory one
+		// invocation after the other.
+		const uint first_candidate = r_first >> shift;
+		const uint loaded = candidates[min(first_candidate + gl_SubgroupInvocationID, MAX_CANDIDATES - 1u)];
+		const uint end = min((first_candidate + GROUP_SIZE) << shift, p_edge_count);
+		do {
+			const uint item = r_first + gl_SubgroupInvocationID;
+			const uint candidate = subgroupShuffle(loaded, ((item >> shift) - first_candidate) % GROUP_SIZE);
+			const uint index = (candidate << shift) + (item & (1u << shift) - 1u);
+			const bool is_valid = item < end && index < light_edge_count;
+			const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
+			const bool is_reached = is_valid &&
+					is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
+			const uvec4 reached = subgroup_ballot(is_reached);
+			if (is_reached) {
+				reached_edges[count + subgroupBallotExclusiveBitCount(reached)] = index;
+			}
+			count += subgroupBallotBitCount(reached);
+			r_first += GROUP_SIZE;
+			++iteration_count;
+		} while (r_first < end && count + GROUP_SIZE <= MAX_REACHED_EDGES);
 	} while (r_first < p_edge_count && count + GROUP_SIZE <= MAX_REACHED_EDGES);
 	sync_subgroup_memory();
 	return count;
@@ -372,22 +378,27 @@ uint collect_tile_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
 	const uint light_edge_count = find_edge_count();
 	uint count = 0u;
 	do {
-		const uint item = r_first + gl_SubgroupInvocationID;
-		const uint item_index = item < p_item_count ? item : 0u;
-		const uint index = needed_bundles[item_index / size] * size + item_index % size;
-		const bool is_valid = item < p_item_count && index < light_edge_count;
-		const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
-		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
-		const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
-		const bool is_candidate = is_valid &&
-				(is_edge_in_reach(p_pair.near, a, b) || (p_pair.count > 1u && is_edge_in_reach(p_pair.far, a, b)));
-		const uvec4 candidate = subgroup_ballot(is_candidate);
-		if (is_candidate) {
-			candidates[count + subgroupBallotExclusiveBitCount(candidate)] = index;
-		}
-		count += subgroupBallotBitCount(candidate);
-		r_first += GROUP_SIZE;
-		++iteration_count;
+		const uint first_bundle = r_first / size; // see collect_reached_edges
+		const uint loaded = needed_bundles[min(first_bundle + gl_SubgroupInvocationID, MAX_NEEDED_BUNDLES - 1u)];
+		const uint end = min((first_bundle + GROUP_SIZE) * size, p_item_count);
+		do {
+			const uint item = r_first + gl_SubgroupInvocationID;
+			const uint bundle = subgroupShuffle(loaded, (item / size - first_bundle) % GROUP_SIZE);
+			const uint index = bundle * size + item % size;
+			const bool is_valid = item < end && index < light_edge_count;
+			const CountEdgeRecord edge = load_count_edge(is_valid ? index : 0u);
+			const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
+			const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
+			const bool is_candidate = is_valid &&
+					(is_edge_in_reach(p_pair.near, a, b) || (p_pair.count > 1u && is_edge_in_reach(p_pair.far, a, b)));
+			const uvec4 candidate = subgroup_ballot(is_candidate);
+			if (is_candidate) {
+				candidates[count + subgroupBallotExclusiveBitCount(candidate)] = index;
+			}
+			count += subgroupBallotBitCount(candidate);
+			r_first += GROUP_SIZE;
+			++iteration_count;
+		} while (r_first < end && count + GROUP_SIZE <= MAX_CANDIDATES);
 	} while (r_first < p_item_count && count + GROUP_SIZE <= MAX_CANDIDATES);
 	return count;
 }

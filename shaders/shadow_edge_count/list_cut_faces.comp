@@ -1,15 +1,13 @@
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/cut_faces_inc.glsl"
+#include "shadow_edge_count/light_faces_inc.glsl"
 
 // Lists the faces that may cut the light's disc. A single work group tests every face, so that the list has their
 // order.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
-};
-layout(std430, set = 0, binding = FACE_LIST_BINDING_FACES) readonly buffer Faces {
-	CountFaceRecord faces[];
 };
 layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) writeonly buffer Totals {
 	uint totals[];
@@ -26,7 +24,7 @@ void main() {
 	uint count = 0u;
 	for (uint first = 0u; first < light.face_count; first += GROUP_SIZE) {
 		const uint face = first + invocation;
-		are_cut[invocation] = face < light.face_count && is_cut_face(light, faces[face]) ? 1u : 0u;
+		are_cut[invocation] = face < light.face_count && is_cut_face(light, load_face(face)) ? 1u : 0u;
 		barrier();
 		uint preceding_count = 0u;
 		uint total_count = 0u;

@@ -1,21 +1,15 @@
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 #include "common/ordered_list_inc.glsl"
-#include "shadow_edge_count/caster_positions_inc.glsl"
+#include "shadow_edge_count/caster_edges_inc.glsl"
 
 // Writes the marked edges of one caster to the light's list, after those of the preceding casters
 // and in mesh order, so that no sum depends on scheduling. One invocation per word. The last
 // caster's pass writes the total number of edges.
 layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
-layout(std430, set = 0, binding = FIND_BINDING_MESH_EDGES) readonly buffer MeshEdges {
-	CountMeshEdge mesh_edges[];
-};
-layout(std430, set = 0, binding = FIND_BINDING_WORDS) readonly buffer Words {
-	uint words[];
-};
-layout(std430, set = 0, binding = FIND_BINDING_BLOCKS) readonly buffer Blocks {
-	uint block_counts[];
-};
+FETCHED_UINTS(FIND_BINDING_WORDS, words_buffer);
+FETCHED_UINTS(FIND_BINDING_BLOCKS, block_counts_buffer);
 layout(std430, set = 0, binding = FIND_BINDING_EDGES) writeonly buffer Edges {
 	CountEdgeRecord edges[];
 };
@@ -24,11 +18,11 @@ layout(std430, set = 0, binding = FIND_BINDING_TOTALS) writeonly buffer Totals {
 };
 
 uint load_list_word(uint p_index) {
-	return words[p_index];
+	return FETCH_UINT(words_buffer, p_index);
 }
 
 uint load_list_block(uint p_index) {
-	return block_counts[p_index];
+	return FETCH_UINT(block_counts_buffer, p_index);
 }
 
 CountEdgeRecord make_record(CountMeshEdge p_edge) {
@@ -52,9 +46,9 @@ void main() {
 	if (word_index >= word_count) {
 		return;
 	}
-	for (uint bits = words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
+	for (uint bits = load_list_word(push.first_word + word_index); bits != 0u; bits &= bits - 1u) {
 		edges[index] = make_record(
-				mesh_edges[word_index * uint(EDGE_COUNT_EDGES_PER_WORD) + uint(findLSB(bits))]);
+				load_mesh_edge(word_index * uint(EDGE_COUNT_EDGES_PER_WORD) + uint(findLSB(bits))));
 		++index;
 	}
 	if ((push.flags & EDGE_COUNT_CASTER_LAST) != 0u && word_index + 1u == word_count) {

@@ -1,9 +1,10 @@
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/cut_faces_inc.glsl"
+#include "shadow_edge_count/light_faces_inc.glsl"
 #include "shadow_edge_count/texel_rows_inc.glsl"
 
-// Adds each face of a range, except those that may cut the light's disc (cut_faces_inc.glsl), to the lists of the texels
+// Adds each face of a range, except those that may cut the light's disc (light_faces_inc.glsl), to the lists of the texels
 // that it may cover in one view's map. This map is a grid of texels with one linked list each, not a depth map. The order
 // of a list depends on scheduling, but not what receivers count. Nodes beyond the capacity are only counted, and
 // retry_faces.comp prepares a further attempt with a map of half the size or less. One invocation per face; the whole
@@ -11,9 +12,6 @@
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
-};
-layout(std430, set = 0, binding = FACE_LIST_BINDING_FACES) readonly buffer Faces {
-	CountFaceRecord faces[];
 };
 layout(std430, set = 0, binding = FACE_LIST_BINDING_HEADS) buffer Heads {
 	uint heads[];
@@ -51,31 +49,37 @@ void add_texel(uint p_face, uint p_head, uint p_node, bool p_is_valid) {
 	}
 }
 
-uint find_head(int p_row, int p_column) {
-	return first_head + uint(p_row) * view.map_size_px.x + uint(p_column);
+/// A row of a face's texels. Their nodes are allocated with one atomicAdd.
+struct FaceRow {
+	uint head; // of the first texel
+	uint node; // of the first texel
+	uint count;
+};
+
+FaceRow allocate_row(TexelRows p_rows, int p_row) {
+	const ivec2 columns = find_columns(p_rows, p_row);
+	const uint count = uint(max(columns.y - columns.x + 1, 0));
+	return FaceRow(first_head + uint(p_row) * view.map_size_px.x + uint(columns.x),
+			atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], count), count);
 }
 
 void add_small_face(uint p_face, TexelRows p_rows) {
 	for (int y = p_rows.first_row; y <= p_rows.last_row; ++y) {
-		const ivec2 columns = find_columns(p_rows, y);
-		for (int x = columns.x; x <= columns.y; ++x) {
-			const uint node = atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], 1u);
-			add_texel(p_face, find_head(y, x), node, true);
+		const FaceRow row = allocate_row(p_rows, y);
+		for (uint i = 0u; i < row.count; ++i) {
+			add_texel(p_face, row.head + i, row.node + i, true);
 		}
 	}
 }
 
-/// Allocates all nodes of a row with one atomicAdd. The loop is unrolled by four, so that the latencies of four
-/// atomicExchange overlap: a large face covers thousands of texels.
-void add_row(uint p_face, int p_row, ivec2 p_columns) {
-	const uint head = find_head(p_row, p_columns.x);
-	const uint count = uint(max(p_columns.y - p_columns.x + 1, 0));
-	const uint node = atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], count);
-	for (uint i = 0u; i < count; i += 4u) {
-		add_texel(p_face, head + i, node + i, true);
-		add_texel(p_face, head + i + 1u, node + i + 1u, i + 1u < count);
-		add_texel(p_face, head + i + 2u, node + i + 2u, i + 2u < count);
-		add_texel(p_face, head + i + 3u, node + i + 3u, i + 3u < count);
+/// The loop is unrolled by four, so that the latencies of four atomicExchange overlap: a large face covers thousands of
+/// texels.
+void add_row(uint p_face, FaceRow p_row) {
+	for (uint i = 0u; i < p_row.count; i += 4u) {
+		add_texel(p_face, p_row.head + i, p_row.node + i, true);
+		add_texel(p_face, p_row.head + i + 1u, p_row.node + i + 1u, i + 1u < p_row.count);
+		add_texel(p_face, p_row.head + i + 2u, p_row.node + i + 2u, i + 2u < p_row.count);
+		add_texel(p_face, p_row.head + i + 3u, p_row.node + i + 3u, i + 3u < p_row.count);
 	}
 }
 
@@ -91,7 +95,7 @@ void main() {
 	const uint level = totals[EDGE_COUNT_TOTAL_LEVELS + push.view];
 	const bool is_valid = gl_GlobalInvocationID.x < push.face_count;
 	const uint face = push.first_face + (is_valid ? gl_GlobalInvocationID.x : 0u);
-	const CountFaceRecord record = faces[face];
+	const CountFaceRecord record = load_face(face);
 	if (is_valid && !is_cut_face(light, record)) {
 		const TexelRows rows = find_rows(record, level);
 		if (rows.last_row - rows.first_row >= LARGE_ROWS) {
@@ -102,9 +106,9 @@ void main() {
 	}
 	barrier();
 	for (uint i = 0u; i < large_count; ++i) {
-		const TexelRows rows = find_rows(faces[large_faces[i]], level);
+		const TexelRows rows = find_rows(load_face(large_faces[i]), level);
 		for (int y = rows.first_row + int(gl_LocalInvocationID.x); y <= rows.last_row; y += FACE_LIST_GROUP_SIZE) {
-			add_row(large_faces[i], y, find_columns(rows, y));
+			add_row(large_faces[i], allocate_row(rows, y));
 		}
 	}
 }

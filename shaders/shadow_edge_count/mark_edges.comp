@@ -1,17 +1,13 @@
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/caster_positions_inc.glsl"
+#include "shadow_edge_count/caster_edges_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
 // Marks the edges of one caster that receivers may have to count. Each invocation writes one word of 32
 // edges, and each work group counts the marked edges of its block.
 layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
-layout(std430, set = 0, binding = FIND_BINDING_MESH_EDGES) readonly buffer MeshEdges {
-	CountMeshEdge mesh_edges[];
-};
-layout(std430, set = 0, binding = FIND_BINDING_PLANES) readonly buffer Planes {
-	vec4 planes[];
-};
+FETCHED_VEC4S(FIND_BINDING_PLANES, planes_buffer);
 layout(std430, set = 0, binding = FIND_BINDING_WORDS) writeonly buffer Words {
 	uint words[];
 };
@@ -22,8 +18,9 @@ layout(std430, set = 0, binding = FIND_BINDING_BLOCKS) writeonly buffer Blocks {
 shared uint block_count;
 
 int find_side(uint p_face) {
+	const uint face = push.first_face + (p_face & EDGE_COUNT_FACE_MASK);
 	return count_find_light_side((push.flags & EDGE_COUNT_CASTER_DIRECTIONAL) != 0u, push.disc_radius,
-			push.side_tolerance, planes[push.first_face + (p_face & EDGE_COUNT_FACE_MASK)]);
+			push.side_tolerance, FETCH_VEC4(planes_buffer, face));
 }
 
 /// False if the whole light is on the same side of both faces, so that no point of it sees a silhouette. Always
@@ -49,7 +46,7 @@ void main() {
 		uint word = 0u;
 		const uint count = min(uint(EDGE_COUNT_EDGES_PER_WORD), push.edge_count - first);
 		for (uint i = 0u; i < count; ++i) {
-			word |= may_be_silhouette(mesh_edges[first + i]) ? 1u << i : 0u;
+			word |= may_be_silhouette(load_mesh_edge(first + i)) ? 1u << i : 0u;
 		}
 		words[push.first_word + word_index] = word;
 		atomicAdd(block_count, uint(bitCount(word)));

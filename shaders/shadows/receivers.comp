@@ -9,16 +9,19 @@
 // Marks the receivers: pixels that the light can reach. Masks are only valid there.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffer Frame {
-	FrameConstants frame;
+	FrameConstants frame_block;
 };
 layout(std140, set = 0, binding = SURFACE_BINDING_LIGHT) restrict readonly buffer Light {
-	LightConstants light;
+	LightConstants light_block;
 };
 layout(set = 0, binding = SURFACE_BINDING_DEPTH) uniform texture2D depth_texture;
 layout(set = 0, binding = SURFACE_BINDING_NORMAL) uniform utexture2D normal_texture;
 layout(set = 0, binding = SURFACE_BINDING_RESULT, r8) uniform writeonly image2D receivers_image;
 
 void main() {
+	// Copied here: within branches, llvmpipe takes 20 instructions to read a word.
+	const FrameConstants frame = frame_block;
+	const LightConstants light = light_block;
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
 	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
 		return;

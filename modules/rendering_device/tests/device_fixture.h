@@ -46,11 +46,14 @@ struct DeviceFixture {
 
 	template <typename T>
 	OwnedBuffer make_buffer(const std::string &p_name, const std::vector<T> &p_values,
-			BufferUsage p_usage = BufferUsage::STORAGE) {
+			BufferUsage p_usage = BufferUsage::STORAGE, Format p_texel_format = Format::R32_UINT) {
 		const auto bytes = bytes_of(std::span<const T>(p_values));
 		return OwnedBuffer(*device,
-				device->create_buffer_with_data(
-						{ .name = p_name, .size_bytes = bytes.size(), .usage = p_usage }, bytes));
+				device->create_buffer_with_data({ .name = p_name,
+														.size_bytes = bytes.size(),
+														.usage = p_usage,
+														.texel_format = p_texel_format },
+						bytes));
 	}
 
 	OwnedBuffer make_readback(uint64_t p_size_bytes) {

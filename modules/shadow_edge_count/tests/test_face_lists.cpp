@@ -58,7 +58,8 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 	const BufferUsage usage = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE;
 	const OwnedBuffer light = r_fixture.make_buffer(
 			"light", std::vector<shader::CountLightConstants>{ p_light }, BufferUsage::STORAGE);
-	const OwnedBuffer faces = r_fixture.make_buffer("faces", records);
+	const OwnedBuffer faces = r_fixture.make_buffer(
+			"faces", records, BufferUsage::STORAGE | BufferUsage::TEXEL, Format::RGBA32_UINT);
 	const OwnedBuffer heads =
 			r_fixture.make_buffer("heads", std::vector<uint32_t>(texel_count, 77u), usage);
 	const OwnedBuffer nodes =

@@ -36,6 +36,7 @@ struct Found {
 /// Runs the passes over all casters and reads back their results.
 Found find_edges(
 		KernelFixture &r_fixture, std::vector<Caster> &r_casters, const CountSpace &p_space) {
+	const BufferUsage fetched = BufferUsage::STORAGE | BufferUsage::TEXEL;
 	uint32_t face_count = 0;
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
@@ -55,26 +56,31 @@ Found find_edges(
 		for (const glm::vec3 &position : caster.topology->welded_positions_node) {
 			positions.emplace_back(position, 1.0f);
 		}
-		caster.positions = r_fixture.make_buffer("positions", positions);
-		caster.faces = r_fixture.make_buffer("mesh faces", caster.mesh.faces);
-		caster.edges = r_fixture.make_buffer("edges", caster.mesh.edges);
-		caster.source_parts = r_fixture.make_buffer("source parts", caster.mesh.source_parts);
+		caster.positions =
+				r_fixture.make_buffer("positions", positions, fetched, Format::RGBA32_SFLOAT);
+		caster.faces = r_fixture.make_buffer(
+				"mesh faces", caster.mesh.faces, fetched, Format::RGBA32_UINT);
+		caster.edges =
+				r_fixture.make_buffer("edges", caster.mesh.edges, fetched, Format::RGBA32_UINT);
+		caster.source_parts = r_fixture.make_buffer(
+				"source parts", caster.mesh.source_parts, fetched, Format::RGBA32_SFLOAT);
 		face_count += caster.push.face_count;
 		edge_count += caster.push.edge_count;
 		word_count += caster.mesh.get_word_count();
 		block_count += caster.mesh.get_block_count();
 	}
-	const BufferUsage read_back = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE;
-	const OwnedBuffer planes =
-			r_fixture.make_buffer("planes", std::vector<glm::vec4>(face_count), read_back);
-	const OwnedBuffer faces = r_fixture.make_buffer(
-			"faces", std::vector<shader::CountFaceRecord>(face_count), read_back);
+	const OwnedBuffer planes = r_fixture.make_buffer("planes", std::vector<glm::vec4>(face_count),
+			fetched | BufferUsage::COPY_SOURCE, Format::RGBA32_SFLOAT);
+	const OwnedBuffer faces =
+			r_fixture.make_buffer("faces", std::vector<shader::CountFaceRecord>(face_count),
+					BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
 	const OwnedBuffer planes_readback = r_fixture.make_readback(face_count * sizeof(glm::vec4));
 	const OwnedBuffer faces_readback =
 			r_fixture.make_readback(face_count * sizeof(shader::CountFaceRecord));
-	const OwnedBuffer words = r_fixture.make_buffer("words", std::vector<uint32_t>(word_count));
-	const OwnedBuffer blocks = r_fixture.make_buffer("blocks", std::vector<uint32_t>(block_count),
-			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
+	const OwnedBuffer words =
+			r_fixture.make_buffer("words", std::vector<uint32_t>(word_count), fetched);
+	const OwnedBuffer blocks = r_fixture.make_buffer(
+			"blocks", std::vector<uint32_t>(block_count), fetched | BufferUsage::COPY_SOURCE);
 	const uint64_t list_bytes = edge_count * sizeof(shader::CountEdgeRecord);
 	const OwnedBuffer list(*r_fixture.device,
 			r_fixture.device->create_buffer({ .name = "list",

@@ -6,8 +6,11 @@
 
 namespace gnomon {
 
-// Buffers that passes write, and that later passes read as texel buffers if the device has
-// DeviceFeatures::storage_and_texel_buffers, else as storage buffers. See count_fetch_inc.glsl.
+// Buffers that shaders read as texel buffers if the device has
+// DeviceFeatures::storage_and_texel_buffers, else as storage buffers. See fetch_inc.glsl.
+
+/// The usage of such a buffer, which shaders may also write as a storage buffer.
+BufferUsage get_fetched_usage(const RenderingDevice &p_device);
 
 /// Describes such a buffer. p_format: its texel format.
 BufferDesc make_fetched_buffer_desc(const RenderingDevice &p_device, const std::string &p_name,

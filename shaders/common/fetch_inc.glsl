@@ -1,8 +1,9 @@
-// Buffers that earlier passes wrote and that are read often, as arrays of uint, uvec2, uvec4 or vec4. They are texel
-// buffers, which software drivers read a fifth faster than storage buffers. The variant VARIANT_STORAGE, for devices
-// that cannot store into texel buffers, uses storage buffers.
-#ifndef COUNT_FETCH_INC_GLSL
-#define COUNT_FETCH_INC_GLSL
+// Buffers that are read often, as arrays of uint, uvec2, uvec4 or vec4. They are texel buffers: llvmpipe gathers a word of
+// a texel buffer for all invocations at once, but loads from storage buffers and shared memory one invocation after the
+// other, within loops and branches. The variant VARIANT_STORAGE, for devices that cannot store into texel buffers, uses
+// storage buffers.
+#ifndef FETCH_INC_GLSL
+#define FETCH_INC_GLSL
 
 #ifdef VARIANT_STORAGE
 #define FETCHED_ITEMS(p_binding, p_item, p_name) \
