@@ -42,9 +42,10 @@ bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_
 	// A single loop over all lists, since each loop takes as many iterations as its slowest invocation.
 	while (texel.y <= p_last.y && is_one_sided) {
 		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
-		const vec4 plane = load_count_plane(node.x);
+		const uint face = node.x & EDGE_COUNT_FACE_MASK;
+		const vec4 plane = load_count_plane(face);
 		const bool is_known =
-				next == 0u || find_count_side(p_box, plane) != 0 || is_face_irrelevant(p_box, node.x);
+				next == 0u || find_count_side(p_box, plane) != 0 || is_face_irrelevant(p_box, face);
 		is_one_sided = is_known && step_count < end;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;

@@ -12,7 +12,7 @@ CountViewConstants load_count_view(uint p_view);
 /// The first node of a texel's list, counted from 1; 0 if the list is empty. p_index: of the texel, by view, row and
 /// column.
 uint load_count_head(uint p_index);
-/// (face, next node) of a node. p_index counts from 0, the next node from 1; it is 0 at the end of the list.
+/// (face and cells, next node) of a node, see EDGE_COUNT_NODE_CELLS_SHIFT. p_index counts from 0, the next node from 1; it is 0 at the end of the list.
 uvec2 load_count_node(uint p_index);
 /// How often the size of a view's map was halved because its face lists did not fit.
 uint load_count_level(uint p_view);
@@ -48,12 +48,21 @@ int sum_crossings(CountCrossings p_found) {
 	return p_found.double_sided + max(p_found.back_facing, p_found.light_facing);
 }
 
+/// A position (x', y') in a view's map, in texels. 0 .. size of the map, if the position is inside.
+vec2 find_map_position(CountViewConstants p_view, vec2 p_size, vec2 p_position) {
+	return (p_position / p_view.half_extent * 0.5 + 0.5) * p_size;
+}
+
+/// The size of a view's map in texels.
+vec2 find_map_size(CountViewConstants p_view, uint p_view_index) {
+	return vec2(max(p_view.map_size_px >> load_count_level(p_view_index), uvec2(1u)));
+}
+
 /// The texel of a view's map that contains p_position (x', y'), or the nearest one.
 uvec2 find_count_texel(uint p_view, vec2 p_position) {
 	const CountViewConstants view = load_count_view(p_view);
-	const vec2 size = vec2(max(view.map_size_px >> load_count_level(p_view), uvec2(1u)));
-	const vec2 texel = (p_position / view.half_extent * 0.5 + 0.5) * size;
-	return uvec2(clamp(texel, vec2(0.0), size - 1.0));
+	const vec2 size = find_map_size(view, p_view);
+	return uvec2(clamp(find_map_position(view, size, p_position), vec2(0.0), size - 1.0));
 }
 
 /// The first node of a texel's list, see load_count_head.
@@ -62,29 +71,64 @@ uint load_count_first_node(uint p_view, uvec2 p_texel) {
 	return load_count_head((p_view * size.y + p_texel.y) * size.x + p_texel.x);
 }
 
-/// Counts the face of a node (counted from 1, see load_count_head) and returns the next node. Node 0 counts nothing and
-/// returns 0.
-uint count_node(CountLightConstants p_light, uint p_view, uint p_node, CountReceiver p_receiver,
-		inout CountCrossings r_found) {
-	const uvec2 node = load_count_node(p_view * p_light.node_capacity + max(p_node, 1u) - 1u);
-	const vec4 plane = load_count_plane(node.x);
-	const bool is_in_front = is_count_in_front(plane, p_receiver.position);
-	if (p_node != 0u && is_in_front != is_count_light_in_front(plane)) {
-		count_face(p_receiver, load_count_face(node.x), is_in_front, r_found);
-	}
-	return p_node != 0u ? node.y : 0u;
+/// A walk through the list of a receiver's texel.
+struct FaceWalk {
+	uint first_node; // of the view
+	uint next;		 // counted from 1; 0 at the end
+	uint cell;		 // bits of the receiver's column and row of cells, as in a node
+};
+
+/// p_position: x' and y' of the receiver in its view.
+FaceWalk start_face_walk(CountLightConstants p_light, uint p_view, vec2 p_position) {
+	const CountViewConstants view = load_count_view(p_view);
+	const vec2 size = find_map_size(view, p_view);
+	const vec2 position = find_map_position(view, size, p_position);
+	const vec2 texel = floor(clamp(position, vec2(0.0), size - 1.0));
+	const float side = float(EDGE_COUNT_NODE_CELLS_PER_SIDE);
+	const uvec2 cell = uvec2(clamp(side * (position - texel), 0.0, side - 1.0));
+	// Outside the map there is no receiver that the light reaches.
+	const bool is_inside = all(lessThanEqual(abs(p_position), view.half_extent));
+	return FaceWalk(p_view * p_light.node_capacity,
+			is_inside ? load_count_first_node(p_view, uvec2(texel)) : 0u,
+			(1u << cell.x | 1u << (EDGE_COUNT_NODE_CELLS_PER_SIDE + cell.y)) << EDGE_COUNT_NODE_CELLS_SHIFT);
+}
+
+const uint NO_FACE = 0xffffffffu;
+
+/// Goes to the next node unless r_faces is full. Adds the node's face to r_faces if its bounds overlap the receiver's
+/// cell. r_faces: unused items, which follow the others, are NO_FACE.
+void step_face_walk(inout FaceWalk r_walk, inout uvec4 r_faces) {
+	const bool is_valid = r_walk.next != 0u && r_faces.w == NO_FACE;
+	const uvec2 node = load_count_node(r_walk.first_node + max(r_walk.next, 1u) - 1u);
+	const bool overlaps = is_valid && (node.x & r_walk.cell) == r_walk.cell;
+	r_faces = overlaps ? uvec4(node.x & EDGE_COUNT_FACE_MASK, r_faces.xyz) : r_faces;
+	r_walk.next = is_valid ? node.y : r_walk.next;
 }
 
 /// Counts crossings of the faces that the receiver's texel lists. p_position: x' and y' of the receiver in its view.
+/// Most faces of a list are in other cells. So first each invocation looks for up to four faces in its own cell, and
+/// then all invocations test theirs together (Aila and Laine 2009, Understanding the Efficiency of Ray Traversal on
+/// GPUs, section 3.1).
 CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_position, CountReceiver p_receiver) {
-	// Outside the map there is no receiver that the light reaches.
-	const bool is_inside = all(lessThanEqual(abs(p_position), load_count_view(p_view).half_extent));
-	uint next = is_inside ? load_count_first_node(p_view, find_count_texel(p_view, p_position)) : 0u;
+	FaceWalk walk = start_face_walk(p_light, p_view, p_position);
 	CountCrossings found = CountCrossings(0, 0, 0);
-	// Two nodes per iteration, since llvmpipe ends every loop after an invocation has made 65535 iterations.
-	while (next != 0u) {
-		next = count_node(p_light, p_view, next, p_receiver, found);
-		next = count_node(p_light, p_view, next, p_receiver, found);
+	while (walk.next != 0u) {
+		uvec4 faces = uvec4(NO_FACE);
+		do {
+			// Two nodes per iteration, since llvmpipe ends every loop after an invocation has made 65535 iterations.
+			step_face_walk(walk, faces);
+			step_face_walk(walk, faces);
+		} while (walk.next != 0u && faces.w == NO_FACE);
+		do {
+			const bool is_valid = faces.x != NO_FACE;
+			const uint face = is_valid ? faces.x : 0u;
+			const vec4 plane = load_count_plane(face);
+			const bool is_in_front = is_count_in_front(plane, p_receiver.position);
+			if (is_valid && is_in_front != is_count_light_in_front(plane)) {
+				count_face(p_receiver, load_count_face(face), is_in_front, found);
+			}
+			faces = uvec4(faces.yzw, NO_FACE);
+		} while (faces.x != NO_FACE);
 	}
 	return found;
 }

@@ -41,45 +41,57 @@ TexelRows find_rows(CountFaceRecord p_face, uint p_level) {
 			uintBitsToFloat(p_face.b_first_distance.xyz), uintBitsToFloat(p_face.c_end_distance.xyz));
 }
 
-/// Inserts node p_node, with the face, at the head of a texel's list, if the node fits.
-void add_texel(uint p_face, uint p_head, uint p_node, bool p_is_valid) {
-	const bool has_room = p_is_valid && p_node < node_capacity;
-	if (has_room) {
-		nodes[first_node + p_node] = uvec2(p_face, atomicExchange(heads[p_head], p_node + 1u));
-	}
-}
-
 /// A row of a face's texels. Their nodes are allocated with one atomicAdd.
 struct FaceRow {
-	uint head; // of the first texel
-	uint node; // of the first texel
+	uint face_rows; // first word of the nodes, without the columns of cells
+	vec2 range;		// of the face's x in texels
+	int column;		// of the first texel
+	uint head;		// of the first texel
+	uint node;		// of the first texel
 	uint count;
 };
 
-FaceRow allocate_row(TexelRows p_rows, int p_row) {
+FaceRow allocate_row(uint p_face, TexelRows p_rows, int p_row) {
 	const ivec2 columns = find_columns(p_rows, p_row);
-	const uint count = uint(max(columns.y - columns.x + 1, 0));
-	return FaceRow(first_head + uint(p_row) * view.map_size_px.x + uint(columns.x),
-			atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], count), count);
+	const uint rows = find_cells(p_rows.minimum.y, p_rows.maximum.y, p_row);
+	FaceRow row;
+	row.face_rows = p_face | rows << (EDGE_COUNT_NODE_CELLS_SHIFT + EDGE_COUNT_NODE_CELLS_PER_SIDE);
+	row.range = vec2(p_rows.minimum.x, p_rows.maximum.x);
+	row.column = columns.x;
+	row.head = first_head + uint(p_row) * view.map_size_px.x + uint(columns.x);
+	row.count = uint(max(columns.y - columns.x + 1, 0));
+	row.node = atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], row.count);
+	return row;
+}
+
+/// Inserts the node of a row's texel p_index at the head of the texel's list, if the texel exists and the node fits.
+void add_texel(FaceRow p_row, uint p_index) {
+	const uint node = p_row.node + p_index;
+	const bool has_room = p_index < p_row.count && node < node_capacity;
+	const uint columns = find_cells(p_row.range.x, p_row.range.y, p_row.column + int(p_index));
+	if (has_room) {
+		nodes[first_node + node] = uvec2(p_row.face_rows | columns << EDGE_COUNT_NODE_CELLS_SHIFT,
+				atomicExchange(heads[p_row.head + p_index], node + 1u));
+	}
 }
 
 void add_small_face(uint p_face, TexelRows p_rows) {
 	for (int y = p_rows.first_row; y <= p_rows.last_row; ++y) {
-		const FaceRow row = allocate_row(p_rows, y);
+		const FaceRow row = allocate_row(p_face, p_rows, y);
 		for (uint i = 0u; i < row.count; ++i) {
-			add_texel(p_face, row.head + i, row.node + i, true);
+			add_texel(row, i);
 		}
 	}
 }
 
 /// The loop is unrolled by four, so that the latencies of four atomicExchange overlap: a large face covers thousands of
 /// texels.
-void add_row(uint p_face, FaceRow p_row) {
+void add_row(FaceRow p_row) {
 	for (uint i = 0u; i < p_row.count; i += 4u) {
-		add_texel(p_face, p_row.head + i, p_row.node + i, true);
-		add_texel(p_face, p_row.head + i + 1u, p_row.node + i + 1u, i + 1u < p_row.count);
-		add_texel(p_face, p_row.head + i + 2u, p_row.node + i + 2u, i + 2u < p_row.count);
-		add_texel(p_face, p_row.head + i + 3u, p_row.node + i + 3u, i + 3u < p_row.count);
+		add_texel(p_row, i);
+		add_texel(p_row, i + 1u);
+		add_texel(p_row, i + 2u);
+		add_texel(p_row, i + 3u);
 	}
 }
 
@@ -108,7 +120,7 @@ void main() {
 	for (uint i = 0u; i < large_count; ++i) {
 		const TexelRows rows = find_rows(load_face(large_faces[i]), level);
 		for (int y = rows.first_row + int(gl_LocalInvocationID.x); y <= rows.last_row; y += FACE_LIST_GROUP_SIZE) {
-			add_row(large_faces[i], allocate_row(rows, y));
+			add_row(allocate_row(large_faces[i], rows, y));
 		}
 	}
 }

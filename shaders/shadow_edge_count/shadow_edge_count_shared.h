@@ -38,6 +38,12 @@ struct SHARED_ALIGN CountFaceRecord {
 };
 SHARED_SIZE(CountFaceRecord, 48);
 
+// A node of a texel's face list: the face's index, in the high bits the cells that its bounds
+// overlap, and the next node. A texel has 4 x 4 cells: the bits from EDGE_COUNT_NODE_CELLS_SHIFT on
+// are their columns, then their rows.
+#define EDGE_COUNT_NODE_CELLS_SHIFT 24
+#define EDGE_COUNT_NODE_CELLS_PER_SIDE 4
+
 /// The bounding box of EDGE_COUNT_BUNDLE_SIZE consecutive edges of the light's list, and of their
 /// distances (see CountFaceRecord). One test may reject them all.
 struct SHARED_ALIGN CountEdgeBundle {

@@ -15,6 +15,9 @@ struct TexelRows {
 	vec3 sides[3];
 	vec2 half_extent;
 	vec2 size; // of the map in texels
+	// Bounds of the face in texels.
+	vec2 minimum;
+	vec2 maximum;
 };
 
 const float COUNT_ROUNDING_PX = 1e-3; // exceeds the rounding error of a receiver's position in texels
@@ -67,6 +70,8 @@ TexelRows make_texel_rows(CountLightConstants p_light, CountViewConstants p_view
 	const vec2 min_high = min(a.xy - bound * a.z, min(b.xy - bound * b.z, c.xy - bound * c.z));
 	const bool is_outside = any(lessThan(max_low, vec2(0.0))) || any(greaterThan(min_high, vec2(0.0))) ||
 			max(a.z, max(b.z, c.z)) <= 0.0;
+	rows.minimum = minimum;
+	rows.maximum = maximum;
 	const ivec2 first = ivec2(clamp(floor(minimum), vec2(0.0), rows.size));
 	const ivec2 last = ivec2(clamp(floor(maximum), vec2(-1.0), rows.size - 1.0));
 	rows.first_column = first.x;
@@ -74,6 +79,15 @@ TexelRows make_texel_rows(CountLightConstants p_light, CountViewConstants p_view
 	rows.first_row = first.y;
 	rows.last_row = is_outside ? first.y - 1 : last.y;
 	return rows;
+}
+
+/// Bit mask of the columns or rows of a texel's cells that the range p_minimum .. p_maximum overlaps, in texels. p_texel:
+/// the texel's column or row.
+uint find_cells(float p_minimum, float p_maximum, int p_texel) {
+	const float side = float(EDGE_COUNT_NODE_CELLS_PER_SIDE);
+	const uint all = (1u << EDGE_COUNT_NODE_CELLS_PER_SIDE) - 1u;
+	const vec2 cells = clamp(side * (vec2(p_minimum, p_maximum) - float(p_texel)), 0.0, side - 1.0);
+	return all << uint(cells.x) & all >> (uint(EDGE_COUNT_NODE_CELLS_PER_SIDE) - 1u - uint(cells.y));
 }
 
 /// First and last column of a row; the last is below the first if the face covers nothing there.

@@ -32,7 +32,7 @@ uvec4 load_count_masks(uint p_index, uint p_pair) {
 	return uvec4(masks[p_index], uvec2(0u)); // one set of points
 }
 
-// Each texel has the same list, of all faces.
+// Each texel has the same list, of all faces, and each face is in all its cells.
 CountViewConstants load_count_view(uint p_view) {
 	return light.views[p_view];
 }
@@ -40,7 +40,8 @@ uint load_count_head(uint p_index) {
 	return 1u;
 }
 uvec2 load_count_node(uint p_index) {
-	return uvec2(p_index, p_index + 1u < light.face_count ? p_index + 2u : 0u);
+	return uvec2(p_index | 0xffffffffu << EDGE_COUNT_NODE_CELLS_SHIFT,
+			p_index + 1u < light.face_count ? p_index + 2u : 0u);
 }
 uint load_count_level(uint p_view) {
 	return 0u;

@@ -125,10 +125,13 @@ bool is_met(bool p_is_directional, const glm::dvec2 &p_position, const CountFace
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it covers") {
+TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it covers, and in all "
+		  "cells") {
 	KernelFixture fixture;
 	TestRandom random;
 	size_t pair_count = 0;
+	size_t listed_count = 0; // faces in the lists of texels of positions
+	size_t cell_count = 0;	 // those in the cells of the positions
 	for (const bool is_directional : { false, true }) {
 		for (const uint32_t map_size_px : { 1u, 16u, 48u, 256u }) {
 			CAPTURE(is_directional);
@@ -152,15 +155,29 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 						(fraction * 2.0 - 1.0) * double(light.views[0].half_extent.x);
 				const glm::uvec2 texel = glm::min(
 						glm::uvec2(fraction * double(map_size_px)), glm::uvec2(map_size_px - 1));
+				const glm::uvec2 cell =
+						glm::uvec2((fraction * double(map_size_px) - glm::dvec2(texel)) *
+								double(EDGE_COUNT_NODE_CELLS_PER_SIDE));
+				const uint32_t cell_bits =
+						(1u << cell.x | 1u << (EDGE_COUNT_NODE_CELLS_PER_SIDE + cell.y))
+						<< EDGE_COUNT_NODE_CELLS_SHIFT;
 				std::set<uint32_t> listed;
+				std::set<uint32_t> in_cell;
 				for (uint32_t node = lists.heads[texel.y * map_size_px + texel.x]; node != 0;
 						node = lists.nodes[node - 1].y) {
-					CHECK(listed.insert(lists.nodes[node - 1].x).second); // each once
+					const uint32_t word = lists.nodes[node - 1].x;
+					const uint32_t face = word & EDGE_COUNT_FACE_MASK;
+					CHECK(listed.insert(face).second); // each once
+					if ((word & cell_bits) == cell_bits) {
+						in_cell.insert(face);
+					}
 				}
+				listed_count += listed.size();
+				cell_count += in_cell.size();
 				for (uint32_t face = 0; face < faces.size(); ++face) {
 					if (is_met(is_directional, position, faces[face])) {
 						++met_count;
-						missing_count += listed.contains(face) ? 0 : 1;
+						missing_count += in_cell.contains(face) ? 0 : 1;
 					}
 				}
 				pair_count += faces.size();
@@ -173,6 +190,7 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 		}
 	}
 	CHECK(pair_count >= 1'000'000);
+	CHECK(cell_count < 0.9 * double(listed_count)); // the cells are selective, too
 }
 
 TEST_CASE("[GPU][EdgeCount] face lists start with the size of texels that fitted last") {
