@@ -1,7 +1,7 @@
-// Buffers that are read often, as arrays of uint, uvec2, uvec4 or vec4. They are texel buffers: llvmpipe gathers a word of
-// a texel buffer for all invocations at once, but loads from storage buffers and shared memory one invocation after the
-// other, within loops and branches. The variant VARIANT_STORAGE, for devices that cannot store into texel buffers, uses
-// storage buffers.
+// Buffers that are read often, as arrays of uint, uvec2, uvec4 or vec4. They are texel buffers: llvmpipe gathers a word
+// of a texel buffer for all invocations at once, but within loops and branches it loads from storage buffers and shared
+// memory one invocation after the other. The variant VARIANT_STORAGE, for devices that cannot store into texel buffers,
+// uses storage buffers.
 #ifndef FETCH_INC_GLSL
 #define FETCH_INC_GLSL
 

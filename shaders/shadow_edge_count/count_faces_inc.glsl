@@ -12,7 +12,8 @@ CountViewConstants load_count_view(uint p_view);
 /// The first node of a texel's list, counted from 1; 0 if the list is empty. p_index: of the texel, by view, row and
 /// column.
 uint load_count_head(uint p_index);
-/// (face and cells, next node) of a node, see EDGE_COUNT_NODE_CELLS_SHIFT. p_index counts from 0, the next node from 1; it is 0 at the end of the list.
+/// (face and cells, next node) of a node, see EDGE_COUNT_NODE_CELLS_SHIFT. p_index counts from 0, the next node from 1;
+/// it is 0 at the end of the list.
 uvec2 load_count_node(uint p_index);
 /// How often the size of a view's map was halved because its face lists did not fit.
 uint load_count_level(uint p_view);
@@ -48,7 +49,7 @@ int sum_crossings(CountCrossings p_found) {
 	return p_found.double_sided + max(p_found.back_facing, p_found.light_facing);
 }
 
-/// A position (x', y') in a view's map, in texels. 0 .. size of the map, if the position is inside.
+/// A position (x', y') in a view's map, in texels: 0 .. p_size, if it is inside. p_size: see find_map_size.
 vec2 find_map_position(CountViewConstants p_view, vec2 p_size, vec2 p_position) {
 	return (p_position / p_view.half_extent * 0.5 + 0.5) * p_size;
 }
@@ -93,12 +94,10 @@ FaceWalk start_face_walk(CountLightConstants p_light, uint p_view, vec2 p_positi
 			(1u << cell.x | 1u << (EDGE_COUNT_NODE_CELLS_PER_SIDE + cell.y)) << EDGE_COUNT_NODE_CELLS_SHIFT);
 }
 
-const uint NO_FACE = 0xffffffffu;
-
 /// Goes to the next node unless r_faces is full. Adds the node's face to r_faces if its bounds overlap the receiver's
-/// cell. r_faces: unused items, which follow the others, are NO_FACE.
+/// cell. r_faces: unused items, which follow the others, are EDGE_COUNT_NO_FACE.
 void step_face_walk(inout FaceWalk r_walk, inout uvec4 r_faces) {
-	const bool is_valid = r_walk.next != 0u && r_faces.w == NO_FACE;
+	const bool is_valid = r_walk.next != 0u && r_faces.w == EDGE_COUNT_NO_FACE;
 	const uvec2 node = load_count_node(r_walk.first_node + max(r_walk.next, 1u) - 1u);
 	const bool overlaps = is_valid && (node.x & r_walk.cell) == r_walk.cell;
 	r_faces = overlaps ? uvec4(node.x & EDGE_COUNT_FACE_MASK, r_faces.xyz) : r_faces;
@@ -113,22 +112,22 @@ CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_
 	FaceWalk walk = start_face_walk(p_light, p_view, p_position);
 	CountCrossings found = CountCrossings(0, 0, 0);
 	while (walk.next != 0u) {
-		uvec4 faces = uvec4(NO_FACE);
+		uvec4 faces = uvec4(EDGE_COUNT_NO_FACE);
 		do {
 			// Two nodes per iteration, since llvmpipe ends every loop after an invocation has made 65535 iterations.
 			step_face_walk(walk, faces);
 			step_face_walk(walk, faces);
-		} while (walk.next != 0u && faces.w == NO_FACE);
+		} while (walk.next != 0u && faces.w == EDGE_COUNT_NO_FACE);
 		do {
-			const bool is_valid = faces.x != NO_FACE;
+			const bool is_valid = faces.x != EDGE_COUNT_NO_FACE;
 			const uint face = is_valid ? faces.x : 0u;
 			const vec4 plane = load_count_plane(face);
 			const bool is_in_front = is_count_in_front(plane, p_receiver.position);
 			if (is_valid && is_in_front != is_count_light_in_front(plane)) {
 				count_face(p_receiver, load_count_face(face), is_in_front, found);
 			}
-			faces = uvec4(faces.yzw, NO_FACE);
-		} while (faces.x != NO_FACE);
+			faces = uvec4(faces.yzw, EDGE_COUNT_NO_FACE);
+		} while (faces.x != EDGE_COUNT_NO_FACE);
 	}
 	return found;
 }

@@ -81,8 +81,8 @@ TexelRows make_texel_rows(CountLightConstants p_light, CountViewConstants p_view
 	return rows;
 }
 
-/// Bit mask of the columns or rows of a texel's cells that the range p_minimum .. p_maximum overlaps, in texels. p_texel:
-/// the texel's column or row.
+/// Bit mask of the columns or rows of a texel's cells that the range p_minimum .. p_maximum overlaps, in texels.
+/// p_texel: the texel's column or row.
 uint find_cells(float p_minimum, float p_maximum, int p_texel) {
 	const float side = float(EDGE_COUNT_NODE_CELLS_PER_SIDE);
 	const uint all = (1u << EDGE_COUNT_NODE_CELLS_PER_SIDE) - 1u;
