@@ -107,6 +107,8 @@ trap 'exit 130' INT TERM
 # Never the user's own cache; shared by all parts, so that a reference is traced once.
 export GNOMON_CACHE_DIR=$work/cache GNOMON_CONFIG_DIR=$work/config
 export PYTHONDONTWRITEBYTECODE=1
+# Mesa's software drivers compile shaders without optimising them, in half the time: tests draw few frames with each.
+export GALLIVM_PERF=${GALLIVM_PERF-nopt}
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
 
