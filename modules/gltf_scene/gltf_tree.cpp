@@ -82,11 +82,15 @@ GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_m
 		}
 		level = std::move(next);
 	}
-	for (size_t index = 0; index < count; ++index) {
-		if (!is_reached[index]) {
-			p_messages.fail(text("nodes[", index, "]"),
-					"is its own ancestor. Break the cycle, or export the file again.");
+	const auto unreached = std::find(is_reached.begin(), is_reached.end(), false);
+	if (unreached != is_reached.end()) {
+		// After `count` steps towards its ancestors a node below a cycle is on the cycle.
+		size_t node = size_t(unreached - is_reached.begin());
+		for (size_t step = 0; step < count; ++step) {
+			node = tree.parents[node];
 		}
+		p_messages.fail(text("nodes[", node, "]"),
+				"is its own ancestor. Break the cycle, or export the file again.");
 	}
 	return tree;
 }
@@ -125,8 +129,7 @@ void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf:
 					"store. Correct it before saving.");
 		}
 	}
-	const bool is_only_moved = has_affine_row(matrix) && has_affine_row(p_before) &&
-			glm::dmat3(matrix) == glm::dmat3(p_before);
+	const bool is_only_moved = has_affine_row(matrix) && glm::dmat3(matrix) == glm::dmat3(p_before);
 	if (is_only_moved && r_target.matrix.empty()) {
 		r_target.translation = to_vector(glm::dvec3(matrix[3]));
 		return;

@@ -27,7 +27,8 @@ GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_m
 
 /// Reads a node's translation, rotation and scale; missing ones are 0, identity and 1.
 NodeTransform read_node_transform(const tinygltf::Node &p_node);
-/// Reads a node's matrix, or composes its translation, rotation and scale.
+/// Reads a node's matrix, whose last row is taken as 0 0 0 1, or composes its translation, rotation
+/// and scale.
 glm::dmat4 read_transform(const tinygltf::Node &p_node);
 
 /// Writes a node's changed transform. Unless the node had a matrix, it is written as translation,

@@ -79,7 +79,8 @@ const Value *find_extension(const tinygltf::ExtensionMap &p_extensions, const ch
 }
 
 double get_number(const Value &p_object, const char *p_key, double p_default) {
-	return p_object.Has(p_key) ? p_object.Get(p_key).GetNumberAsDouble() : p_default;
+	const bool is_number = p_object.Has(p_key) && p_object.Get(p_key).IsNumber();
+	return is_number ? p_object.Get(p_key).GetNumberAsDouble() : p_default;
 }
 
 Value::Object &require_object(Value &r_value) {

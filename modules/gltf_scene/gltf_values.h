@@ -21,7 +21,7 @@ std::optional<GltfObject> find_object(
 /// Returns an extension of an element, or null.
 const tinygltf::Value *find_extension(
 		const tinygltf::ExtensionMap &p_extensions, const char *p_name);
-/// Returns a number of an object, or the default.
+/// Returns a number of an object, or the default if it is absent or not a number.
 double get_number(const tinygltf::Value &p_object, const char *p_key, double p_default);
 
 /// Returns the value's members. A value that is not an object is replaced by an empty object.

@@ -161,6 +161,9 @@ TEST_CASE("[GltfBadInput] nodes with cycles, two parents or too many levels are 
 	CHECK(get_load_error(folder, json).find("nodes[2].children[0] is 1") != std::string::npos);
 	json["nodes"] = Json::parse(R"([{}, {"children": [2]}, {"children": [1]}])");
 	CHECK(get_load_error(folder, json).find("its own ancestor") != std::string::npos);
+	// Node 0 is below the cycle, not on it.
+	json["nodes"] = Json::parse(R"([{}, {"children": [0, 2]}, {"children": [1]}])");
+	CHECK(get_load_error(folder, json).find("nodes[1] is its own ancestor") != std::string::npos);
 	json["nodes"] = Json::parse(R"([{"children": [0]}])");
 	CHECK(get_load_error(folder, json).find("its own ancestor") != std::string::npos);
 	json["nodes"] = Json::parse(R"([{"children": [1]}, {}])");
