@@ -21,8 +21,8 @@ and shadows move, median of %(frames)d frames; with 1 light that of the swinging
 %(room_images)s
 <div class="table"><table><tr><th></th><th>Error</th>%(room_heads)s</tr>%(room_rows)s</table></div></section>
 <section id="figures"><h2>Error and time</h2>
-<p>Error: root mean square over the penumbra's pixels, against the reference. Time: what a moving light adds to a frame
-without shadows, median of %(frames)d frames.</p>
+<p>Error: root mean square over the penumbra's pixels, against the reference. Time: what the shadow of a moving light
+adds to a frame, the difference of medians of %(frames)d frames.</p>
 <div class="table"><table><tr><th>Light and caster</th>%(heads)s</tr>%(rows)s</table></div></section>
 %(cases)s</main></body></html>
 """

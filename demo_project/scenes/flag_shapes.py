@@ -1,4 +1,4 @@
-"""A waving flag: an open mesh whose morph targets are waves along it. Standard library only.
+"""A waving flag: an open mesh whose morph targets are two waves along it and the sag of its free end. Standard library only.
 
 At rest the flag is in the plane z = 0, from the pole at x = 0 towards +X, with its middle at y = 0. Parameters of its points
 are s, 0 at the pole to 1 at the free end, and t, 0 at the lower to 1 at the upper edge.
@@ -23,7 +23,7 @@ def get_rest(s, t):
 
 
 def get_wave(s, t, offset_rad):
-    """Return the wave's z: its amplitude grows from the pole, and its phase is ahead at the upper edge."""
+    """Return the wave's z: its amplitude grows from the pole, and the crests of the running wave are further along at the upper edge."""
     return WAVE_M * s**1.3 * math.sin(2.0 * math.pi * WAVE_COUNT * s - 0.9 * t + offset_rad)
 
 
@@ -35,6 +35,7 @@ def get_deltas(name, s, t):
     return (-0.35 * SAG_M * s * s * (1.0 - t), -SAG_M * s * s, 0.05 * s * s * (1.0 - t))
 
 
+# The second is the first a quarter period earlier.
 TARGETS = ("Wave", "Wave, a quarter on", "Sag")
 
 

@@ -62,7 +62,7 @@ std::string make_constants(const ShaderText &p_shader) {
 }
 
 std::string patch(const ShaderText &p_shader) {
-	// Godot requires declarations before the first function.
+	// What fragment() and light() use must be declared before them.
 	const std::string &code = p_shader.get_code();
 	const size_t declaration_offset =
 			p_shader.get_functions().empty() ? code.size() : p_shader.get_functions()[0].begin;

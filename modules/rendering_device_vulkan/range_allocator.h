@@ -23,7 +23,7 @@ public:
 
 	bool is_empty() const { return free_bytes == size_bytes; }
 	uint64_t get_free_bytes() const { return free_bytes; }
-	/// Returns the number of gaps; 1 if nothing is in use and all gaps have been merged.
+	/// Returns the number of gaps; 1 if nothing is in use.
 	size_t get_gap_count() const { return gaps.size(); }
 
 private:

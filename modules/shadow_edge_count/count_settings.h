@@ -11,7 +11,8 @@ struct CountSettings {
 	uint32_t sample_count = 64;				// points of the light: 64 or 256
 	uint32_t map_size_px = 256;				// width and height of each view's map of face lists
 	uint32_t budget = EDGE_COUNT_NO_BUDGET; // maximum number of edges of one block of pixels
-	float interpolation = 0; // maximum motion of an edge's image within a block, as a multiple of R
+	float interpolation = 0; // maximum motion of an edge's projection onto the disc, see
+							 // CountLightConstants
 	/// R: the mean of the light's two penumbra widths in metres, by default its radius.
 	/// Directional: that mean divided by S, a tangent.
 	double disc_radius = 0;

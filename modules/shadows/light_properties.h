@@ -12,8 +12,8 @@
 
 namespace gnomon {
 
-/// A NodePropertySource. For a light it adds shadow_technique, an enum of the registered
-/// techniques, the properties of the light's technique, and those of all mask filters.
+/// A NodePropertySource. For a light it makes shadow_technique an enum of the registered
+/// techniques, and adds the properties of the light's technique and those of all mask filters.
 void add_light_properties(const Node3D &p_node, PropertyList &r_list);
 
 /// Returns the property of that name that a technique or filter declares, or null.

@@ -1,4 +1,5 @@
-// Planes of faces, and weights of edges: the float32 version of CountedCasters in tests/count_in_double.h.
+// Planes of faces, and weights of edges: the float32 version of CountedCasters in
+// modules/shadow_edge_count/tests/count_in_double.h.
 #ifndef COUNT_CLASSIFY_INC_GLSL
 #define COUNT_CLASSIFY_INC_GLSL
 
@@ -50,7 +51,9 @@ CountEdgeKind make_count_kind(uint p_face0, uint p_face1) {
 			(p_face0 & EDGE_COUNT_INCONSISTENT) != 0u, p_face1 != EDGE_COUNT_NO_FACE);
 }
 
-/// Signed weight of an edge: the change of the number of solids across it. p_is_in_front0, p_is_in_front1: the
+/// Signed weight of an edge: the change of the number of solids across it. A closed part counts as one solid from its
+/// front to its back. In a part that is not closed (double-sided) each face counts as one, so that a silhouette edge
+/// between two of its faces weighs 2; edges without a second face are in such parts only. p_is_in_front0, p_is_in_front1: the
 /// viewpoint is in front of the first and of the second face (for an inconsistent edge: of the second face's negated
 /// plane).
 int count_sum_weights(bool p_is_in_front0, bool p_is_in_front1, CountEdgeKind p_kind) {

@@ -89,7 +89,8 @@ struct SHARED_ALIGN CountMeshFace {
 	uint a;
 	uint b;
 	uint c;
-	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its source part
+	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its source part:
+			   // the part, before the alpha test, of the mesh that this one was cut out of
 };
 SHARED_SIZE(CountMeshFace, 16);
 
@@ -105,7 +106,7 @@ struct SHARED_ALIGN CountCasterPush {
 	uint flags;			  // EDGE_COUNT_CASTER_*
 	float disc_radius;	  // R in metres; directional: a tangent
 	float side_tolerance; // p_tolerance of count_find_light_side
-	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a source part, in metres, from
+	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a source part (see CountMeshFace), in metres, from
 	// which receivers see this level of detail, and from which they see the next one.
 	float first_half_width;
 	float end_half_width;
@@ -173,8 +174,8 @@ struct SHARED_ALIGN CountLightConstants {
 	uint node_capacity;	 // of each view's face lists
 	uint face_count;
 	uint max_edge_count;	 // capacity of the light's list of edges; 0 for a light without size
-	float interpolation;	 // maximum motion of an edge's image in a block of
-							 // EDGE_COUNT_BLOCKS_SMOOTH, in R
+	float interpolation;	 // maximum distance by which an edge's projection onto the light's disc
+							 // moves between receivers of a block of EDGE_COUNT_BLOCKS_SMOOTH, in R
 	uint max_cut_face_count; // capacity of the list of faces that may cut the light's disc
 	uint max_bundle_count;	 // capacity of bundles; the groups of bundles start at this index
 	uint padding0;
@@ -294,8 +295,8 @@ SHARED_SIZE(CountBlockPush, 16);
 #define FACE_LIST_BINDING_CUT_FACES 6
 #define FACE_LIST_GROUP_SIZE 64
 
-/// One attempt to list a view's faces. The first attempt uses texels of the size that fitted when
-/// the view was last listed.
+/// One attempt to list a view's faces. For the first attempt's texel size see choose_first_level()
+/// in clear_faces.comp.
 struct SHARED_ALIGN CountFaceListPush {
 	uint view;
 	uint first_face; // of a range of faces that the view may see
@@ -303,7 +304,7 @@ struct SHARED_ALIGN CountFaceListPush {
 	uint is_first;		// the first attempt
 	uint is_next_final; // the next attempt is the final one: its map has one texel, where all faces
 						// fit
-	uint may_overflow;	// it is not known that the lists fit with texels of the usual size
+	uint may_overflow;	// it is not known that the lists fit at the map's full size, map_size_px
 	uint padding0;
 	uint padding1;
 };

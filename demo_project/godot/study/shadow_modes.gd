@@ -2,7 +2,7 @@ class_name ShadowModes
 extends RefCounted
 ## The shadows that measurements compare: none ("off"), Godot's own of two qualities, and Gnomon's.
 
-## RenderingServer.SHADOW_QUALITY_*; Godot uses the size of a light from SOFT_LOW on.
+## Godot's default, Soft Low, and its best, Soft Ultra: RenderingServer.SHADOW_QUALITY_*.
 const QUALITIES := {"low": RenderingServer.SHADOW_QUALITY_SOFT_LOW, "ultra": RenderingServer.SHADOW_QUALITY_SOFT_ULTRA}
 const ALL: Array[String] = ["off", "low", "ultra", "gnomon"]
 

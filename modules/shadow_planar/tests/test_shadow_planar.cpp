@@ -82,7 +82,7 @@ TEST_CASE("[GPU][ShadowPlanar] scenes without declared planes, or with curved on
 	undeclared.ground->is_planar_receiver = false;
 	const MaskResult none = render_planar(fixture, undeclared);
 	CHECK(plan_contains(none, "no node has shadow_planar_receiver"));
-	CHECK(compute_mask_difference(none, none) == 0);
+	CHECK(count_receivers(none) > 0);
 	CHECK(std::count(none.visibility.begin(), none.visibility.end(), 1.0f) >=
 			ptrdiff_t(count_receivers(none)));
 	// A curved floor.
