@@ -49,8 +49,9 @@ std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 	const glm::dmat4 flatten =
 			glm::dmat4(1.0) * light_height - glm::outerProduct(light_position, p_plane);
 	const LightView camera = make_camera_view(scene.camera, p_inputs.size_px);
-	const glm::dmat4 clip_from_relative = camera.compute_clip_from_view() *
-			glm::dmat4(glm::dmat3(camera.view_from_world)) * flatten;
+	const glm::dmat4 clip_from_relative = compute_shift(scene.camera) *
+			camera.compute_clip_from_view() * glm::dmat4(glm::dmat3(camera.view_from_world)) *
+			flatten;
 	std::vector<PlanarDraw> draws;
 	for (uint32_t index : p_casters) {
 		const InstanceSnapshot &instance = scene.instances[index];

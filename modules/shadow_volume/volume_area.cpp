@@ -9,7 +9,7 @@ namespace gnomon {
 namespace {
 
 const size_t CORNER_COUNT = 8;
-const double MARGIN_PX = 1.0; // for the rasteriser's rounding
+const double MARGIN_PX = 2.0; // rounding of the rasteriser, and CameraSnapshot::shift: one each
 // may_shade_near_plane grows boxes by these fractions of the near distance and of their diagonal.
 const double MARGIN_PER_NEAR = 1e-3;
 const double MARGIN_PER_BOX = 1e-5;

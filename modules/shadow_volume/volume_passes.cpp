@@ -78,12 +78,13 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
 		const SilhouetteCasters &p_listed) {
 	const LightView camera = make_volume_camera(p_inputs);
+	const glm::mat4 shift(compute_shift(p_inputs.scene.camera));
 	std::vector<VolumeDraw> draws;
 	for (const VolumeCaster &caster : p_casters.casters) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[caster.instance_index];
 		VolumeDraw draw;
 		draw.caster = &caster;
-		draw.push.clip_from_node = camera.compute_clip_from_node(instance.world_from_node);
+		draw.push.clip_from_node = shift * camera.compute_clip_from_node(instance.world_from_node);
 		draw.push.light_position_node = caster.light_position_node;
 		if (caster.extruder == VolumeExtruder::GEOMETRY_SHADER) {
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "geometry shader");

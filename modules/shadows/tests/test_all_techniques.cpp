@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -212,6 +213,40 @@ TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
 			hostile.change(scene);
 			CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, glm::uvec2(32))));
 		}
+	});
+}
+
+TEST_CASE("[GPU][Techniques] a camera shifted by one pixel gives the same mask one pixel apart") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		use_cheap_settings(*scene.light);
+		scene.light->properties["light_size"] = 0.0;
+		scene.light->properties["light_angular_distance"] = 0.0;
+		MaskRequest request;
+		request.technique_override = p_info.id;
+		request.scene = scene.snap();
+		const MaskResult plain = fixture.render(request);
+		SceneSnapshot snapshot = *request.scene;
+		snapshot.camera.shift = 2.0f / glm::vec2(request.size_px); // the image moves left and down
+		request.scene = std::make_shared<const SceneSnapshot>(std::move(snapshot));
+		const MaskResult shifted = fixture.render(request);
+		const uint32_t width = request.size_px.x;
+		size_t compared_count = 0;
+		size_t different_count = 0;
+		for (uint32_t y = 1; y < request.size_px.y; ++y) {
+			for (uint32_t x = 0; x + 1 < width; ++x) {
+				const size_t to = y * width + x;
+				const size_t from = to + 1 - width;
+				if (plain.receiver[from] > 0 && shifted.receiver[to] > 0) {
+					++compared_count;
+					different_count +=
+							std::abs(plain.visibility[from] - shifted.visibility[to]) > 0.5f;
+				}
+			}
+		}
+		CHECK(compared_count > 1000);
+		CHECK(different_count <= 3); // rounding at borders of shadows
 	});
 }
 
