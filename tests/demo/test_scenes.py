@@ -12,7 +12,6 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 SCENES = os.path.join(ROOT, "demo_project", "scenes")
 sys.path.insert(0, SCENES)
 
-import fin_widths  # noqa: E402
 import gltf_writer  # noqa: E402
 import make_bunny  # noqa: E402
 import make_scenes  # noqa: E402
@@ -113,17 +112,6 @@ class StudyNumbers(unittest.TestCase):
                 field_of_view = math.degrees(scene["cameras"][0]["perspective"]["yfov"])
                 self.assertAlmostEqual(field_of_view, 48.9 if is_terrain else 36.87, places=6)
                 self.assertEqual(scene["scenes"][0]["extras"]["scene_size"], 4)
-
-    def test_every_light_has_fin_widths_in_range(self):
-        for name in make_scenes.SCENES:
-            for light in load_scene(name)["extensions"]["KHR_lights_punctual"]["lights"]:
-                with self.subTest(scene=name, light=light["name"]):
-                    for technique in fin_widths.FIN_TECHNIQUES:
-                        settings = fin_widths.get_fin_settings(technique, name, light["name"])
-                        widths = dict(setting.split("=") for setting in settings)
-                        self.assertEqual(set(widths), {"penumbra_outer_width", "penumbra_inner_width"})
-                        self.assertTrue(all(0 < float(width) <= 1 for width in widths.values()), widths)
-        self.assertEqual(fin_widths.get_fin_settings("none", "sphere", "Light"), [])
 
     def test_triangle_counts(self):
         counts = {
