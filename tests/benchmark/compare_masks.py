@@ -55,7 +55,7 @@ def write_variants(folder, scenes):
     for path in scenes:
         with open(path, encoding="utf-8") as file:
             root = json.load(file)
-        for name in {buffer["uri"] for buffer in root["buffers"]}:
+        for name in {element["uri"] for element in root["buffers"] + root.get("images", []) if "uri" in element}:
             target = os.path.join(folder, name)
             if not os.path.exists(target):
                 shutil.copy(os.path.join(os.path.dirname(path), name), target)

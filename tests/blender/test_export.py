@@ -134,7 +134,7 @@ class ExportedProperties(BlenderTest):
     def test_an_export_changes_nothing_in_blender(self):
         os.makedirs(self.path("gone"))
         found = self.call_for_json(
-            "compare_properties", "found.json", path=self.path("same.glb"), bad_path=self.path("gone")
+            "compare_properties", "found.json", path=self.path("same.glb"), once_folder=self.path("gone")
         )
         self.assertEqual(found["before"]["Key"][1], {"light_size": 0.7})
         self.assertEqual(found["after"], found["before"])
