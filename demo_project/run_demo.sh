@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to demo_project/out/index.html: installs what is missing, builds, renders
 # demo scenes with and without soft shadows, and measures every technique (`gnomon report`). The page
-# exists after the first scene, and grows with each further one.
+# exists once the first cells are measured, and grows while the report runs.
 set -euo pipefail
 
 usage() {
@@ -19,7 +19,7 @@ Usage: demo_project/run_demo.sh [options]
   --device NAME   Vulkan device, by name or index (default: the engine's choice)
   --no-window     do not open the window at the end, even where there is a display
   --no-build      use bin/gnomon as it is
-The page is measured again from scratch. Exit code: 0 all done, 1 something failed (the page lists what), 2 wrong usage.
+The page is measured again from scratch. Exit code: 0 all done, 1 something failed, 2 wrong usage.
 TEXT
 }
 
@@ -79,7 +79,7 @@ if [ "$wants_build" = yes ]; then
     echo "== Packages"
     install_packages "${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" || exit 1
     echo "== Build"
-    scons -j"$jobs" -Q bin/gnomon
+    scons -j"$jobs" -Q bin/gnomon || exit 1
 fi
 
 has_failed=no
