@@ -60,6 +60,7 @@ VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
 	std::vector<VkExtensionProperties> available = find_instance_extensions(nullptr);
 	std::vector<const char *> layers;
 	std::vector<const char *> extensions;
+	bool has_validation_features = false;
 	if (p_options.validation) {
 		if (!has_validation_layer()) {
 			fail("The Vulkan layer ", VALIDATION_LAYER, " is not installed. Install it, e.g. `apt ",
@@ -69,7 +70,9 @@ VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
 		for (const VkExtensionProperties &extension : find_instance_extensions(VALIDATION_LAYER)) {
 			available.push_back(extension);
 		}
-		if (has_extension(available, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)) {
+		has_validation_features =
+				has_extension(available, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+		if (has_validation_features) {
 			extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
 		}
 	}
@@ -101,7 +104,7 @@ VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
 		.pEnabledValidationFeatures = enabled
 	};
 	const VkInstanceCreateInfo info = { .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-		.pNext = p_options.validation ? &validation_features : nullptr,
+		.pNext = has_validation_features ? &validation_features : nullptr,
 		.pApplicationInfo = &application,
 		.enabledLayerCount = static_cast<uint32_t>(layers.size()),
 		.ppEnabledLayerNames = layers.data(),
