@@ -4,7 +4,7 @@
 Godot renders demo_project/godot's study scenes with shadows of edge_count and with its own, of the qualities Soft Low and
 Soft Ultra. Compared is the image with shadows divided by the image without. The reference is traced by
 `gnomon visibility --technique reference` in the same scenes, which Godot exports. Errors are root mean squares over the
-penumbra's pixels (doc/benchmarks.md). Times are what the shadow of a moving light adds: the median frame time with it minus
+penumbra's pixels (doc/glossary.md). Times are what the shadow of a moving light adds: the median frame time with it minus
 the median without. The room is measured with all its lights, and its times are those of whole frames.
 """
 

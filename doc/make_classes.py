@@ -82,13 +82,13 @@ def make_properties_page(item):
         lines += ["A light stores them in its `extras`; `--set` changes them for one run.", ""]
         lines += format_table(item["properties"])
     else:
-        lines.append("It has none of its own.")
+        lines.append("The technique adds no properties to a light.")
     if item.get("settings"):
         lines += ["", "## Settings of the technique", ""]
         lines += ["For all lights; the image is the same. In `project.cfg` below `[technique.%s]`, or for one run" % item["id"]]
         lines += ["`--set technique.%s.NAME=value`." % item["id"], ""]
         lines += format_table(item["settings"])
-    return "\n".join(lines + ["", "Those of every light: [Light3D](light_3d.md).", ""])
+    return "\n".join(lines + ["", "Properties of every light: [Light3D](light_3d.md).", ""])
 
 
 def make_light_page(properties):

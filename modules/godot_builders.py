@@ -22,7 +22,7 @@ def find_godot():
 
 
 def _dump(target, source, env):
-    """Let Godot write extension_api.json and gdextension_interface.h. Godot's exit code is ignored: the files count."""
+    """Let Godot write extension_api.json and gdextension_interface.h. Its exit code is ignored: only a missing file fails."""
     folder = os.path.dirname(target[0].abspath)
     command = [env["GODOT"], "--headless", "--dump-extension-api", "--dump-gdextension-interface"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)

@@ -31,7 +31,7 @@ inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 }
 
 /// Sets properties of every light. p_settings: name -> value. Throws Error for a name that neither
-/// Light3D nor a technique of this build declares, and for a value out of its range.
+/// Light3D nor a technique or mask filter of this build declares, and for a value out of its range.
 inline void apply_light_settings(const Scene &p_scene, const nlohmann::json &p_settings) {
 	for (const auto &[name, value] : p_settings.items()) {
 		const PropertyInfo *info = Light3D::get_property_list().find(name);

@@ -374,7 +374,7 @@ part_editor_repeats() {
 # shellcheck source=demo_project/install_godot.sh
 . demo_project/install_godot.sh
 run_lanes "layers scenes"
-# All parts below run the programs that this part builds. Nothing runs beside it: a test might use a half-built program.
+# Most parts below run the programs that this part builds. Nothing runs at the same time: a test might use a half-built program.
 if is_requested build; then
     part_begin=$SECONDS
     run_check build scons -Q -j"$jobs" || finish

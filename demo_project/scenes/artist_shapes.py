@@ -1,7 +1,7 @@
 """Meshes with the usual flaws of artists' work: intersecting parts in one mesh, open, duplicated and non-manifold faces.
 
-Functions take random numbers from a seeded generator and return a gltf_writer.Mesh in metres with the ground at y = 0. Such a
-mesh only has finite positions, unit normals and triangles with an area.
+Functions take random numbers from a seeded generator and return a gltf_writer.Mesh in metres with the ground at y = 0. All
+that is sure of such a mesh is that its positions are finite, its normals have unit length and its triangles have an area.
 """
 
 import math

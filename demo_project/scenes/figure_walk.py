@@ -98,7 +98,7 @@ def get_hips(phase):
 
 
 def get_plant(side, step):
-    """Return (position on the ground, heading) of a foot in its stance of the cycle step; between whole numbers it interpolates
+    """Return (position on the ground, heading) of a foot in its stance of cycle number step; a fractional step interpolates
     along the path."""
     sign, offset = SIDES[side]
     translation, rotation = get_root(step + offset)

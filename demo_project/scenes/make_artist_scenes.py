@@ -29,7 +29,7 @@ def make_artist_set(camera_eye=(-3.6, 3.6, 5.0), camera_target=(-0.25, 0.5, 0.05
     cone = {"innerConeAngle": round(math.atan(0.6), 9), "outerConeAngle": round(math.atan(0.75), 9)}
     spot = {"type": "spot", "color": [1.0, 0.80, 0.55], "intensity": 170.0, "spot": cone}
     document.add_light("Spot", spot, (2.6, 5.2, 1.8), (0.0, 0.5, 0.0), size)
-    # Farther from all parts than five times its size, because pcss would search blockers in a wider cone otherwise.
+    # Farther from all parts than five times its size, because nearer casters exceed the limit of pcss (doc/stability.md).
     omni = {"type": "point", "color": [0.45, 0.70, 1.0], "intensity": 45.0}
     document.add_light("Omni", omni, (-2.9, 3.8, -2.2), None, size)
     sun = {"type": "directional", "color": [1.0, 0.93, 0.85], "intensity": 1.3}

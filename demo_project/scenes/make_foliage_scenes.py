@@ -7,7 +7,7 @@ and tree, in which a figure walks and a flag waves.
 --count is the number of leaves of a tree.
 
 The same seed and count give the same bytes. By default the files are written next to this file. They are not committed;
-run_demo.sh and tests/stability generate them.
+run_demo.sh, tests/godot and tests/benchmark generate them.
 """
 
 import math

@@ -26,7 +26,7 @@ TIMEOUT_S = 120
 MAX_HEIGHT_M, MAX_WIDTH_M = 1.9, 2.6  # about the size of the study's casters
 LIFT_M = 0.002  # a flat sole in the ground's plane would cause z-fighting
 CREASE_COSINE = math.cos(math.radians(50.0))  # between face normals; flatter edges are shaded smoothly
-MIN_AREA_SQUARED_M4 = 1e-18  # (2 x area)^2; float32 merges corners of smaller triangles
+MIN_DOUBLE_AREA_SQUARED_M4 = 1e-18  # of (2 x area)^2; smaller triangles count as having no area
 
 TEST_MODELS, BENCHMARK_MODELS = "assimp-testmodels", "glmark2-data"
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -91,7 +91,7 @@ def make_creased_mesh(points, triangles):
     for triangle in triangles:
         corners = [points[index] for index in triangle]
         area_normal = cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0]))
-        if dot(area_normal, area_normal) <= MIN_AREA_SQUARED_M4:
+        if dot(area_normal, area_normal) <= MIN_DOUBLE_AREA_SQUARED_M4:
             continue
         for corner in corners:
             faces_of.setdefault(corner, []).append(len(faces))

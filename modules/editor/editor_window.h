@@ -14,7 +14,7 @@ struct EditorOptions {
 	std::string device;			// index or part of the name; empty: the engine's choice
 	bool validation = false;	// Vulkan's validation layers
 	StageMode stage = StageMode::AUTO;
-	std::filesystem::path program; // this program's executable: bin/gnomon, next to doc and shaders
+	std::filesystem::path program; // this program's executable; its folder, bin, is next to doc
 	/// Folder of the shader sources, which are recompiled when they change. It need not exist.
 	std::filesystem::path shaders;
 	/// File to which the widgets' rectangles and the progress are written as JSON each frame, for

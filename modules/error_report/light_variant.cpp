@@ -15,7 +15,7 @@ namespace {
 /// Distance from the casters at which a directional light is placed, as a multiple of the scene
 /// size S. It is about that of the lights in the benchmark scenes.
 const double DISTANCE_IN_SCENE_SIZES = 1.5;
-const double MAX_CONE_RAD = 1.4; // half angle; one shadow map of a wider cone is too coarse
+const double MAX_CONE_RAD = 1.4; // half angle; that of a spot light must not exceed pi / 2
 const double CONE_MARGIN = 1.1;	 // keeps the bounding sphere of the casters inside the cone
 
 /// References to the members of a light that build_variant changes.

@@ -97,7 +97,7 @@ struct ReportConfiguration {
 /// is_light_disc_above_horizon).
 struct ReportError {
 	MaskMetrics all;
-	MaskMetrics whole_light;
+	MaskMetrics whole_light; // in animations and stability sweeps a copy of `all`
 };
 
 /// The cause of a technique's error, see VisibilityCondition.
@@ -174,7 +174,7 @@ struct Report {
 	std::string project;
 	std::string program;	   // version and hash of the program, see describe_program
 	uint32_t sample_count = 0; // rays per pixel of the references
-	/// Timing of a cell ends once the standard error of its median is below this; 0: never early.
+	/// Timing of a cell ends early once the standard error of its median is at most this; 0: never.
 	double precision_percent = 0;
 	std::vector<ReportMachine> machines;
 	std::vector<ReportTechnique> techniques;

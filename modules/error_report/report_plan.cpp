@@ -59,8 +59,8 @@ uint64_t hash_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
 	return compute_value_hash(p_instance.material->is_double_sided, p_hash);
 }
 
-/// Hashes what only a lit image depends on: colours of lights and materials. Textures count by
-/// their materials' other values only.
+/// Hashes what only a lit image depends on: colours of lights and materials. The images of textures
+/// are not hashed.
 uint64_t hash_appearance(const SceneSnapshot &p_scene, uint64_t p_hash) {
 	for (const LightSnapshot &light : p_scene.lights) {
 		p_hash = compute_value_hash(light.color, p_hash);
@@ -82,8 +82,8 @@ uint64_t hash_appearance(const SceneSnapshot &p_scene, uint64_t p_hash) {
 /// Returns a 64-bit hash of everything that the mask may depend on: meshes and their transforms,
 /// scattering and transmission of materials, the camera, the scene size S, the light with all its
 /// properties, mask filters and the size of the image; if next_scene is set also the meshes, lights
-/// and camera one frame later. If the task names no light, it is for a lit image, which depends on
-/// all lights and on the colours.
+/// and camera one frame later. If the task names no light, its result (a lit image, or a run time)
+/// depends on all lights; the colours, which a lit image depends on, are then hashed too.
 uint64_t compute_task_hash(const MaskTask &p_task) {
 	const SceneSnapshot &scene = *p_task.scene;
 	uint64_t hash = scene.camera.compute_hash(1);

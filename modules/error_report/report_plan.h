@@ -63,8 +63,9 @@ struct ReportOptions {
 struct ReportPlan {
 	Report report;
 	std::vector<std::shared_ptr<const SceneSnapshot>> shown_scenes; // one per Report::scene_images
-	/// Builds the task of a configuration; the argument overrides properties of the light.
-	/// Throws an Error if the scene could not be loaded or the light is invalid.
+	/// Builds the task of a configuration; the argument overrides properties of the light in the
+	/// matrix, and is ignored in other groups. Throws an Error if the scene could not be loaded or
+	/// the light is invalid.
 	using MakeTask = std::function<MaskTask(const PropertyValues &)>;
 	std::vector<MakeTask> tasks;		  // one per configuration
 	std::vector<PropertyValues> settings; // one per cell: the argument for its MakeTask

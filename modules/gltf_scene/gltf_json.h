@@ -113,8 +113,8 @@ public:
 	/// Fills the span from an array of the same number of finite numbers; fails on any other value.
 	/// Returns false if absent.
 	bool find_numbers(std::string_view p_key, std::span<double> r_numbers) const;
-	/// Returns text; empty if absent or not text, because names never decide whether a file can be
-	/// drawn.
+	/// Returns text; empty if absent or not text. That is no error: a name may be anything, and
+	/// callers that need a certain text check the result.
 	std::string get_text(std::string_view p_key) const;
 
 	/// Returns a number in p_minimum..p_maximum; any other value is reported and the default

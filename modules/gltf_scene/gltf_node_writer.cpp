@@ -114,8 +114,8 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 	}
 }
 
-/// Writes a changed name. The name of a light that find_blender_owner identifies by it is always
-/// the parent's name with the suffix BLENDER_ORIENTATION.
+/// Writes a changed name. A light that has a parent in blender_owners, which find_blender_owner
+/// recognizes by the names, always gets the parent's name with the suffix BLENDER_ORIENTATION.
 void GltfNodeWriter::write_name(
 		const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const {
 	if (p_entry.node->name != p_before) {

@@ -36,7 +36,7 @@ private:
 		bool is_attachment = false;
 		std::vector<size_t> children;
 	};
-	/// The light or camera definitions changed so far, by index in the file.
+	/// The existing light or camera definitions written so far, by index in the file.
 	template <typename T> using DefinitionMap = std::map<size_t, T>;
 
 	/// Returns the entry's node in the document.

@@ -11,8 +11,8 @@ namespace gnomon {
 
 enum class GltfFormat { TEXT, BINARY }; // .gltf, .glb
 
-/// Collects the buffer and image files that saving a scene writes next to it, into the folder.
-/// Nothing is written before save().
+/// Collects the buffer and image files that saving a scene writes into p_folder, the folder of the
+/// scene file. Nothing is written before save().
 class GltfSideFiles {
 public:
 	explicit GltfSideFiles(std::filesystem::path p_folder);

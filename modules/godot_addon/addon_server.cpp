@@ -189,7 +189,7 @@ std::vector<NeededStandIn> AddonServer::choose_stand_ins(
 		if (!godot::cast<godot::DirectionalLight3D>(light) &&
 				light.get_param(godot::Light3D::PARAM_SIZE) > 0) {
 			// It has no mask, but the light() of materials needs its size, which only the table of
-			// stand-ins provides.
+			// lights provides.
 			needed.push_back({ light });
 		}
 	}

@@ -29,8 +29,9 @@ public:
 	ReceiverKind use(const godot::Material &p_material, const godot::Node &p_owner);
 	/// The same for a surface of p_mesh without a material, which gets a default one.
 	ReceiverKind use_bare(const godot::Mesh &p_mesh, int64_t p_surface);
-	/// Call after all use() calls of a frame. Queries the shaders of the used materials, and
-	/// restores the others. p_node: a GnomonShadow3D, which receives the shaders.
+	/// Call after all use() calls of a frame. Queries the generated shaders of the used
+	/// BaseMaterial3Ds, and restores unused materials. p_node: a GnomonShadow3D, which receives the
+	/// shaders.
 	void end_frame(const godot::Node &p_node, const godot::SceneTree &p_tree);
 	/// Restores all materials, so that everything looks as without the add-on.
 	void clear();

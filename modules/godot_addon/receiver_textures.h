@@ -11,7 +11,8 @@ namespace gnomon {
 
 using ReceiverRow = std::array<glm::vec4, RECEIVER_COLUMN_COUNT>;
 
-/// Owns the global shader parameters that gnomon.gdshaderinc declares. Main thread only.
+/// Owns the global shader parameters that gnomon.gdshaderinc and receiver_light.gdshaderinc
+/// declare. Main thread only.
 class ReceiverGlobals {
 public:
 	/// Must be created before shaders that use the parameters are compiled.

@@ -45,8 +45,8 @@ template <typename Function> void for_each_word(std::string_view p_text, Functio
 	}
 }
 
-/// Returns the function whose body opens at p_brace, or one without a name if no function's does.
-/// p_statement: where the statement with the brace begins.
+/// Returns the function whose body opens at p_brace, or one without a name if p_brace opens no
+/// function. p_statement: where the statement with the brace begins.
 ShaderFunction read_function(std::string_view p_text, size_t p_statement, size_t p_brace) {
 	const std::string_view head = p_text.substr(p_statement, p_brace - p_statement);
 	const size_t parenthesis = head.find('(');

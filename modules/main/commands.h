@@ -33,7 +33,8 @@ bool parse_uint32(std::string_view p_text, uint32_t &r_value);
 /// form or a side is outside 1..16384.
 glm::uvec2 parse_size(const std::string &p_text);
 /// Returns the image size in pixels: p_text (--size) if given, else the key "size" in [defaults] of
-/// the scene's project.cfg, else 512x512. Throws like parse_size.
+/// the scene's project.cfg, else 512x512. Throws like parse_size; an invalid size in project.cfg is
+/// an Error.
 glm::uvec2 choose_size(
 		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
 /// Returns the value of a key in [defaults] of the project.cfg that belongs to the path: a

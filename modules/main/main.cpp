@@ -25,12 +25,12 @@ namespace {
 
 using namespace gnomon;
 
-/// Optional commands, each with the module that provides it.
+/// Optional commands, each with the module that it needs.
 const std::pair<const char *, const char *> MODULES_OF_COMMANDS[] = { { "edit", "editor" },
 	{ "visibility", "masks" }, { "compare", "masks" }, { "report", "error_report" } };
 
-/// Throws a UsageError for an unknown command. If a module that this build lacks would provide the
-/// command, the message names the module; otherwise it lists the commands.
+/// Throws a UsageError for an unknown command. If the command needs a module that this build lacks,
+/// the message names the module; otherwise it lists the commands.
 void check_command(const CLI::App &p_app, const std::string &p_command) {
 	for (const auto &[command, module] : MODULES_OF_COMMANDS) {
 		const auto has_name = [&](const CLI::App *p_found) {

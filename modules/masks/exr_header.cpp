@@ -139,7 +139,7 @@ private:
 		}
 	}
 	/// Fails if blocks of lines, tiles or the table of tiles would need too much memory. Images
-	/// larger than a mask may be are refused by the caller, and by OpenEXR before it allocates
+	/// above the size limit of a mask are refused by the caller, and by OpenEXR before it allocates
 	/// memory. Sizes are up to 2^32 here and products of them could overflow, so limits are divided
 	/// instead.
 	void check_memory() const {
@@ -166,7 +166,7 @@ private:
 	std::span<const uint8_t> bytes;
 	const std::string &name;
 	size_t position = 0;
-	std::vector<size_t> unneeded_types; // positions of types that no mask needs
+	std::vector<size_t> unneeded_types; // positions of the types of attributes that no mask needs
 	int64_t channel_count = 0;
 	int64_t width = 0;
 	int64_t height = 0;

@@ -9,10 +9,10 @@ namespace gnomon {
 
 namespace {
 
-constexpr double REDUCED_ALBEDO = 0.98;		// of skin and marble; Jensen et al. 2001, figure 5
-constexpr double REFRACTIVE_INDEX = 1.3;	// of both; same figure
+constexpr double REDUCED_ALBEDO = 0.98;		// of red light in skin; Jensen et al. 2001, figure 5
+constexpr double REFRACTIVE_INDEX = 1.3;	// of skin; same figure
 constexpr double FRACTION_IN_RADIUS = 0.95; // fraction of the light that defines the radius
-constexpr uint32_t TABLE_SIZE = 4096;		// linear interpolation errs by below 1e-4
+constexpr uint32_t TABLE_SIZE = 4096;		// linear interpolation: fraction errs by below 1e-4
 constexpr double MAX_FRACTION = 1.0 - 1e-4; // 1 has an infinite distance
 
 /// The dipole model. Lengths are in mean free paths: 1 / (reduced extinction coefficient).

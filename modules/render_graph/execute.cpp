@@ -19,8 +19,8 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 	for (const Use &use : passes[p_pass_index].uses) {
 		Resource &resource = resources[use.resource];
 		if (use.access == Access::HOST_READ || use.access == Access::HOST_WRITE) {
-			// No barrier is needed: the end of a submission makes the GPU's writes visible to the
-			// host, and its begin makes the host's writes visible to the GPU.
+			// This use needs no barrier: the device makes the GPU's writes visible to the host at
+			// the end of each submission, and a submission sees all earlier writes of the host.
 			resource.last_access = use.access;
 			continue;
 		}
@@ -28,7 +28,7 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 		if (resource.first_pass == p_pass_index) {
 			if (!resource.is_texture && resource.earlier_users.empty()) {
 				resource.last_access = use.access;
-				continue; // earlier frames are ordered by the submission itself
+				continue; // the device orders submissions, see submit_commands()
 			}
 			barrier.before = resource.is_imported && resource.has_content && use.needs_content
 					? Access::SHADER_READ_COMPUTE

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: the renderer creates its graphs directly.
+// Nothing to register: callers create graphs directly.

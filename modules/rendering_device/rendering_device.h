@@ -171,9 +171,10 @@ public:
 	/// Starts recording. Waits while two submissions are in flight, and destroys freed resources
 	/// that the GPU no longer uses.
 	virtual CommandList &begin_commands() = 0;
-	/// Submits the recorded commands. WAIT: also waits until they have finished, so that READBACK
-	/// memory is valid. A swapchain image that a recorded barrier brought to Access::PRESENT is
-	/// presented.
+	/// Submits the recorded commands. They see all writes of earlier submissions and of the host,
+	/// and begin when earlier submissions have ended; their own writes are visible to the host when
+	/// they have finished. WAIT: also waits until they have finished, so that READBACK memory is
+	/// valid. A swapchain image that a recorded barrier brought to Access::PRESENT is presented.
 	enum class SubmitMode { QUEUE, WAIT };
 	virtual void submit_commands(SubmitMode p_mode) = 0;
 	/// Discards what was recorded since begin_commands, for when an Error ends a frame early. An

@@ -34,7 +34,7 @@ enum class Format {
 	RG32_SFLOAT,
 	RGBA8_UNORM,
 	RGBA8_SRGB,
-	BGRA8_UNORM, // for window images; only a render target
+	BGRA8_UNORM, // for window images
 	RGBA16_SFLOAT,
 	RGBA32_SFLOAT,
 	RGBA32_UINT,

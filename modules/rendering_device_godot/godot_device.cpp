@@ -418,7 +418,7 @@ void GodotDevice::submit_commands(SubmitMode p_mode) {
 		rd.submit();
 		is_submitted = true;
 	}
-	// Godot may have freed some of these objects since.
+	// Godot may have freed some of these objects with the resources that they use.
 	prune(uniform_sets,
 			[](const RD &p_rd, godot::RID p_rid) { return p_rd.uniform_set_is_valid(p_rid); });
 	prune(framebuffers,

@@ -10,7 +10,7 @@ namespace {
 
 // Below this, shaders that use subgroups would need more shared memory than they declare.
 const uint32_t MIN_SUBGROUP_SIZE = 4;
-// Of texel buffers that hold a large scene's faces. Desktop GPUs have at least this many.
+// Limit that lets texel buffers hold a large scene's faces. Desktop GPUs have at least this many.
 const uint32_t MIN_TEXEL_BUFFER_ELEMENTS = 1u << 26;
 
 /// The feature structures that Gnomon enables, chained.

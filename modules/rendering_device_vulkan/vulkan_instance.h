@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// Returns "VK_ERROR_DEVICE_LOST", or the number of a result that has no name here.
+/// Returns a result's name, such as "VK_ERROR_DEVICE_LOST", or its number if it has none here.
 std::string get_result_name(VkResult p_result);
 
 /// Lists everything that a Vulkan enumeration function returns, given its arguments before count

@@ -50,8 +50,8 @@ public:
 
 private:
 	struct Link {
-		uint64_t to = 0;				  // edge of the grid where it ends
-		glm::ivec2 point = glm::ivec2(0); // where it begins
+		uint64_t to = 0;				  // edge of the grid where the segment ends
+		glm::ivec2 point = glm::ivec2(0); // where the segment begins
 	};
 
 	/// Returns four times the alpha at a node, the sum over the texels around it: 0..1020; below 0

@@ -35,10 +35,11 @@ struct AlphaOutline {
 /// sampler the contour follows the texels' squares, simplified only if the tolerance is at least
 /// half a texel.
 ///
-/// A mask with more edges than p_edge_budget is simplified further, with a tolerance of up to one
-/// texel. If it still has more edges, as noise has, it becomes a half-tone: each block of texels
-/// gets a square, or a square hole, of the same area as the mask has there. The blocks are as small
-/// as the budget (at least 4 edges) allows; a tile that is one block with a hole has 8 edges.
+/// An outline with more edges than p_edge_budget is simplified further, with a tolerance of up to
+/// one texel. If it still has more edges, as noise has, it becomes a half-tone: each block of
+/// texels gets a square, or a square hole, of the same area as the opaque part has there. The
+/// blocks are as small as the budget (at least 4 edges) allows; a tile that is one block with a
+/// hole has 8 edges.
 AlphaOutline make_alpha_outline(
 		const AlphaTest &p_test, uint32_t p_edge_budget, double p_tolerance_px = 0.125);
 

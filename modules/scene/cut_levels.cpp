@@ -24,7 +24,7 @@ const double MIN_HALF_WIDTH_PER_RECEIVER_TOLERANCE = 4.5;
 // A coarse level that only few receivers could use is not worth its memory: the widest penumbra
 // must have this half width, in tolerances.
 const double MAX_HALF_WIDTH_PER_TOLERANCE = 5.5;
-const uint32_t MIN_LEVEL_STEP = 2; // to the coarse level: a fourth of the tolerance
+const uint32_t MIN_LEVEL_STEP = 2; // to the coarse level: at least four times the tolerance
 // Where the texture repeats within a triangle, the outline's error repeats too and does not average
 // out.
 const double REPEATED_TEXTURE_FACTOR = 2;

@@ -17,8 +17,8 @@ struct CutMesh {
 	/// mesh whose triangles are cut along the alpha contour, so that everything that reads
 	/// triangles and edges sees the holes. It has no texture coordinates and no colours.
 	std::shared_ptr<const Mesh> mesh;
-	/// Above 0: the mask has more edges than the budget, and squares replace blocks of this many
-	/// texels a side, see AlphaOutline.
+	/// Above 0: the outline of the texture's alpha has more edges than OutlineBudget allows, and
+	/// squares replace blocks of this many texels a side, see AlphaOutline.
 	uint32_t block_size_px = 0;
 	/// Hash of the exact alpha test, which the mesh only approximates; 0 if the material is not cut
 	/// out.

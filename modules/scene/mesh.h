@@ -49,8 +49,8 @@ struct MeshRig;
 /// vertex.
 struct MeshAttributes {
 	std::vector<glm::vec2> uvs[2]; // x along an image's rows, y down from its top
-	/// Direction on the surface in which u of the normal map grows. w is 1 or -1: v grows along the
-	/// cross product of normal and tangent, or against it.
+	/// Direction on the surface in which u of the normal map grows. w is 1 or -1: v decreases along
+	/// the cross product of normal and tangent, or grows along it.
 	std::vector<glm::vec4> tangents;
 	std::vector<glm::vec4> colors;		// linear, and alpha
 	std::shared_ptr<const MeshRig> rig; // how the mesh deforms; null: it does not
@@ -62,9 +62,9 @@ struct TrianglePoint {
 	glm::vec3 weights = glm::vec3(1, 0, 0); // barycentric weights; their sum is 1
 };
 
-/// For a mesh that was cut out of another, which is what the alpha test leaves of it (cut_mesh.h):
-/// the source triangle of each triangle. Face planes come from the source, because rounding tilts
-/// those of small triangles.
+/// For a mesh that the alpha test cut out of another one, its source (cut_mesh.h): the source
+/// triangle of each triangle. Face planes come from the source, because rounding tilts those of
+/// small triangles.
 struct MeshSource {
 	std::weak_ptr<const Mesh> mesh; // null: the mesh was not cut out of another
 	std::vector<uint32_t> triangles;

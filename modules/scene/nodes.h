@@ -46,8 +46,8 @@ public:
 	/// Index of this node in the source file, or -1. Saving uses it to preserve data that the
 	/// program does not understand.
 	int file_index = -1;
-	/// True: stage_scene (stage.h) added the node because the file lacks a camera or a light. Such
-	/// nodes are not saved.
+	/// True: stage_scene (stage.h) added the node, for example because the file lacks a camera or a
+	/// light. Such nodes are not saved.
 	bool is_staged = false;
 
 	virtual ~Node3D() = default;

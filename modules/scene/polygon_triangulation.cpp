@@ -218,7 +218,7 @@ void Triangulator::connect_helper(uint32_t p_edge, uint32_t p_point, bool p_alwa
 	}
 }
 
-/// Sorts the outgoing edges of a point clockwise, beginning with the one to the previous point.
+/// Sorts the outgoing edges of a point clockwise, from the direction to the previous point on.
 void Triangulator::sort_outgoing(uint32_t p_point) {
 	const glm::ivec2 origin = points[p_point];
 	const glm::ivec2 start = points[previous[p_point]];

@@ -23,8 +23,9 @@ const glm::dvec3 TO_CAMERA(-0.5, 0.45, 1.0);
 // Direction to the light: over the camera's other shoulder, so that the shadow falls where it is
 // visible.
 const glm::dvec3 TO_LIGHT(0.75, 1.6, 0.7);
-// Lengths in diagonals of the meshes' bounds. The largest light of a report, of radius 0.3, is
-// accurate from a distance of 5 radii on; corners can be 0.5 nearer than the centre.
+// Lengths in diagonals of the meshes' bounds. With the largest light of a report, of radius 0.3,
+// all techniques are usable from a distance of 5 radii on; corners can be 0.5 nearer than the
+// centre.
 const double LIGHT_DISTANCE = 2.2;
 const double LIGHT_SIZE = 0.1; // radius
 const double GROUND_HALF_WIDTH = 6.0;

@@ -43,9 +43,9 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 
-/// Adds a pass that writes a debug image with three array layers: per pixel the number of edges
-/// that were counted, the number of solids between it and the light's centre, and its block's kind
-/// (EDGE_COUNT_BLOCKS_*).
+/// Adds one pass for each kind of block. Returns a debug image with three array layers: per pixel
+/// the number of edges that were counted, the number of solids between its receiver and the light's
+/// centre, and its block's kind (EDGE_COUNT_BLOCKS_*).
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 

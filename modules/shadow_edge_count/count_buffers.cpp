@@ -59,7 +59,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	if (nodes && capacities.view_count == needed.view_count &&
 			capacities.texels_per_view == needed.texels_per_view &&
 			capacities.face_count == needed.face_count) {
-		// Capacities never shrink: a scene that oscillates about a limit reuses its buffers.
+		// The node capacity does not shrink: a scene that oscillates about a limit reuses buffers.
 		needed.nodes_per_view = std::max(needed.nodes_per_view, capacities.nodes_per_view);
 	}
 	if (nodes && capacities == needed) {

@@ -17,8 +17,8 @@ namespace gnomon {
 
 namespace {
 
-// Maximum number of faces, and of edges. Their indices must fit in 24 bits, see
-// EDGE_COUNT_FACE_MASK.
+// Maximum number of faces, and of edges. Their indices must fit in 24 bits (EDGE_COUNT_FACE_MASK)
+// and 26 bits (COUNT_EDGE_MASK in count_box_inc.glsl).
 constexpr uint32_t MAX_COUNT = 10'000'000;
 
 // With more triangles, casters have no second level of detail, so that it never exceeds the buffers
@@ -90,7 +90,7 @@ bool is_near_light(
 	return glm::length(nearest) <= WIDENING * p_disc_radius;
 }
 
-/// A mesh that an instance casts, one of two if it has levels of detail.
+/// A mesh that casts an instance's shadow, one of two if the instance has levels of detail.
 struct CasterMesh {
 	std::shared_ptr<const Mesh> mesh;
 	double first_half_width_m = 0; // see shader::CountCasterPush

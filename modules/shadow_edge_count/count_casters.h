@@ -47,7 +47,7 @@ struct CountCasters {
 
 /// Collects the casters of all views, and uploads their meshes where needed. p_disc_radius: R in
 /// metres; directional: the tangent of half the angular diameter. Throws an Error if there are more
-/// than 10,000,000 faces or edges: their indices have 24 bits.
+/// than 10,000,000 faces or edges: face indices have 24 bits, edge indices 26.
 CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius);
 
 /// Clears CountCaster::is_moved of casters with the same transform and pose as in p_before, which

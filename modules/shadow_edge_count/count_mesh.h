@@ -18,7 +18,7 @@ struct CountMesh {
 	std::vector<shader::CountMeshEdge> edges;
 	std::vector<shader::CountMeshFace> faces;
 	/// For each connected part of the mesh that this one was cut out of: centre and radius of a
-	/// sphere around the part before the alpha test (parts are connected by edges, not by winding).
+	/// sphere around the part before the alpha test (connected by edges, whatever their winding).
 	/// All levels of detail have the same source parts, so they switch at the same distance. One
 	/// point if the mesh was not cut out.
 	std::vector<glm::vec4> source_parts;

@@ -22,8 +22,7 @@ void add_count_properties(PropertyList &r_list) {
 			"", group });
 	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(256), "16,1024,16",
 			"Width and height of each map whose texels list the faces above them. It changes time "
-			"and "
-			"memory, never the image: more texels have shorter lists.",
+			"and memory, and the mask only by rounding: more texels have shorter lists.",
 			"px", group });
 	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(-1), "0,65536,1",
 			"Edges that one block of 8 x 8 pixels may have. Blocks with more are filtered with "

@@ -58,7 +58,7 @@ private:
 	bool has_casters = false;		// some caster has faces
 	bool may_filter = false;		// blocks may have more edges than the budget
 	bool are_casters_found = false; // the passes of add_find_passes were added
-	RGBuffer constants;				// CountLightConstants, for the passes that find faces
+	RGBuffer constants;				// CountLightConstants, for the passes of find_passes.h
 	RGTexture frame_depth_map;
 	RGTexture debug_image;
 };

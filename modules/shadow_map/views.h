@@ -5,8 +5,8 @@
 namespace gnomon {
 
 /// The mean of N hard shadow maps from N points of the light, as a brute-force baseline. Converges
-/// to the exact mask as N and the map size grow. Costs N times as much as a hard shadow map, every
-/// frame.
+/// to the exact mask as N and the map size grow (for a spot light only nearly, because its points
+/// are on one disc for all receivers). Costs N times as much as a hard shadow map, every frame.
 class Views : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;

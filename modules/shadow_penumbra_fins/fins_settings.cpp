@@ -11,9 +11,9 @@ namespace {
 
 // Beta, as a fraction of the scene size S, when the property is -1.
 constexpr float DEFAULT_BETA_PER_SCENE_SIZE = 0.25f;
-// From this number of triangles in a view on, one pass is faster than three peels on a software
-// driver: at 7,692 triangles three peels took 3.6 times as long as a shadow map and one pass 4.6
-// times, at 30,012 4.1 and 3.3 times (doc/benchmarks.md). Not measured on a GPU.
+// From about this number of triangles in a view on, one pass is faster than three peels on a
+// software driver: three peels are faster at 7,692 triangles, one pass is at 30,012
+// (doc/benchmarks.md). Not measured on a GPU.
 constexpr uint64_t ONE_PASS_MIN_TRIANGLES = 20000;
 
 int64_t read_int(const PropertyValues &p_properties, const std::string &p_name) {
@@ -25,8 +25,8 @@ const std::string &read_choice(const PropertyValues &p_properties, const std::st
 }
 
 FinMethod choose_method(const std::string &p_choice, const DeviceFeatures &p_features) {
-	// "auto" is compute: on a software driver it was faster from 7,692 triangles on, and 10 %
-	// slower at 1,996 (doc/benchmarks.md). Not measured on a GPU.
+	// "auto" is compute: on a software driver it is faster from 7,692 triangles on, and takes about
+	// as long at 1,996 (doc/benchmarks.md). Not measured on a GPU.
 	return p_choice == "geometry_shader" && p_features.geometry_shader ? FinMethod::GEOMETRY_SHADER
 																	   : FinMethod::COMPUTE;
 }

@@ -9,8 +9,8 @@ namespace {
 
 const double MIN_AREA_FRACTION = 0.05; // minimum area of a plane as a fraction of the lit area
 const size_t MAX_PLANE_COUNT = 16;
-// Maximum number of planes per instance. A mesh with more is taken as curved: faces in other planes
-// get none.
+// Maximum number of planes per instance, since a mesh with more is probably curved. Faces in
+// further planes get none.
 const size_t MAX_PLANES_PER_INSTANCE = 64;
 const double MAX_NORMAL_DEVIATION =
 		1e-6; // maximum of 1 - cosine between normals of faces in one plane

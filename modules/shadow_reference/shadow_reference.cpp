@@ -85,7 +85,7 @@ struct ShadowReference::Job {
 
 void ShadowReference::get_light_properties(PropertyList &r_list) const {
 	r_list.add({ "reference_samples", PropertyType::INT, int64_t(1024), "1,65536,1",
-			"Rays per pixel. The error falls faster than the square root of their number; "
+			"Rays per pixel. The error falls faster than 1 / sqrt(rays); "
 			"published "
 			"tables use 9216.",
 			"", "Reference" });

@@ -8,8 +8,9 @@ namespace gnomon {
 
 /// Pixel-exact hard shadows: stencil shadow volumes, extruded from each caster's silhouette away
 /// from the light's centre to infinity (GPU Gems 3, chapter 11; DOOM 3). A pixel is in shadow when
-/// its view ray does not enter and leave as many volumes. They are counted in front of the receiver
-/// (z-pass), or behind it where the camera may be inside a shadow volume (z-fail, with caps).
+/// its view ray does not leave as many volumes as it enters. They are counted in front of the
+/// receiver (z-pass), or behind it where the camera may be inside a shadow volume (z-fail, with
+/// caps).
 ///
 /// Spaces: silhouettes in node space, float32 (on the CPU in double); volumes in the camera's clip
 /// space; depths reversed, float32, compared with the receiver moved off its surface (by about

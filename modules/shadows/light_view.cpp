@@ -14,9 +14,9 @@ namespace {
 // the axis a texel covers a quarter of the angle that one in the centre covers. Six views of 90
 // degrees are better.
 constexpr float MAX_SINGLE_VIEW_RAD = 1.0471975512f;
-// Near plane as a fraction of S. Casters nearer than that are clamped to the near plane or clipped
-// there. Reversed float depth has enough precision: no error grows from far : near = 10 to 1e7
-// (doc/stability.md). With 1e-4, edge_count lost all shadows of casters nearer than that.
+// Near plane as a fraction of S. It is this near because casters nearer than that are clamped to
+// it or clipped there. Reversed float depth has enough precision: no error grows from far : near =
+// 10 to 1e7 (doc/stability.md).
 constexpr double NEAR_PER_SCENE_SIZE = 1e-8;
 // Keeps the view's extent finite for a cone of zero degrees.
 constexpr float MIN_TANGENT = 1e-4f;

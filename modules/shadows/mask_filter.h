@@ -55,7 +55,7 @@ using MaskFilterRegistry = Registry<MaskFilterInfo>;
 /// MaskFilterInfo::spread of the first filter that has one, for the reference; null: there is none.
 /// Call on the main thread, or on the render thread while the main thread waits for the frame.
 std::shared_ptr<const SurfaceSpread> find_surface_spread();
-/// Hash of the registered filters' ids. References and measured masks depend on it.
+/// Hash of the ids of the registered filters, on which references and measured masks depend.
 uint64_t compute_filter_hash();
 
 } // namespace gnomon

@@ -69,9 +69,9 @@ struct ShadowLimits {
 /// Computes, for one light, the fraction of its area that is visible from each pixel's surface.
 ///
 /// The shadow system owns one instance per shadow-casting light, and one more for each group of
-/// translucent casters (see sees_translucent_casters), and calls it on the render thread, each
-/// frame in the order in which the methods are declared here. Other modules know techniques by
-/// their ids only.
+/// translucent casters (see sees_translucent_casters), and calls it on the render thread: each
+/// frame get_light_views() to get_debug_views() in the order in which they are declared, the others
+/// when their comments say. Other modules know techniques by their ids only.
 class ShadowTechnique {
 public:
 	/// Valid from plan() to resolve() of one frame. All textures have the size `size_px`.
@@ -156,10 +156,10 @@ public:
 	/// Returns the visibility mask: R16_SFLOAT (R32_SFLOAT where the precision is needed), 0 =
 	/// hidden, 1 = fully lit, one texel per camera pixel, ready to be sampled. Never NaN.
 	virtual RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) = 0;
-	/// True: resolve() handles translucent casters itself and returns an RGB mask when there are
-	/// any (RGBA16_SFLOAT or RGBA32_SFLOAT). False: the technique runs once for the opaque casters
-	/// and once more for each group of translucent ones, as if they were opaque; the shadow system
-	/// then combines the masks into a coloured one (shadows/tint.comp).
+	/// Called at any time. True: resolve() handles translucent casters itself and returns an RGB
+	/// mask when there are any (RGBA16_SFLOAT or RGBA32_SFLOAT). False: the technique runs once for
+	/// the opaque casters and once more for each group of translucent ones, as if they were opaque;
+	/// the shadow system then combines the masks into a coloured one (shadows/tint.comp).
 	virtual bool sees_translucent_casters() const { return false; }
 	/// Called after resolve() while a debug view is shown.
 	virtual void get_debug_views(std::vector<DebugView> & /*r_views*/) const {}

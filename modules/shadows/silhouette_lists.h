@@ -46,7 +46,7 @@ struct SilhouetteLists {
 
 /// Lists the casters that have edges, and assigns each its ranges in the shared buffers.
 /// p_instances: ascending. Throws an Error when all casters together have more than 300
-/// million edges, since counts have 32 bits.
+/// million edges, since counts of their vertices (up to twelve an edge) have 32 bits.
 SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inputs,
 		const std::vector<uint32_t> &p_instances, uint32_t p_vertices_per_edge);
 

@@ -7,8 +7,9 @@
 
 namespace gnomon {
 
-/// Casters with the same transmittance of which no light ray hits two: one run of the technique
-/// computes their shadow, which has one colour.
+/// Casters with the same transmittance of which no light ray hits two (unless some were merged, see
+/// TranslucentCasters::merged_count): one run of the technique computes their shadow, which has one
+/// colour.
 struct TranslucentGroup {
 	std::vector<uint32_t> instances;
 	glm::vec3 transmittance = glm::vec3(0.0f); // per colour, 0..1, at least one below 1

@@ -9,10 +9,10 @@ namespace gnomon {
 
 namespace {
 
-// ROUNDING bounds the error of float32 positions (about 1e-7 relative) as a fraction of the
-// distances that a position is computed from: to the camera, of the instance's origin and bounds,
-// plus the bounds' diagonal. It also widens the range (relative) and the cone (rad). Receivers are
-// moved off their surfaces by 5e-5 S (receiver_inc.glsl); twice that is allowed for.
+// ROUNDING bounds the error of float32 positions (about 1e-7 relative) as a fraction of the lengths
+// that they are computed from: the distances of the instance's origin and bounds from the camera,
+// plus the bounds' diagonal. It also widens the light's range (relative) and cone (rad). Receivers
+// are moved off their surfaces by 5e-5 S (receiver_inc.glsl); twice that is allowed for.
 constexpr double ROUNDING = 1e-5;
 constexpr double OFFSET_PER_SCENE_SIZE = 1e-4;
 // The shader compares cosines in float32 (rounding error 6e-8). Near a cosine of 1 this margin is

@@ -13,10 +13,11 @@
 namespace gnomon {
 
 /// Computes the visibility of one light in double precision on the CPU, with 256 rays per point. It
-/// is slow and meant for few points, to separate rounding errors from errors of a method. As in the
-/// reference technique, the light is a disc of its radius that faces the point, and the ray origin
-/// is offset along the normal by RECEIVER_OFFSET times S. Unlike there, translucent casters count
-/// as opaque. Scene and light must outlive this object.
+/// is slow, and meant to separate rounding errors from errors of a method at few points, and for
+/// references that float32 makes too inaccurate. As in the reference technique, the light is a disc
+/// of its radius that faces the point, and the ray origin is offset along the normal by
+/// RECEIVER_OFFSET times S. Unlike there, translucent casters count as opaque. Scene and light must
+/// outlive this object.
 class DoubleVisibility {
 public:
 	static constexpr int SAMPLE_COUNT = 256; // rays per point

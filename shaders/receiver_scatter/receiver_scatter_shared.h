@@ -23,9 +23,9 @@
 
 // Radius at s = 1, in pixels, of the sampling disc of Wang and Xiao 2015, section 1.2.
 #define SCATTER_RADIUS_PX 16.0f
-// Our copy of the paper does not contain the disc's weights. Here they are
-// exp(-SCATTER_FALLOFF d / R), d: distance, R: radius. All rings have the same number of samples,
-// so the weight per area is that divided by d, which is close to the dipole's.
+// The paper's weights of the disc are not known. Here they are exp(-SCATTER_FALLOFF d / R), d:
+// distance, R: radius. All rings have the same number of samples, so the weight per area is that
+// divided by d, which is close to the dipole's.
 #define SCATTER_FALLOFF 3.0f
 
 // In the order of the choices of the light properties receiver_scatter_method and

@@ -5,8 +5,8 @@
 #include "shared/frame_shared.h"
 
 // Converts exposed linear radiance to sRGB-encoded bytes. The curve is the identity up to 0.8 and compresses larger
-// values to at most 1, so that the screen's luminance in a penumbra is proportional to the mask. The curve above 0.8 is
-// as in the Khronos PBR Neutral tone mapper, without its offset for small values.
+// values to at most 1, so that the screen's luminance in a penumbra is proportional to the mask. The curve above 0.8
+// has the form of the Khronos PBR Neutral tone mapper's, without its offset for small values.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
 layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;

@@ -17,8 +17,9 @@ layout(std430, set = 0, binding = FIND_BINDING_FACES) writeonly buffer Faces {
 
 const float FAR = 3e38;
 
-/// The part distance from which the penumbra at a source part has at least this half width. p_source_part: in light space. Precise,
-/// so that the range of one level of detail ends exactly where that of the other begins.
+/// The distance of a block's part (EDGE_COUNT_CHAIN_DISTANCE) from which on the penumbra at a source part of the mesh
+/// has at least this half width. p_source_part: centre and radius in light space. Precise, so that the range of one
+/// level of detail ends exactly where that of the other begins.
 float find_switch_distance(vec4 p_source_part, float p_half_width) {
 	precise const float reach = p_half_width / push.disc_radius; // directional: in metres, else a fraction
 	precise const float directional = p_source_part.z + p_source_part.w + reach;

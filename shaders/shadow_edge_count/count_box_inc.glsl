@@ -64,7 +64,7 @@ CountBounds unpack_count_bounds(CountBlockBox p_box) {
 struct CountBox {
 	vec4 above;		 // d <= dot(above, (q, 1))
 	vec4 below;		 // d >= dot(below, (q, 1))
-	float smooth_fraction; // edges with d from here on move by at most CountLightConstants::interpolation R in the box
+	float smooth_fraction; // see find_smooth_fraction
 	vec4 outside[4]; // rejects q where dot(outside, (q, 1)) > 0
 	// Rectangle and plane of the receivers, for the fifth plane and for find_count_side.
 	CountViewConstants view;
@@ -121,9 +121,10 @@ vec4 find_below(CountLightConstants p_light, CountViewConstants p_view, CountBou
 											: vec4(vec3(0.0), -COUNT_FAR);
 }
 
-/// CountBox::smooth_fraction. If a receiver moves by h across the light's direction, the image of an edge on the disc
-/// moves by h (1 - d) / d. If it moves along that direction by a fraction f of its distance, the image moves by less
-/// than f R / d. Directional: by h / d and, with f in metres, by f R / d.
+/// CountBox::smooth_fraction: the d from which on the image of an edge on the disc moves by at most
+/// CountLightConstants::interpolation, in R, between receivers of the box. If a receiver moves by h across the light's
+/// direction, the image moves by h (1 - d) / d. If it moves along that direction by a fraction f of its distance, the
+/// image moves by less than f R / d. Directional: by h / d and, with f in metres, by f R / d.
 float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
 	const float half_size = 0.5 * length(p_bounds.maximum - p_bounds.minimum);
 	const float half_range = 0.5 * (p_w_range.y - p_w_range.x);

@@ -1,4 +1,4 @@
-// Copies the light's constants to variables. llvmpipe takes one instruction to read a word of a uniform block at the
+// Copies the light's constants to variables. llvmpipe takes one instruction to read a word of a constant block at the
 // start of main(), and 20 within loops and branches. So main() starts with load_light(), or with
 // load_count_constants() of count_pixels_inc.glsl.
 #ifndef COUNT_CONSTANTS_INC_GLSL

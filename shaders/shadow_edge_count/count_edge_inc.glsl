@@ -207,7 +207,8 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 			leaves_a ? b : (leaves_b ? c : a), leaves_a ? a : (leaves_b ? b : c), minimum, maximum);
 	const vec3 enter = cut_count_offset(
 			enters_a ? a : (enters_b ? b : c), enters_a ? b : (enters_b ? c : a), minimum, maximum);
-	// This decides on which side of the line the light's centre is, by the same test as count_node, so that both agree.
+	// This decides on which side of the line the light's centre is, by the same test as count_crossings, so that both
+	// agree.
 	const bool is_between = is_in_front != is_count_light_in_front(p_plane);
 	const vec2 from = (is_in_front ? leave.xy : enter.xy) * p_receiver.inverse_radius;
 	const vec2 to = (is_in_front ? enter.xy : leave.xy) * p_receiver.inverse_radius;

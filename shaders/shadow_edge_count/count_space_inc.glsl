@@ -81,7 +81,7 @@ vec3 count_offset(CountReceiver p_receiver, vec3 p_point) {
 }
 
 /// True if the light's centre (X = 0) is to the left of an edge a -> b, given X of the edge's ends. Swapping a and b
-/// inverts the result, also where the centre is on the edge: such ties are resolved as if the receiver were moved by
+/// inverts the result, also where the centre is on the edge: such ties are resolved as if the edge's X were moved by
 /// (e, e^2), e > 0 and infinitesimal.
 bool is_count_left(vec2 p_a, vec2 p_b) {
 	const float side = count_cross(p_a, p_b);

@@ -15,9 +15,9 @@
 
 // Lists, for each part of a block's receivers, the edges that may matter to any of them, in the order of the light's
 // list. Then adds the block to the list of its kind. One subgroup processes one tile of blocks. First it finds the
-// bundles of edges that may matter to the tile. If no block has several parts, it tests the edges of these bundles
-// against the tile, and the remaining ones against the box of each part. Otherwise it tests the bundles against each
-// part's box, and then the edges of the remaining ones.
+// bundles of edges that may matter to the tile. If the tile has no more parts than blocks, it tests the edges of these
+// bundles against the tile, and the remaining ones against the box of each part. Otherwise it tests the bundles against
+// each part's box, and then the edges of the remaining ones. It does this for each light view.
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) readonly buffer Boxes {
 	CountBlockBox boxes[];

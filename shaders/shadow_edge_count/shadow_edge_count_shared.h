@@ -30,7 +30,7 @@ SHARED_SIZE(CountEdgeRecord, 32);
 /// The vertices of a face. Fetched as 3 x RGBA32_UINT. Planes of faces have a separate buffer,
 /// which edges read too. The face and its edges exist only for receivers whose part's distance (see
 /// EDGE_COUNT_CHAIN_DISTANCE) is in first_distance <= distance < end_distance: other receivers see
-/// another level of detail.
+/// another level of detail of the cut-out caster.
 struct SHARED_ALIGN CountFaceRecord {
 	uvec4 a_kind;			// float bits of the position; 0 or EDGE_COUNT_DOUBLE_SIDED
 	uvec4 b_first_distance; // float bits
@@ -44,8 +44,8 @@ SHARED_SIZE(CountFaceRecord, 48);
 #define EDGE_COUNT_NODE_CELLS_SHIFT 24
 #define EDGE_COUNT_NODE_CELLS_PER_SIDE 4
 
-/// The bounding box of EDGE_COUNT_BUNDLE_SIZE consecutive edges of the light's list, and of their
-/// distances (see CountFaceRecord). One test may reject them all.
+/// The bounding box of EDGE_COUNT_BUNDLE_SIZE consecutive edges of the light's list, and the range
+/// of their distances (see CountFaceRecord). One test may reject them all.
 struct SHARED_ALIGN CountEdgeBundle {
 	vec4 center_first_distance;
 	vec4 half_size_end_distance;
@@ -106,8 +106,8 @@ struct SHARED_ALIGN CountCasterPush {
 	uint flags;			  // EDGE_COUNT_CASTER_*
 	float disc_radius;	  // R in metres; directional: a tangent
 	float side_tolerance; // p_tolerance of count_find_light_side
-	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a source part (see CountMeshFace), in metres, from
-	// which receivers see this level of detail, and from which they see the next one.
+	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a source part (see CountMeshFace), in
+	// metres, from which receivers see this level of detail, and from which they see the next one.
 	float first_half_width;
 	float end_half_width;
 	float scale; // largest stretch of a length by light_from_node
@@ -118,7 +118,7 @@ SHARED_SIZE(CountCasterPush, 112);
 #define EDGE_COUNT_CASTER_MIRRORED 1u // light_from_node has a negative determinant
 #define EDGE_COUNT_CASTER_LAST 2u	  // the last caster that has edges
 #define EDGE_COUNT_CASTER_DIRECTIONAL 4u
-#define EDGE_COUNT_CASTER_LEVEL 8u // one of several levels of detail
+#define EDGE_COUNT_CASTER_LEVEL 8u // one of two levels of detail of a cut-out caster
 
 #define EDGE_COUNT_MAX_VIEWS 6
 // Each block of 8 x 8 pixels has bounds of its receivers and lists of edges. list_blocks.comp

@@ -9,8 +9,8 @@ layout(push_constant) uniform Push {
 layout(location = 0) in vec3 in_position_node;
 
 void main() {
-	// Every pass that draws casters from a light uses this same expression, so that their depths are equal to the last
-	// bit.
+	// Precise, so that all passes that draw a caster with this shader, such as those of depth peeling, have depths that
+	// are equal to the last bit.
 	precise vec4 position_clip = push.clip_from_node * vec4(in_position_node, 1.0);
 	gl_Position = position_clip;
 }

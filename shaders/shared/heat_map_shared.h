@@ -4,6 +4,6 @@
 #define HEAT_MAP_SHARED_H
 
 #define HEAT_MAP_RANGE 0.25f
-#define HEAT_MAP_NO_RECEIVER 96 // grey level of 255, which no error has
+#define HEAT_MAP_NO_RECEIVER 96 // grey level, 0..255; no error has a grey colour
 
 #endif

@@ -60,7 +60,7 @@ def describe_machine(load):
     cores = os.cpu_count() or 1
     return "%s: %s, %d cores; %s, %s. Load when it began: %.1f%s." % (
         datetime.date.today().isoformat(), describe_processor(), cores, device, driver, load,
-        " - other work ran at the same time, so the times are too long" if load > 1.5 else "")  # fmt: skip
+        " - other work ran at the same time, so times, if there are any, are too long" if load > 1.5 else "")  # fmt: skip
 
 
 def publish_tables(tables, measured, writes):

@@ -66,7 +66,7 @@ def make_plain_scenes(folder):
 
 def make_images(groups, folder):
     """Return all images of the groups. Scenes that the repository lacks are written to the folder. Exits if a package mesh
-    cannot be converted, because the goals are means over all of them."""
+    cannot be converted, because the goals of measure_edge_count.py are means over all of them."""
     images = []
     if STUDY in groups:
         paths = [os.path.join(driver.SCENES, name + ".gltf") for name in STUDY_SCENES]

@@ -118,7 +118,7 @@ def build_times(scenes):
             opaque = make_opaque(scene, folder)
             path = os.path.join(SCENES, scene + ".gltf")
             compared = [(path, "edge_count"), (opaque, "edge_count"), (path, "pcss")]
-            # The others of leaves take minutes each.
+            # The other lights of the scene leaves take minutes each.
             lights = [row for row in list_lights(scene) if scene != "leaves" or row[0] == "Spot"]
             runs_by_light = [[] for _ in lights]
             for _ in range(TIMED_RUNS):

@@ -37,7 +37,7 @@ TIME_SIZES = {STUDY: "512x512", PLAIN: "800x800", PACKAGES: "512x512", ARTISTS: 
 TIMED_FRAMES = 20
 MAP_SIZES = (256, 1024)
 PCSS = ("pcss", ("pcss_taps=64",))
-RECEIVERS_PASS = "receivers"  # a pass of the renderer, the same for every technique
+RECEIVERS_PASS = "receivers"  # a pass of the shadow system, the same for every technique
 GRASS = "grass"  # this scene has goals for errors, but not for times
 MEMORY_SIZE = "1920x1080"
 SMALLEST_SIZE = "16x16"
@@ -199,7 +199,7 @@ def measure_maps(images, folder, _rounds):
 
 
 def get_pass_times(result, clock):
-    """Return pass name -> ms, without the renderer's pass. The views of a light are summed. clock: gpu_ms or wall_ms."""
+    """Return pass name -> ms, without RECEIVERS_PASS. The views of a light are summed. clock: gpu_ms or wall_ms."""
     if all(item["name"] != RECEIVERS_PASS for item in result["passes"]):
         names = ", ".join(item["name"] for item in result["passes"])
         raise SystemExit("ERROR: the measured light has no pass %s. Its passes: %s. Change RECEIVERS_PASS." % (RECEIVERS_PASS, names))
@@ -343,7 +343,7 @@ def measure_motion(images, folder, _rounds):
     goals = Goals()
     what = "temporal error over that of %d samples" % MOTION_SAMPLES
     goals.add_worst(what, 1.1, ratios)
-    header = ("image", "temporal error", "of %d samples, a new scramble each frame" % MOTION_SAMPLES)
+    header = ("image", "temporal error", "of %d samples, a new pattern each frame" % MOTION_SAMPLES)
     return [*goals.format(), "", *format_table(header, rows)]
 
 

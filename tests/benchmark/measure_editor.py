@@ -22,7 +22,6 @@ from editor_case import EditorCase  # noqa: E402
 START_COUNT = 5
 START_GOAL_S = 2.0
 DRAG_COUNT = 4  # mouse drags, of DRAG_STEPS steps each
-FRAME_MS = 16  # frame time of the interface
 
 
 class EditorBenchmark(EditorCase):
@@ -41,7 +40,7 @@ class EditorBenchmark(EditorCase):
         return seconds
 
     def drag_size(self, is_traced=False):
-        """Drag a light's size. Return the milliseconds from each mouse step to the frame that shows it."""
+        """Drag a light's size. Return the duration in ms of each frame that changed the scene since the editor started."""
         for _ in range(DRAG_COUNT):
             if is_traced:
                 self.wait_for(lambda state: state["error"]["is_tracing"] and state["error"]["rays"] >= 16)

@@ -104,7 +104,7 @@ def measure_rules(options):
 
 
 def measure_lights(options):
-    # Only with the rules: without them 256 lights take seconds per frame. The other table compares both for 12 lights.
+    # Only with the rules: without them 256 lights take seconds per frame. The other table compares both for 12 hidden ones.
     cases = [("4 in view", 0), ("4 in view of %d" % (4 + HIDDEN_COUNT), HIDDEN_COUNT)]
     rows = []
     with tempfile.TemporaryDirectory() as folder:

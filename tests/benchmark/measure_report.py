@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the whole `gnomon report`; --write puts its ranking, errors in the study's scenes, scaling and plots into doc/benchmarks.md.
+"""Runs `gnomon report` without its stability sweeps; --write puts its ranking, errors in the study's scenes, scaling and plots
+into doc/benchmarks.md.
 
     measure_report.py [--write] [--out DIR] [--resume] [--no-run]
 
@@ -72,7 +73,8 @@ def build_ranking(report):
 
 
 def build_study(report):
-    """Build the table of mean errors over the study's scenes, over all receivers and over those that see the whole light."""
+    """Build the table of mean errors over the study's scenes, over all receivers and over those with the whole light above
+    their horizon."""
     errors = {}
     best = {}
     for cell in report["cells"]:
@@ -90,7 +92,7 @@ def build_study(report):
         ("`%s`" % technique, setting, *("%.3f" % statistics.mean(pair[index] for pair in pairs) for index in (0, 1)), len(pairs))
         for (technique, setting), pairs in sorted(errors.items())
     ]
-    return format_table(("technique", "setting", "MAE, all receivers", "MAE, whole light seen", "cells"), rows)
+    return format_table(("technique", "setting", "MAE", "MAE, whole disc above the horizon", "cells"), rows)
 
 
 def format_value(value):

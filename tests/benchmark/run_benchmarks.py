@@ -90,7 +90,7 @@ def measure_shadow_map():
         passes = measure_passes(scene, "shadow_map")
         depth = sum(value for name, value in passes.items() if name.startswith("depth view"))
         compare = passes.get("resolve", 0.0)
-        receivers = passes.get("receivers", 0.0)  # a pass of the renderer, the same for every technique
+        receivers = passes.get("receivers", 0.0)  # a pass of the shadow system, the same for every technique
         total = passes[""]
         rest = max(0.0, total - depth - compare - receivers)
         rows.append(

@@ -194,8 +194,9 @@ def find_problems(state, expected_plot_count):
 def check_page(path, expected_plot_count=None, screenshot_folder=None):
     """Return a list of what is wrong with the page, at both widths.
 
-    Plots are the elements <svg class="plot">: the overview, one per configuration of the matrix with a measured cell, and
-    one per scaling curve with a point. If a folder is given, screenshots of the whole page are written there."""
+    Plots are the elements <svg class="plot">: the overview, one per configuration of the matrix with a measured cell,
+    one per scaling curve with a point, two per light of an animated scene, and one per stability sweep with an error. If a
+    folder is given, screenshots of the whole page are written there."""
     problems = []
     url = pathlib.Path(path).resolve().as_uri() + "#all"
     with Browser() as browser:

@@ -31,7 +31,7 @@ QUADS = {
 
 
 def write_scene(folder):
-    """Write the scene of embed.cpp as a glTF file. All numbers are exact in float32, and nothing is rotated."""
+    """Write the scene of embed.cpp as a glTF file. All coordinates are exact in float32, and nothing is rotated."""
     scene = Document(8)
     material = scene.add_material("plain", (1.0, 1.0, 1.0), is_double_sided=True)
     for name, (corner, right, up) in QUADS.items():

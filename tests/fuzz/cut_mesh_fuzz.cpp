@@ -22,8 +22,9 @@ const uint32_t MIN_EDGE_COUNT = 4; // smallest budget of outline edges
 // A triangle of the mesh overlaps at most so many parts of a clamped texture plane, or tiles next
 // to those that it covers.
 const uint64_t MAX_OVERLAPPED_PARTS = 9;
-// Budgets count edges, and long triangles test more edges than they cover. The three sides of a
-// mesh triangle cut a triangle of an outline into up to four, and also split its uncut neighbours.
+// Budgets count edges of outlines, those beside a long, thin triangle only as a quarter
+// (LONG_TILES_PER_TILE of outlined_texture.cpp). The three sides of a mesh triangle cut a triangle
+// of an outline into up to four, and also split its uncut neighbours.
 const uint64_t MAX_TRIANGLES_PER_EDGE = 32;
 
 /// Reads values from the front of the input, and zeros after its end.

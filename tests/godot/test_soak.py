@@ -21,7 +21,7 @@ import make_foliage_scenes  # noqa: E402
 
 FRAMES = 2000
 WALK_FRAMES = 1000
-SETTLED = 200  # frames; after so many the room has shown everything once
+SETTLED = 200  # frames; after so many the motion of the room starts again
 NAMES = ("objects", "nodes", "resources", "bytes of textures", "bytes of buffers", "bytes of the device")
 PROCESS_GROWTH = 1.1  # allowed factor of the process's memory, which the allocator and the driver round up
 

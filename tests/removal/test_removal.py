@@ -4,7 +4,7 @@
     test_removal.py [--all] [--module NAME] [--jobs N]
 
 Without --all and --module the technique with the fewest bytes of C++ source files is removed. --all removes every module that
-registers a technique, in turn.
+registers a technique, in turn. Mask filters count as techniques here.
 The copy includes the build folder, so that mainly the link has to be repeated.
 """
 

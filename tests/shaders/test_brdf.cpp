@@ -10,7 +10,8 @@ namespace {
 
 constexpr double PI = 3.14159265358979;
 
-/// Angles in radians: light and viewer from the normal, and viewer about it from the light's side.
+/// Angles in radians: of light and viewer from the normal, and the viewer's azimuth about the
+/// normal, from the light's side.
 struct Directions {
 	double light = 0;
 	double viewer = 0;

@@ -115,7 +115,7 @@ private:
 		return { ids.begin(), ids.end() };
 	}
 
-	/// Sets a random technique with few rays, taps and texels: the test checks invariants, not
+	/// Sets a random technique with few rays, views and texels: the test checks invariants, not
 	/// precision.
 	void use_cheap_settings(Light3D &r_light) {
 		for (const std::string &id : list_techniques()) {

@@ -4,7 +4,8 @@ extends Node
 ## A case is a light and a caster, or a file and one of its lights. Modes are gnomon, and low and ultra for Godot's own shadows.
 ##   CASE_MODE.f32  image with shadow / image without, float32, rows from the top; -1 where the light does not shine
 ##   CASE.gltf      the scene
-##   cases.json     of each case the light's name, and for each mode the median frame time in ms while the light moves
+##   cases.json     of each case the light's name, and for each mode and "off" (without shadows) the median frame time
+##                  in ms while the light moves
 
 var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20", "cases": "", "scenes": "", "technique": "edge_count"})
 var _cases := {}
@@ -69,7 +70,7 @@ func _measure(case: String, light: Light3D) -> void:
 		if mode == "off":
 			lit = image
 		else:
-			_options.store_values("%s_%s.f32" % [case, mode], _divide(image, lit))
+			_options.store_bytes("%s_%s.f32" % [case, mode], _divide(image, lit))
 	_cases[case] = {"light": light.name, "times": times}
 
 

@@ -75,4 +75,4 @@ func _store(what: String) -> void:
 		await RenderingServer.frame_post_draw
 	var image := get_viewport().get_texture().get_image()
 	image.convert(Image.FORMAT_RGBF)
-	_options.store_values("room_%s.f32" % what, image.get_data())
+	_options.store_bytes("room_%s.f32" % what, image.get_data())

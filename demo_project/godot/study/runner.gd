@@ -7,8 +7,8 @@ extends Node
 ##   PATH.gltf/LIGHT/TECHNIQUE  a light of a glTF file; LIGHT@SECONDS poses the file's animation at that time
 ## It stores the mask LIGHT_CASTER_TECHNIQUE.f32 (float32, rows from the top, -1: no receiver) and the scene LIGHT_CASTER.gltf.
 ## Instead of LIGHT_CASTER, names begin with imported_LIGHT or FILE_LIGHT. Posed scenes are not stored.
-## Without cases= it renders all cases of StudyScene and three_lights.tscn, the lights file_lights=PATH.gltf/LIGHT,... with
-## edge_count, and the lights cut_out_lights=PATH.gltf/LIGHT,... with each of CUT_OUT_TECHNIQUES.
+## Without cases= it renders all cases of StudyScene with each of TECHNIQUES, three_lights.tscn and the lights
+## file_lights=PATH.gltf/LIGHT,... with edge_count, and the lights cut_out_lights=PATH.gltf/LIGHT,... with each of CUT_OUT_TECHNIQUES.
 
 const IMPORTED := "imported"
 const IMPORTED_LIGHTS: Array[String] = ["Spot", "Omni", "Sun"]
@@ -69,7 +69,7 @@ func _run_case(case: String) -> void:
 		other.visible = other == shadow
 	await _wait_for_casters(shadow)
 	var reader := MaskReader.new(shadow)
-	_options.store_values("%s_%s.f32" % [stem, parts[2]], (await reader.read()).get_data())
+	_options.store_bytes("%s_%s.f32" % [stem, parts[2]], (await reader.read()).get_data())
 	for other: Node3D in shadows:
 		other.visible = true  # `gnomon` does not read files with hidden nodes
 	if not is_posed:  # a posed scene is compared with its own file

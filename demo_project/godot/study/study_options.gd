@@ -32,7 +32,7 @@ func path(file_name: String) -> String:
 	return text("out").path_join(file_name)
 
 
-func store_values(file_name: String, bytes: PackedByteArray) -> void:
+func store_bytes(file_name: String, bytes: PackedByteArray) -> void:
 	FileAccess.open(path(file_name), FileAccess.WRITE).store_buffer(bytes)
 
 

@@ -1,6 +1,6 @@
 class_name StudyScene
 extends Node3D
-## The scene that Godot's own shadows were measured in: a plane, one caster, one light, a camera.
+## The scene in which Gnomon's and Godot's shadows are compared: a plane, one caster, one light, a camera.
 
 const LIGHTS: Array[String] = ["omni", "spot", "directional"]
 const CASTERS: Array[String] = ["box", "post", "sphere", "torus"]

@@ -86,7 +86,8 @@ TEST_CASE("[AtomicSave] a save killed at a random time leaves the complete old o
 	const fs::path file = folder.path / "a";
 	const std::string first = make_content('a');
 	const std::string second = make_content('b', 3 * LARGE_BYTES);
-	// Not save_file_atomically: then the child processes would not clean up the folder.
+	// Not save_file_atomically: it cleans up a folder once, and the child processes would inherit
+	// that this one is done.
 	std::ofstream(file) << first;
 	std::mt19937 random(20100901);
 	std::uniform_int_distribution<int> choose_us(0, 30000);

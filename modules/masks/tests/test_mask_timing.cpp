@@ -76,7 +76,8 @@ TEST_CASE("[MaskTiming] each pass has the median of its frames, the total that o
 	CHECK(timing.passes[0].cost.wall_ms == 4);
 	CHECK(timing.passes[1].cost.gpu_ms == 4);
 	CHECK(timing.passes[1].cost.wall_ms == 5);
-	// Sums of the frames are 10, 7, 7 and 12, 9, 9: not the passes' medians added.
+	// Sums of the frames are 10, 7, 7 and 12, 9, 9. Their 90th percentiles are not the sums of the
+	// passes' percentiles.
 	CHECK(timing.total.gpu_ms == 7);
 	CHECK(timing.total.gpu_ms_p90 == doctest::Approx(9.4));
 	CHECK(timing.total.wall_ms == 9);

@@ -11,9 +11,10 @@ namespace gnomon {
 
 /// Finds exactly the silhouette edges that the shaders find: a C++ version of silhouette_inc.glsl
 /// with the same float32 operations in the same order. Returns ascending indices into
-/// MeshTopology::edges: all boundary edges, and the edges between a light-facing and a back-facing
-/// face. These are the edges of build_silhouette, except that they may differ where the light is in
-/// the plane of a face up to rounding.
+/// MeshTopology::edges: all boundary edges, the edges between a light-facing and a back-facing
+/// face, and inconsistent edges whose faces are both light-facing or both back-facing. These are
+/// the edges of build_silhouette, except that they may differ where the light is in the plane of a
+/// face up to rounding.
 std::vector<uint32_t> find_silhouette_edges(
 		const MeshTopology &p_topology, const glm::vec4 &p_light_position_node);
 

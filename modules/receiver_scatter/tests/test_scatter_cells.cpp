@@ -51,7 +51,7 @@ TEST_CASE("[GPU][ReceiverScatter] each disc cell has one point, whose weight fal
 				const double around = angle_fraction * sector_count - input[i].z;
 				CHECK(along > -1e-3);
 				CHECK(along < 1.001);
-				// Near the centre and the start of the first sector, rounding may wrap the angle.
+				// Near the centre, rounding may move a point into another sector.
 				CHECK((distance < 1e-3 || (around > -1e-3 && around < 1.001)));
 				CHECK(results[i].z == doctest::Approx(std::exp(-3 * distance / radius_px)));
 				along_sum += along;

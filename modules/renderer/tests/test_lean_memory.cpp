@@ -75,7 +75,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 	};
 	for (const std::string &id : ids) {
 		if (ShadowRegistry::get(id).is_reference) {
-			continue; // it traces rays on the CPU and uses no GPU resources
+			continue; // it traces rays on the CPU, without pipelines of its own
 		}
 		CAPTURE(id);
 		const ResourceUse among_others = measure(id);

@@ -77,7 +77,7 @@ glm::dvec4 sample(const Texture &p_texture, glm::dvec2 p_uv, bool p_is_srgb) {
 struct Texels {
 	std::vector<uint8_t> base_color, normal, material, emissive, depth;
 
-	glm::dvec4 get_base_color(uint32_t p_pixel) const { // linear
+	glm::dvec4 get_base_color(uint32_t p_pixel) const { // sRGB-encoded; alpha is linear
 		glm::dvec4 color;
 		for (int channel = 0; channel < 4; ++channel) {
 			color[channel] = base_color[p_pixel * 4 + uint32_t(channel)] / 255.0;

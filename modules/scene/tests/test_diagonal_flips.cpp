@@ -70,7 +70,7 @@ TEST_CASE("[DiagonalFlips] the diagonal of a concave quadrilateral stays") {
 	const std::vector<uint32_t> before = triangles;
 	shorten_diagonals(points, triangles);
 	CHECK(triangles == before);
-	// Nor does a quadrilateral that would leave a triangle without area.
+	// Nor is a diagonal flipped if that would leave a triangle without area.
 	const PolygonLoop flat = { { 0, 0 }, { 10, -3 }, { 5, 0 }, { 10, 3 }, { 10, 0 } };
 	std::vector<uint32_t> flat_triangles = { 0, 1, 2, 0, 2, 3, 1, 4, 2, 4, 3, 2 };
 	shorten_diagonals(flat, flat_triangles);

@@ -147,8 +147,8 @@ TEST_CASE("[GPU][EdgeCount] a light inside a solid or below the ground leaks no 
 			scene.light->parent_from_node = transform;
 			CHECK(compare_with_reference(fixture, scene).mean < 0.001);
 		}
-		// Partly inside a solid, the light is too dark, see "Known failures" in
-		// doc/techniques/edge_count.md. Rendering must only not fail.
+		// Partly inside a solid, and exactly at its corner, see "Known failures" in
+		// doc/techniques/edge_count.md: rendering must only not fail.
 		scene.light->parent_from_node = look_at({ 0.45, 0.75, 0.05 }, { 1.0, 0, 0.01 });
 		render_frame(fixture, scene);
 		scene.light->parent_from_node = look_at({ 0.5, 1.3, 0.4 }, { 0, 0, 0 });
@@ -263,8 +263,8 @@ TEST_CASE("[GPU][EdgeCount] a caster scaled down towards the light casts the sam
 				dark_count += frame.receiver[index] > 0 && frame.visibility[index] < 0.5f ? 1 : 0;
 			}
 			CHECK(dark_count > 100);
-			// Not exactly equal: the ground is not infinitely far, so the shadow of the largest
-			// caster is a little smaller.
+			// Not exactly equal: the ground is not infinitely far, so the penumbra of the largest
+			// caster is a little narrower.
 			CHECK(difference / double(first.size()) < 0.02);
 		}
 	}

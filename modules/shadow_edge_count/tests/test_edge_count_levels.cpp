@@ -32,7 +32,7 @@ Material make_leaf_material() {
 	return material;
 }
 
-/// The source parts of a mesh whose triangles show the leaf, given three corners each.
+/// Cuts a mesh of triangles that show the leaf, given three corners each, and converts the result.
 CountMesh cut_triangles(const std::vector<glm::vec3> &p_corners) {
 	MeshAttributes attributes;
 	std::vector<uint32_t> indices;
@@ -118,7 +118,8 @@ TEST_CASE("[EdgeCount] source parts are connected by edges, whatever their windi
 		CHECK((face.kind & EDGE_COUNT_SOURCE_PART_MASK) < 2);
 	}
 	CHECK(apart.faces.front().kind != apart.faces.back().kind);
-	// Two corners at the same place: no face of the mesh has a part of its topology.
+	// Two corners at the same position: the source's topology drops the triangle, which still is a
+	// source part.
 	CHECK(cut_triangles({ low, low, { 1, 0, 0 } }).source_parts.size() == 1);
 }
 

@@ -1,4 +1,5 @@
-// Blocks whose edges are all far away: 16 of the 64 pixels are counted, the others interpolated.
+// Blocks of 8 x 8 pixels whose edges are all far from the receivers: 16 pixels are counted, the
+// others interpolated.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -62,7 +63,7 @@ TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as
 		const MaskResult interpolated = render_interpolated(fixture, scene, 0.5);
 		const Change change = compare(counted, interpolated);
 		CHECK(change.count > 2000);
-		CHECK(change.maximum < 0.04f); // about ten of 256 points
+		CHECK(change.maximum < 0.04f); // about ten of the light's 256 points
 		if (has_reference()) {
 			const MaskResult reference = render_reference(fixture, scene, SIZE_PX, 4096);
 			const double error = compare_masks(counted.visibility, reference).penumbra_mean;

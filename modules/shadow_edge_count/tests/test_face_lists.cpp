@@ -41,7 +41,8 @@ struct Lists {
 	std::vector<uint32_t> totals;
 };
 
-/// Runs the passes that list the faces of one view. p_totals: what an earlier frame left.
+/// Runs the passes that list the faces of one view. p_totals: content of the buffer `totals` after
+/// an earlier frame.
 Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces,
 		bool p_is_directional, const shader::CountLightConstants &p_light,
 		const std::vector<uint32_t> &p_totals = std::vector<uint32_t>(EDGE_COUNT_TOTAL_COUNT)) {
@@ -130,8 +131,8 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 	KernelFixture fixture;
 	TestRandom random;
 	size_t pair_count = 0;
-	size_t listed_count = 0; // faces in the lists of texels of positions
-	size_t cell_count = 0;	 // those in the cells of the positions
+	size_t listed_count = 0; // faces in the lists of the positions' texels
+	size_t cell_count = 0;	 // of these, in the positions' cells (4 x 4 in each texel)
 	for (const bool is_directional : { false, true }) {
 		for (const uint32_t map_size_px : { 1u, 16u, 48u, 256u }) {
 			CAPTURE(is_directional);

@@ -17,7 +17,7 @@ struct Cube {
 	glm::dvec3 centre;
 	double half_m;
 };
-// Figure 7 of the paper: a small cube over a large one, both in the air over the ground.
+// Figure 7 of Sun et al. 2010: a small cube over a large one, both in the air over the ground.
 const Cube UPPER = { { 0, 3.2, 0 }, 0.4 };
 const Cube LOWER = { { 0, 1.9, 0 }, 0.8 };
 

@@ -204,8 +204,9 @@ TEST_CASE("[GPU][PenumbraFins] inner fins of edges that the light does not see a
 }
 
 TEST_CASE("[GPU][PenumbraFins] beta drops the inner fins deep in a solid that hides their edge") {
-	// Figure 4 (b) of the paper. The silhouette at the foot of a mushroom is hidden by the cap. Its
-	// inner fin is inside the stem and in front of the second layer, so only beta removes it.
+	// Figure 4 (b) of Sun et al. 2010. The silhouette at the foot of a mushroom is hidden by the
+	// cap. Its inner fin is inside the stem and in front of the second layer, so only beta removes
+	// it.
 	FinsFixture fixture;
 	const auto draw = [&](const std::vector<glm::vec2> &p_profile, float p_beta_m) {
 		SmallScene scene = make_scene(share_mesh("lathed", make_lathed(p_profile)));

@@ -71,8 +71,8 @@ TEST_CASE("[DiscSamples] cover the disc evenly for every count and scramble") {
 }
 
 TEST_CASE("[DiscSamples] 256 points put 64 in each quadrant of the disc") {
-	// The map to the disc turns quadrants of the square into quadrants of the disc, rotated by 45
-	// degrees. A (0,2)-net has a quarter of its points in each.
+	// The map to the disc turns each quadrant of the square into the same quadrant of the disc. A
+	// (0,2)-net has a quarter of its points in each.
 	const DiscSamples samples(256, 1);
 	DiscSamples::Packet packet;
 	unsigned counts[4] = {};
@@ -255,7 +255,7 @@ TEST_CASE("[Reference] progress rises to 1 on the calling thread, and may stop t
 	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete); // all threads
 
 	is_cancelled = false;
-	options.thread_count = 1; // others might have traced all tiles before this one is called
+	options.thread_count = 1; // with more, others might trace all tiles before the first call
 	options.progress = [&](float) { is_cancelled = true; };
 	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete);
 

@@ -42,7 +42,7 @@ TEST_CASE("[GPU][ShadowVolume] all ways to make and count volumes give the same 
 					{ { "extrusion", std::string(extrusion) }, { "scissor", false } }));
 		}
 		check_same(render_volumes(fixture, scene, {}, "shadow_volume", glm::uvec2(128), false));
-		// In double precision, a face in the light's plane may be classified differently.
+		// In double precision, a face that is edge-on to the light may be classified differently.
 		const MaskResult on_cpu = render_volumes(fixture, scene, {}, "shadow_volume_cpu");
 		CHECK(compute_mask_difference(first, on_cpu) < 1e-4);
 		check_against_rays(scene, on_cpu);

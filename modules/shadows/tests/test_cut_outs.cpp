@@ -90,7 +90,7 @@ TEST_CASE("[GPU][CutOuts] a cut-out caster has exactly the shadow of a mesh with
 		CardScene whole(p_type);
 		for (CardScene *scene : { &cut_out, &holes, &whole }) {
 			use_cheap_settings(*scene->light);
-			// So small that all receivers get the same level of detail.
+			// The light is so small that all receivers get the same level of detail.
 			scene->light->properties["light_size"] = 0.02;
 			scene->light->properties["light_angular_distance"] = 0.3;
 		}

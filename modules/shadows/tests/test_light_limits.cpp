@@ -109,7 +109,7 @@ TEST_CASE("[LightLimits] a caster is searched again only when it or the light mo
 	scene.light->parent_from_node[3].y += 0.4;
 	CHECK(count_exceeded({}) == 0);
 	CHECK(limits.get_search_count() == 3);
-	CHECK(count_exceeded({ .min_caster_distance_radii = 3 }) == 1); // 0.6 m
+	CHECK(count_exceeded({ .min_caster_distance_radii = 3 }) == 1); // 0.6 m, faces at 0.5 m
 	CHECK(limits.get_search_count() == 4);
 }
 

@@ -212,4 +212,4 @@ func test_large_meshes_cast_once_their_edges_are_found() -> void:
 	await draw_frames(1)
 	while scene.shadow.count_pending_casters() > 0:
 		await draw_frames(1)
-	check(count_darker(await read(scene)) > 500, "a mesh of 65,536 triangles casts")
+	check(count_darker(await read(scene)) > 500, "a mesh of 66,048 triangles casts")

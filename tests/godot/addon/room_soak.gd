@@ -1,7 +1,7 @@
 extends Node
 ## Draws frames of room/room.tscn as a game does. First argument: number of frames. Prints Godot's resource counts every 100 frames.
 
-const LOOP_FRAMES := 200  # after which the camera has shown everything once
+const LOOP_FRAMES := 200  # after which the motion of the room starts again
 const STEP_S := 0.1
 
 

@@ -198,7 +198,7 @@ func test_antialiasing_over_time_leaves_the_mask_where_it_is() -> void:
 	get_viewport().use_taa = true
 	for frame in 4:
 		var found := await read(scene)
-		var different_count := count_different(plain, found, 0.1)  # outlines, and where the box touches its shadow
+		var different_count := count_different(plain, found, 0.1)  # outlines, and where the sphere touches its shadow
 		check(different_count < 600, "frame %d: %d pixels differ by more than 0.1" % [frame, different_count])
 	get_viewport().use_taa = false
 	await draw_frames(2)
