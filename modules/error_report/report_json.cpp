@@ -380,7 +380,7 @@ Json to_json(const Report &p_report) {
 	Json json = { { "format", REPORT_FORMAT }, { "version", REPORT_VERSION } };
 	describe(Writer{ json }, p_report);
 	for (size_t index = 0; index < p_report.configurations.size(); ++index) {
-		if (!p_report.configurations[index].is_stability()) {
+		if (p_report.configurations[index].is_matrix()) {
 			json["configurations"][index]["pareto"] = find_pareto_front(p_report, index);
 		}
 	}
