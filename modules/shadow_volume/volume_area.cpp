@@ -10,7 +10,8 @@ namespace {
 
 const size_t CORNER_COUNT = 8;
 const double MARGIN_PX = 2.0; // rounding of the rasteriser, and CameraSnapshot::shift: one each
-// may_shade_near_plane grows boxes by these fractions of the near distance and of their diagonal.
+// Against rounding, may_shade_near_plane grows boxes by these fractions of the near distance and of
+// their diagonal; and by a pixel at the near distance, for CameraSnapshot::shift.
 const double MARGIN_PER_NEAR = 1e-3;
 const double MARGIN_PER_BOX = 1e-5;
 
@@ -143,7 +144,9 @@ bool may_shade_near_plane(
 	const glm::dvec4 light = compute_light_view(p_light, p_camera);
 	Bounds box = p_box_world;
 	const double near_m = p_camera.near_m;
-	const double margin_m = MARGIN_PER_NEAR * near_m + MARGIN_PER_BOX * p_box_world.get_diagonal();
+	const double pixel_m = 2.0 * near_m * p_camera.half_extent.y / p_camera.size_px.y;
+	const double margin_m =
+			MARGIN_PER_NEAR * near_m + pixel_m + MARGIN_PER_BOX * p_box_world.get_diagonal();
 	box.minimum -= margin_m;
 	box.maximum += margin_m;
 	const Corners corners = compute_corners_view(box, p_camera);
