@@ -1,6 +1,6 @@
 // fuzz: modules=core
 // Parses arbitrary text as a project.cfg. Replacing the list of disabled modules must change
-// nothing else.
+// nothing else. The folder does not exist, so all scenes are among the missing ones.
 #include "modules/core/project.h"
 
 #include "tests/fuzz/fuzz_target.h"
@@ -19,6 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 			GNOMON_ASSERT(again.disabled_modules == names, "the list became another: ", after);
 			GNOMON_ASSERT(again.name == project.name && again.defaults == project.defaults &&
 							again.start_scene == project.start_scene &&
+							again.technique_settings == project.technique_settings &&
 							again.missing_scenes == project.missing_scenes,
 					"the list changed more than itself: ", after);
 		}
