@@ -28,7 +28,8 @@ def prepare(project=PROJECT):
 
 
 def start_godot(arguments, variables={}):
-    """Run Godot; return (exit code, output). 124: it timed out. $GODOT_DISPLAY is "virtual" by default."""
+    """Run $GODOT; return (exit code, output). 124: it timed out. With $GODOT_DISPLAY "virtual", the default here, the $GODOT and
+    $GODOT_RUN of install_godot.sh give Godot an X display of its own."""
     return _start([os.environ["GODOT"]] + arguments, variables)
 
 

@@ -93,7 +93,7 @@ def make_properties_page(item):
 
 def make_light_page(properties):
     lines = ["# Properties of every light (Light3D)", "", NOTE, ""]
-    lines += ["Every technique answers for these. A glTF light stores them in its `extras`; see"]
+    lines += ["Every light has these, whatever its technique. A glTF light stores them in its `extras`; see"]
     lines += ["[Scene files](../scene_files.md). `--set` changes them for one run.", ""]
     return "\n".join(lines + format_table(properties) + [""])
 

@@ -66,6 +66,7 @@ private:
 	enum class Action { MAKE, SHOW };
 	void run(Action p_action, const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
 	void prepare_device();
+	/// Makes materials ignore the masks until those of the next view are made. Keeps `views`.
 	void forget_view();
 	void record_failure(const std::exception &p_failure);
 	void forget_unused(uint64_t p_frame);

@@ -157,7 +157,7 @@ void VulkanDevice::flush_uploads_when_many() {
 	}
 	pending_uploads.clear();
 	pending_upload_bytes = 0;
-	check(result, "vkQueueSubmit2");
+	check(result, "vkQueueSubmit2, vkQueueWaitIdle");
 }
 
 template <typename Handle> void VulkanDevice::drop_uploads(Handle p_target) {

@@ -39,7 +39,8 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 /// Adds passes that find the bounds of each block's receivers and list its edges.
 CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_passes);
 
-/// Adds one resolve pass for each kind of block. Returns the mask.
+/// Adds one pass for each kind of block, for those beyond the budget only if there is a depth map.
+/// Returns the mask.
 RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 

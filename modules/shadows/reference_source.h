@@ -48,8 +48,8 @@ public:
 			const std::function<void(float)> &p_progress) = 0;
 };
 
-/// Hash of everything that the light's reference mask depends on, including the camera: equal
-/// hashes mean equal masks. Like the mask, it does not consider layers, see ReferenceRequest.
+/// Hash of everything that the light's reference mask depends on, including the camera, except the
+/// number of rays: with the same number, equal hashes mean equal masks. Like the mask, it does not consider layers, see ReferenceRequest.
 uint64_t compute_reference_hash(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, glm::uvec2 p_size_px);
 

@@ -53,7 +53,8 @@ struct StabilityCurve {
 	std::vector<StabilityPoint> points; // in the order of StabilitySweep::values
 	bool is_complete = true;			// no planned point is MISSING
 	/// The first values that are neither OK nor MISSING, from the centre (inclusive) towards the
-	/// beginning of the curve, and towards its end. Unset if there is none.
+	/// beginning of the curve, and towards its end. Unset if there is none,
+	/// if the centre is not in the report, or if the points are separate cases (has_cases).
 	std::optional<double> break_before;
 	std::optional<double> break_after;
 };

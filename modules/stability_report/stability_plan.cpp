@@ -79,6 +79,7 @@ void StabilityPart::plan(const ReportOptions &p_options, const AddConfiguration 
 			continue;
 		}
 		std::vector<double> values = is_quick ? sweep.quick_values : sweep.values;
+		// The centre first, because the states of all other points depend on its error.
 		std::stable_partition(values.begin(), values.end(),
 				[&](double p_value) { return p_value == sweep.center; });
 		for (const LightType type : sweep.types) {

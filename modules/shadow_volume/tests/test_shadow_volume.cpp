@@ -49,14 +49,14 @@ TEST_CASE("[GPU][ShadowVolume] all ways to make and count volumes give the same 
 	}
 }
 
-TEST_CASE("[GPU][ShadowVolume] a camera in a shadow, near it or on its border matches rays") {
+TEST_CASE("[GPU][ShadowVolume] a camera close to casters and their shadows matches rays") {
 	MaskFixture fixture;
 	SmallScene scene;
 	add_meshes(scene);
 	size_t z_fail_count = 0;
 	for (int step = 0; step < 24; ++step) {
 		CAPTURE(step);
-		// Through the box's shadow and the box itself.
+		// Close past the box, so that the near plane may be in a shadow volume at some steps.
 		const double path_position = -1.0 + step / 12.0;
 		scene.camera->parent_from_node =
 				look_at({ -0.3 + 1.2 * path_position, 0.5 + 0.1 * step, -0.1 + path_position },
@@ -80,7 +80,7 @@ TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of 
 	const MaskResult inside = render_volumes(fixture, scene);
 	CHECK(HardReference(scene).compare(inside).wrong_count == 0);
 	CHECK(HardReference(scene).compare(inside).hidden_count == count_receivers(inside));
-	place_light({ 0.5, 3.0, 0.4 }); // above an edge of the box
+	place_light({ 0.5, 3.0, 0.4 }); // above a corner of the box: in the planes of two of its sides
 	check_against_rays(scene, render_volumes(fixture, scene));
 	place_light({ 2.0, 1.3, 0.0 }); // in the plane of its top
 	check_against_rays(scene, render_volumes(fixture, scene));

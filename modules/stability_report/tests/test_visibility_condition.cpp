@@ -56,7 +56,7 @@ TEST_CASE("[Condition] behind a half plane, visibility is the visible fraction o
 			exact.compute({ -0.05, 0, 0 }, UP));
 }
 
-TEST_CASE("[Condition] the condition number separates rounding errors from method errors") {
+TEST_CASE("[Condition] the cause of an error is the method, rounding or the reference") {
 	// Soft: v changes by about 1 over 0.4 m, 2 m from the light.
 	const HalfPlane soft(0.2);
 	const ConditionPoint point = { { -0.01f, 0, 0 }, UP, 0.53, 0.3 };
