@@ -107,7 +107,7 @@ trap 'exit 130' INT TERM
 # Never the user's own cache; shared by all parts, so that a reference is traced once.
 export GNOMON_CACHE_DIR=$work/cache GNOMON_CONFIG_DIR=$work/config
 export PYTHONDONTWRITEBYTECODE=1
-# Mesa's software drivers compile shaders without optimising them, in half the time: tests draw few frames with each.
+# Mesa's software drivers compile shaders without optimising them, in half the time: most tests draw few frames with each.
 export GALLIVM_PERF=${GALLIVM_PERF-nopt}
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
@@ -280,7 +280,8 @@ part_blender() {
 }
 part_demo() {
     # Without --all the demo draws few of the untuned meshes. The part "stability" draws more, and "tables" all of them.
-    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
+    # It draws many frames with each shader.
+    run_check demo env -u GALLIVM_PERF demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
 }
 part_bundle() {
     run_part bundle python3 tests/run_unittest.py tests/benchmark/test_bundle.py
