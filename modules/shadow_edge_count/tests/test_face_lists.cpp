@@ -1,6 +1,7 @@
 // The texels' lists of faces: none lacks a face that may be in front of a receiver there.
 
 #include "modules/shadow_edge_count/tests/count_in_double.h"
+#include "modules/shadows/fetched_buffers.h"
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 #include "tests/shaders/kernel_fixture.h"
@@ -60,7 +61,7 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 	const OwnedBuffer light = r_fixture.make_buffer(
 			"light", std::vector<shader::CountLightConstants>{ p_light }, BufferUsage::STORAGE);
 	const OwnedBuffer faces = r_fixture.make_buffer(
-			"faces", records, BufferUsage::STORAGE | BufferUsage::TEXEL, Format::RGBA32_UINT);
+			"faces", records, get_fetched_usage(*r_fixture.device), Format::RGBA32_UINT);
 	const OwnedBuffer heads =
 			r_fixture.make_buffer("heads", std::vector<uint32_t>(texel_count, 77u), usage);
 	const OwnedBuffer nodes =
@@ -88,7 +89,8 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 	wait(heads, Access::SHADER_WRITE_COMPUTE);
 	wait(totals, Access::SHADER_WRITE_COMPUTE);
 	commands.bind_pipeline(r_fixture.device->get_compute_pipeline({ .name = "list",
-			.shader = "shadow_edge_count/list_faces.comp",
+			.shader =
+					choose_fetching_shader(*r_fixture.device, "shadow_edge_count/list_faces.comp"),
 			.constants = { { EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_is_directional ? 1u : 0u } } }));
 	commands.bind_resources({ { FACE_LIST_BINDING_LIGHT, light.get() },
 			{ FACE_LIST_BINDING_FACES, faces.get() }, { FACE_LIST_BINDING_HEADS, heads.get() },

@@ -1,6 +1,7 @@
 #include "modules/shadow_edge_count/count_mesh.h"
 #include "modules/shadow_edge_count/tests/count_records.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
+#include "modules/shadows/fetched_buffers.h"
 
 #include "tests/shaders/kernel_fixture.h"
 
@@ -36,7 +37,7 @@ struct Found {
 /// Runs the passes over all casters and reads back their results.
 Found find_edges(
 		KernelFixture &r_fixture, std::vector<Caster> &r_casters, const CountSpace &p_space) {
-	const BufferUsage fetched = BufferUsage::STORAGE | BufferUsage::TEXEL;
+	const BufferUsage fetched = get_fetched_usage(*r_fixture.device);
 	uint32_t face_count = 0;
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
@@ -102,8 +103,9 @@ Found find_edges(
 		commands.barriers({ &barrier, 1 });
 	};
 	const auto run = [&](const char *p_shader, uint32_t p_items(const Caster &), auto p_bind) {
+		const std::string shader = choose_fetching_shader(*r_fixture.device, p_shader);
 		commands.bind_pipeline(
-				r_fixture.device->get_compute_pipeline({ .name = p_shader, .shader = p_shader }));
+				r_fixture.device->get_compute_pipeline({ .name = shader, .shader = shader }));
 		for (const Caster &caster : r_casters) {
 			p_bind(caster);
 			commands.push_constants(caster.push);
