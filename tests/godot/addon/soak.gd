@@ -1,8 +1,7 @@
 extends Node
-## Draws 2,000 frames in which scenes, lights, casters and figures come and go, techniques change and the window is resized. Prints
-## Godot's resource counts every 100 frames.
+## Draws frames in which scenes, lights, casters and figures come and go, techniques change and the window is resized. First
+## argument: number of frames. Prints Godot's resource counts every 100 frames.
 
-const FRAMES := 2000
 const TECHNIQUES: Array[String] = [
 	"edge_count", "pcss", "penumbra_fins", "outer_fins", "shadow_map", "views", "jittered_pcf", "shadow_volume",
 ]
@@ -14,7 +13,7 @@ var _random := RandomNumberGenerator.new()
 func _ready() -> void:
 	_random.seed = 7
 	_add_permanent_world()
-	for frame in FRAMES:
+	for frame in int(OS.get_cmdline_user_args()[0]):
 		# Each 100 frames make the same changes, so that the counts can be compared.
 		await _change(frame % 100)
 		await RenderingServer.frame_post_draw
