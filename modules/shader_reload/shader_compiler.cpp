@@ -6,6 +6,7 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <spirv-tools/optimizer.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -78,6 +79,35 @@ std::string tidy_log(const std::string &p_log) {
 	return tidy;
 }
 
+/// Optimises SPIR-V as the build does: with SHADER_OPTIMIZER_PASSES, the flags of spirv-opt with
+/// commas between them, which the build system defines.
+std::vector<uint32_t> optimize(
+		const std::vector<uint32_t> &p_words, [[maybe_unused]] const std::string &p_name) {
+#ifdef SHADER_OPTIMIZER_PASSES
+	spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
+	std::string messages;
+	optimizer.SetMessageConsumer(
+			[&](spv_message_level_t, const char *, const spv_position_t &, const char *p_text) {
+				messages += std::string("\n") + p_text;
+			});
+	std::istringstream flags(SHADER_OPTIMIZER_PASSES);
+	bool is_done = true;
+	for (std::string flag; std::getline(flags, flag, ',');) {
+		is_done = is_done && optimizer.RegisterPassFromFlag(flag);
+	}
+	spvtools::OptimizerOptions options;
+	options.set_preserve_bindings(true);
+	options.set_preserve_spec_constants(true);
+	std::vector<uint32_t> optimized;
+	if (!is_done || !optimizer.Run(p_words.data(), p_words.size(), &optimized, options)) {
+		fail("Shader \"", p_name, "\" cannot be optimised:", messages);
+	}
+	return optimized;
+#else
+	return p_words; // a build with symbols for a debugger
+#endif
+}
+
 /// Initializes glslang's global tables for the rest of the process.
 struct CompilerProcess {
 	CompilerProcess() { glslang::InitializeProcess(); }
@@ -129,10 +159,10 @@ std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string
 	}
 	std::vector<uint32_t> words;
 	glslang::SpvOptions options;
-	options.disableOptimizer = true; // as in the build: the driver optimises
+	options.disableOptimizer = true; // glslang's own choice of passes
 	options.stripDebugInfo = true;
 	glslang::GlslangToSpv(*program.getIntermediate(stage), words, &options);
-	return words;
+	return optimize(words, p_name);
 }
 
 std::vector<std::string> find_includes(const std::string &p_text) {
