@@ -7,7 +7,7 @@ import signal
 import subprocess
 
 PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "godot")
-TIMEOUT_S = 3600  # only ends what hangs: a slow machine may take half as long
+TIMEOUT_S = 3600  # only for hangs: the longest run takes up to half of this on a slow machine
 DEVICE_OPTIONS = ["--rendering-method", "forward_plus", "--rendering-driver", "vulkan", "--audio-driver", "Dummy"]
 # Messages to ignore. Godot's SPIR-V optimizer logs the first about shaders that it then returns unchanged. The second is a race
 # of Godot's threads, each of which changes the working directory of the process for a moment (Godot issue 115321).
@@ -15,7 +15,8 @@ HARMLESS = re.compile(r"is not supported yet\.$|Parameter \"getcwd\(real_current
 
 
 def prepare(project=PROJECT):
-    """Register the add-on's library and the scripts' classes with Godot, as opening the project in the editor does.
+    """Make the project's folder .godot again: register the add-on's library and the scripts' classes with Godot, as opening the
+    project in the editor does.
 
     The list of extensions is written here, because Godot 4.6 crashes if it finds an add-on's library for the first time during an
     import without a window (Godot issue 111048).
@@ -28,13 +29,16 @@ def prepare(project=PROJECT):
 
 
 def start_godot(arguments, variables={}):
-    """Run $GODOT; return (exit code, output). 124: it timed out. With $GODOT_DISPLAY "virtual", the default here, the $GODOT and
-    $GODOT_RUN of install_godot.sh give Godot an X display of its own."""
+    """Run $GODOT to its end, with additional environment variables; return (exit code, output). 124: it timed out.
+
+    $GODOT_DISPLAY is "virtual" unless it is set. With it, the $GODOT and $GODOT_RUN of install_godot.sh start Debian's Godot in an X
+    display of its own; another Godot ignores it.
+    """
     return _start([os.environ["GODOT"]] + arguments, variables)
 
 
 def start_game(path, arguments):
-    """Run a game that Godot exported; returns what start_godot returns."""
+    """Run a game that Godot exported to its end, with DEVICE_OPTIONS; return what start_godot returns."""
     runner = os.environ.get("GODOT_RUN")
     return _start(([runner] if runner else []) + [path] + DEVICE_OPTIONS + arguments, {})
 

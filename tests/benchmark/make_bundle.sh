@@ -8,9 +8,9 @@ usage() {
 Usage: tests/benchmark/make_bundle.sh [options]
   --out FILE    the archive (default build/gnomon-linux-x86_64.tar.xz)
   --program P   the program to pack (default bin/gnomon)
-  --quick       references of two scenes only (for tests)
+  --quick       references of two scenes, in 64 x 64 pixels, instead of those of measure.sh --quick (for tests)
 Packs the stripped program, its shared libraries with their licences, the scenes as files, the references of
-measure.sh --quick, and scripts in sh. Needs what run_demo.sh installed. The archive runs on x86-64 Linux with the
+measure.sh --quick, and scripts in sh. Needs the packages that run_demo.sh installs and the scenes that it makes. The archive runs on x86-64 Linux with the
 C library of Debian 12 (glibc 2.36) or newer and a Vulkan driver. Exit code: 0 done, 1 failed, 2 wrong usage.
 TEXT
 }
