@@ -27,7 +27,8 @@ public:
 	/// DeviceOptions::instance_extensions. Call it while a window exists.
 	static std::vector<std::string> get_instance_extensions();
 	/// Creates the swapchain of this window. The device must have been created with
-	/// DeviceOptions::needs_surface. Destroy the swapchain before the window and the device.
+	/// DeviceOptions::needs_surface and the extensions of get_instance_extensions(). Destroy the
+	/// swapchain before the window and the device.
 	std::unique_ptr<Swapchain> create_swapchain(RenderingDevice &r_device);
 
 	/// Processes events. Returns false once the user or close() has closed the window.

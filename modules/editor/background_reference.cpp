@@ -24,7 +24,8 @@ void BackgroundReference::start(
 	progress = 0.0f;
 	round_sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
 	thread = std::thread([this, make = std::move(p_make), p_sample_count] {
-		// Applies to this thread and to those it creates. On failure the thread keeps its priority.
+		// On Linux 0 is this thread, not the process, and threads that it creates inherit the
+		// value. On failure the thread keeps its priority.
 		setpriority(PRIO_PROCESS, 0, NICENESS);
 		try {
 			run(make, p_sample_count);

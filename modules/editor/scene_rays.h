@@ -11,9 +11,11 @@
 
 namespace gnomon {
 
-/// Casts rays against the visible scene in world space, for picking and for the penumbra lines.
+/// Casts rays in world space against what the scene's nodes draw, for picking and for the penumbra
+/// lines.
 class SceneRays {
 public:
+	/// One surface of a node.
 	struct Instance {
 		MeshInstance3D *node = nullptr;
 		std::shared_ptr<const Mesh> mesh; // posed, without parts that alpha cuts out, see CutMesh
@@ -25,8 +27,8 @@ public:
 		bool casts_shadow = true;
 	};
 	struct Hit {
-		double t = 0; // distance, in units of the direction's length
-		const Instance *instance = nullptr;
+		double t = 0;						// distance, in units of the direction's length
+		const Instance *instance = nullptr; // valid until the next update_scene
 	};
 
 	/// Updates the instances from the scene in its current pose. Nodes that are scaled to zero

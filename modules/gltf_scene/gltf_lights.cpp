@@ -55,9 +55,9 @@ std::optional<PropertyValue> to_property(const Json &p_value) {
 void read_property(const GltfObject &p_extras, std::string_view p_key, const PropertyInfo &p_info,
 		double p_factor, PropertyValues &r_properties) {
 	std::optional<PropertyValue> value = to_property(*p_extras.find(p_key));
-	if (value && p_info.type == PropertyType::BOOL && value->index() == 1 &&
-			(std::get<int64_t>(*value) | 1) == 1) {
-		value = std::get<int64_t>(*value) == 1; // Blender writes flags as 0 and 1
+	const int64_t *flag = value ? std::get_if<int64_t>(&*value) : nullptr;
+	if (flag && p_info.type == PropertyType::BOOL && (*flag == 0 || *flag == 1)) {
+		value = *flag == 1; // Blender writes flags as 0 and 1
 	}
 	if (value && p_factor != 1.0) {
 		const int64_t *integer = std::get_if<int64_t>(&*value);
@@ -138,6 +138,7 @@ bool read_area_size(const GltfObject &p_area, PropertyValues &r_properties) {
 	}
 	const PropertyInfo &info = *Light3D::get_property_list().find("light_size");
 	const Json *size = p_area.find("size");
+	// Absent: the extension's default, 1 m. Not a number: NAN, which check_property refuses.
 	const double diameter_m = !size ? 1.0 : size->is_number() ? size->get<double>() : NAN;
 	if (!check_property(info, diameter_m / 2).empty()) {
 		p_area.report_value("size", "twice " + describe_range(info), "the default of light_size");
@@ -232,7 +233,7 @@ void set_property(Value &r_extras, const std::string &p_name, const PropertyValu
 bool read_light(const tinygltf::Model &p_model, const GltfLightSources &p_sources,
 		const GltfLoadOptions &p_options, GltfMessages &r_messages, Light3D &r_light) {
 	const tinygltf::Light &light = p_model.lights[p_sources.light_index];
-	if (light.type.empty()) {
+	if (light.type.empty()) { // GltfChecker::check_light empties an unknown type
 		return false;
 	}
 	r_light.type = light.type == "point" ? LightType::OMNI

@@ -19,6 +19,9 @@ godot::Variant read_setting(const char *p_name, const godot::Variant &p_default)
 	return settings.has_setting(p_name) ? settings.get_setting_with_override(p_name) : p_default;
 }
 
+// These serve only to check values. Godot gets the settings from addons/gnomon/plugin.gd, which
+// must have the same names, defaults and ranges.
+
 PropertyInfo make_most_lights_setting() {
 	PropertyInfo info;
 	info.name = "rendering/gnomon/most_lights";

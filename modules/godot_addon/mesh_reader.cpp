@@ -28,8 +28,9 @@ int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
 			.to_int();
 }
 
-/// Returns counterclockwise triangles of Godot's clockwise ones. Corners are reordered as in
-/// Godot's glTF export, so that both give bitwise equal masks.
+/// Returns counterclockwise triangles of Godot's clockwise ones. p_order: vertex of each corner.
+/// The corners of a triangle are reordered as in Godot's glTF export, so that the add-on and Gnomon
+/// with the exported file give bitwise equal masks.
 std::vector<uint32_t> make_triangles(std::span<const uint32_t> p_order, bool p_is_strip) {
 	std::vector<uint32_t> triangles;
 	const size_t step = p_is_strip ? 1 : 3;

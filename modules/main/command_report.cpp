@@ -104,7 +104,7 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 		const ReportArguments &p_arguments, const std::optional<Report> &p_old,
 		MissingCells p_missing) {
 	Json json = to_json(p_report);
-	const bool has_no_regression = add_budget_and_comparison(p_report, p_arguments, p_old, json);
+	const bool passes_comparison = add_budget_and_comparison(p_report, p_arguments, p_old, json);
 	const RecordStore store(get_record_folder(p_folder));
 	save_file_atomically(p_folder / "report.json", dump_json(json));
 	save_file_atomically(p_folder / "report.csv", to_csv(p_report));
@@ -115,17 +115,18 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	const size_t missing_count = p_report.count(ReportStatus::MISSING);
 	if (failed_count > 0) {
 		fail(failed_count,
-				" references or cells failed; the page lists which and why. Fix that, then ",
-				"go on with --resume.");
+				" references, cells or scene images failed; the page lists which and why. Fix "
+				"that, then go on with --resume.");
 	}
 	if (missing_count > 0 && p_missing == MissingCells::REFUSED) {
 		fail(missing_count,
 				" references or cells are missing. Run the other shards, or go on with ",
 				"--resume.");
 	}
-	if (!has_no_regression) {
+	if (!passes_comparison) {
 		fail("Errors grew against ", p_arguments.against,
-				", or no cell is in both; the lines above ", "list which.");
+				", or cells failed that did not before (the lines above list them), or no cell was "
+				"measured in both.");
 	}
 }
 
@@ -281,7 +282,8 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	merge->add_option("--out", arguments.merge_out, "Folder of the merged report")->required();
 	for (CLI::App *any : { command, merge }) {
 		any->add_option("--against", arguments.against,
-				"An older report.json: reports what changed; exit code 1 if an error grew");
+				"An older report.json: reports what changed; exit code 1 if an error grew, if a "
+				"cell no longer works, or if none was measured in both");
 		any->add_option("--budget", arguments.budget_ms,
 				   "Milliseconds: names the technique and setting of least error within this time, "
 				   "for each scene, light and light size")

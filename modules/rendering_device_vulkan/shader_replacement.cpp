@@ -31,19 +31,20 @@ const ReflectedBinding *find_binding(const ReflectedShader &p_shader, uint32_t p
 }
 
 /// The program binds what the shader declared when the program was built. A new version must
-/// declare all of those bindings and as many bytes of push constants. It may use fewer of the
-/// bindings, but no others.
+/// declare all of those bindings, of the same kinds, and as many bytes of push constants. It may
+/// use only bindings that the built version uses; it may declare more of them, unused.
 void check_interface(const std::string &p_name, std::span<const uint32_t> p_words) {
 	const ReflectedShader built = reflect_spirv(p_name, find_original_shader(p_name), {});
-	const ReflectedShader now = reflect_spirv(p_name, p_words, {});
+	const ReflectedShader replacement = reflect_spirv(p_name, p_words, {});
 	const auto refuse = [&](const std::string &p_what) {
 		fail("Shader \"", p_name, "\" ", p_what,
 				"; the running program was built for another interface. Build it and start it "
 				"again.");
 	};
-	for (const ReflectedBinding &binding : now.bindings) {
+	for (const ReflectedBinding &binding : replacement.bindings) {
 		const ReflectedBinding *built_binding = find_binding(built, binding.binding);
-		if (!is_same_kind(*find_binding(now, binding.binding), binding)) {
+		// A shader may declare one number several times; find_binding returns the first.
+		if (!is_same_kind(*find_binding(replacement, binding.binding), binding)) {
 			refuse(text("declares binding ", binding.binding, " as two kinds of resource"));
 		}
 		if ((built_binding != nullptr && !is_same_kind(*built_binding, binding)) ||
@@ -52,12 +53,12 @@ void check_interface(const std::string &p_name, std::span<const uint32_t> p_word
 		}
 	}
 	for (const ReflectedBinding &binding : built.bindings) {
-		if (find_binding(now, binding.binding) == nullptr) {
+		if (find_binding(replacement, binding.binding) == nullptr) {
 			refuse(text("no longer declares binding ", binding.binding));
 		}
 	}
-	if (built.push_constant_bytes != now.push_constant_bytes) {
-		refuse(text("has ", now.push_constant_bytes, " bytes of push constants, before ",
+	if (built.push_constant_bytes != replacement.push_constant_bytes) {
+		refuse(text("has ", replacement.push_constant_bytes, " bytes of push constants, before ",
 				built.push_constant_bytes));
 	}
 }
@@ -69,8 +70,8 @@ void VulkanDevice::replace_shaders(const Replacements &p_spirv_by_name) {
 	Replacements before;
 	for (const auto &[name, words] : p_spirv_by_name) {
 		check_interface(name, words);
-		const std::span<const uint32_t> now = find_embedded_shader(name);
-		before[name].assign(now.begin(), now.end());
+		const std::span<const uint32_t> present = find_embedded_shader(name);
+		before[name].assign(present.begin(), present.end());
 	}
 	for (const auto &[name, words] : p_spirv_by_name) {
 		replace_embedded_shader(name, words);

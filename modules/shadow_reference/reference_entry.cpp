@@ -9,11 +9,11 @@ namespace gnomon {
 namespace {
 
 struct EntryHeader {
-	uint64_t key = 0;
+	uint64_t key = 0; // hash of everything that the reference depends on
 	uint64_t penumbra_pixel_count = 0;
 	uint64_t pixel_count = 0;
 	float standard_error = 0;
-	uint32_t padding = 0;
+	uint32_t padding = 0; // explicit, so that no byte is undefined
 };
 
 /// Like std::memcpy, which must not get the null pointer of an empty vector.
@@ -48,7 +48,7 @@ std::optional<ReferenceVisibility> parse_reference_entry(
 		std::span<const uint8_t> p_bytes, uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
 	EntryHeader header;
 	if (p_pixel_count > p_bytes.size()) {
-		return std::nullopt; // also keeps the sizes below from wrapping around
+		return std::nullopt; // too short for any; otherwise the sizes below could wrap around
 	}
 	const size_t value_bytes = p_pixel_count * sizeof(float);
 	const size_t color_bytes = p_is_colored ? p_pixel_count * sizeof(glm::vec3) : 0;

@@ -65,10 +65,13 @@ std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_r
 				}
 			}
 			for (const uint32_t corner : { 0u, 1u, 3u, 4u }) {
+				// In the grid of 3 x 3 points, v is 1 further and u is 3 further. The order of b
+				// and d makes the face point outwards on both sides.
 				const uint32_t a = first + corner;
 				const uint32_t b = side > 0 ? a + 1 : a + 3;
+				const uint32_t c = a + 4;
 				const uint32_t d = side > 0 ? a + 3 : a + 1;
-				indices.insert(indices.end(), { a, b, a + 4, a, a + 4, d });
+				indices.insert(indices.end(), { a, b, c, a, c, d });
 			}
 		}
 	}
@@ -89,6 +92,8 @@ std::shared_ptr<const Mesh> make_open_mesh() {
 std::shared_ptr<const Mesh> make_degenerate_mesh() {
 	const std::vector<glm::vec3> positions = { { 0, 0, 0 }, { 0.5f, 0, 0 }, { 1, 0, 0 },
 		{ 0.25f, 0, 1e-7f }, { 0, 0, 0 }, { 0, 0, 0.5f } };
+	// On one line, a sliver, one point, two corners at one point, then a face, its twin and its
+	// reverse.
 	return make_mesh("odd", positions, std::vector<glm::vec3>(6, glm::vec3(0.0f)),
 			{ 0, 1, 2, 0, 1, 3, 0, 0, 0, 0, 4, 5, 0, 1, 5, 0, 1, 5, 5, 1, 0 });
 }

@@ -71,7 +71,8 @@ std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_r
 std::shared_ptr<const Mesh> make_inside_out_box(double p_half_size_m);
 /// Returns a mesh of a single, slightly tilted triangle.
 std::shared_ptr<const Mesh> make_open_mesh();
-/// Returns a mesh with triangles of zero area, slivers, coincident faces, and normals of length 0.
+/// Returns a mesh made from triangles of zero area, slivers, coincident faces, and normals of
+/// length 0, which make_mesh replaces.
 std::shared_ptr<const Mesh> make_degenerate_mesh();
 
 /// Changes the draft to the hostile scene with that index in list_hostile_scene_names().

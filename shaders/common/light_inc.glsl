@@ -29,7 +29,7 @@ bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 			dot(-to_light, p_light.direction.xyz) >= p_light.cos_outer * distance_m;
 }
 
-/// Illuminance on a surface that faces the light, lx per colour: KHR_lights_punctual's attenuation
+/// Illuminance on a surface perpendicular to the light's direction, lx per colour: KHR_lights_punctual's attenuation
 /// with its range window and smooth cone, without the cosine at the surface. p_to_light: see vector_to_light.
 vec3 illuminance(LightConstants p_light, vec3 p_to_light) {
 	const bool is_directional = p_light.type == LIGHT_TYPE_DIRECTIONAL;

@@ -1,5 +1,6 @@
-// The entry point of resolve_smooth.comp and resolve_smooth_fine.comp, which write the mask in blocks whose edges are
-// all far from all receivers.
+// The entry point of resolve_smooth.comp and resolve_smooth_fine.comp, which write the mask in smooth blocks
+// (EDGE_COUNT_BLOCKS_SMOOTH): every pixel has a receiver, the receivers are on one nearly flat surface, and all
+// silhouette edges that they see before the light are far from them.
 //
 // In such a block the image of each edge on the light's disc moves by a small fraction of R from one side of the block
 // to the other, so the visibility is nearly a polynomial of the pixel's position. 16 of the 64 pixels are counted, and
@@ -18,7 +19,7 @@ const int MAX_DEGREE = 3;
 const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX / COUNT_GROUP_SIZE);
 
 shared float counted[SIDE * SIDE]; // visibility
-shared float coefficients[SIDE * SIDE];
+shared float coefficients[SIDE * SIDE]; // those of a degree above MAX_DEGREE are not used
 
 /// Counted rows and columns: 0, 2, 5 and 7. They are symmetric about the middle and include the outermost ones, so that
 /// nothing is extrapolated.
@@ -30,17 +31,18 @@ uvec2 find_counted_pixel(uint p_index) {
 	return uvec2(find_counted_line(p_index % SIDE), find_counted_line(p_index / SIDE));
 }
 
-/// Polynomials of degree 0 to 3 at a row or column p_line of the block, orthonormal over the four counted ones.
+/// Polynomials of degree 0 to 3 at a row or column p_line of the block, orthonormal over the four counted ones. Their
+/// variable u is -1 at the first line and 1 at the last; the counted lines have u = +-1 and +-NEAR.
 vec4 find_basis(uint p_line) {
 	const float HALF = 3.5;
-	const float NEAR = 1.5 / HALF; // |u| of the two inner lines; the outer ones have 1
+	const float NEAR = 1.5 / HALF;
 	const float SQUARE = NEAR * NEAR;
 	const float SUM = 1.0 + SQUARE; // half the sum of u^2 over the lines
-	const float SLOPE = (1.0 + SQUARE * SQUARE) / SUM;
-	const float CUBIC = (1.0 - SLOPE) * (1.0 - SLOPE) + SQUARE * (SQUARE - SLOPE) * (SQUARE - SLOPE);
+	const float RATIO = (1.0 + SQUARE * SQUARE) / SUM; // of the sums of u^4 and u^2: u^3 - RATIO u is orthogonal to u
+	const float CUBIC = (1.0 - RATIO) * (1.0 - RATIO) + SQUARE * (SQUARE - RATIO) * (SQUARE - RATIO); // half its square
 	const float u = float(p_line) / HALF - 1.0;
 	return vec4(0.5, u * inversesqrt(2.0 * SUM), (u * u - 0.5 * SUM) / (1.0 - SQUARE),
-			u * (u * u - SLOPE) * inversesqrt(2.0 * CUBIC));
+			u * (u * u - RATIO) * inversesqrt(2.0 * CUBIC));
 }
 
 /// The coefficient of the product of basis p_index % SIDE along x and basis p_index / SIDE along y.
@@ -71,6 +73,7 @@ void main() {
 	const uint block = find_block();
 	const uint parts = load_parts(block);
 	const uint invocation = find_invocation_index();
+	// 0: the receivers of a smooth block are not sorted into parts.
 	counted[invocation] = count_pixel_of_block(block, parts, find_counted_pixel(invocation), 0u).visibility;
 	barrier();
 	coefficients[invocation] = find_coefficient(invocation);

@@ -2,12 +2,13 @@
 #define CULLING_SHARED_H
 #include "shared/shared_begin.h"
 
-// Occlusion culling in the light's view: occluders.vert, occluder_edges.vert, bounds.comp,
-// cull.comp.
+// Occlusion culling in the light's view: occluders.vert, occluders.frag, occluder_edges.vert,
+// bounds.comp, cull.comp.
 
-// The occluder map of a view: for each texel the smallest reversed depth (the farthest) at which
-// every ray through the texel has met an occluder. Each further level is 4 times as coarse. The
-// texels of all levels, the depth pyramid, are called bounds.
+// The occluder map of a view: for each texel a reversed depth at which every ray through the texel
+// has met an occluder, that is the smallest (farthest) of the rays' first hits or less. A box that
+// is wholly behind it is hidden. Each further level is 4 times as coarse. The texels of all levels,
+// the depth pyramid, are called bounds.
 #define CULLING_MAP_SIZE_PX 256
 #define CULLING_LEVEL_FACTOR 4
 #define CULLING_LEVEL_COUNT 4		  // 256, 64, 16, 4
@@ -23,10 +24,11 @@
 #define CULLING_BINDING_BOXES 6
 #define CULLING_BINDING_WORDS 7
 
-// One workgroup of cull.comp tests one subtree and its casters.
+// One workgroup of cull.comp tests one subtree of the hierarchy of the casters' boxes
+// (culling_boxes.h), and the subtree's casters.
 #define CULLING_CASTERS_PER_SUBTREE 64
-// Words before those of the casters: key_low and key_high, which identify the tested views and
-// casters.
+// The words are the result of cull.comp: a header, then one uint per caster, 0 if it is hidden and
+// 1 if not. The header is key_low and key_high, which identify the tested views and casters.
 #define CULLING_HEADER_WORDS 2
 
 /// Push constants of occluders.vert, occluders.frag and occluder_edges.vert: one occluder in one

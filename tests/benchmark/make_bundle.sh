@@ -56,7 +56,7 @@ echo "== Program"
 strip -o "$bundle/bin/gnomon" "$program"
 
 echo "== Libraries"
-# The C library is not packed: it must match the driver's. Libraries that a driver may need too are packed as fallbacks for
+# The C library is not packed: the program and the driver share that of the system. Libraries that a driver may need too are packed as fallbacks for
 # systems without them, because a process loads only one version of each, and the driver of a newer system needs the newer one.
 is_of_c_library() {
     case $1 in

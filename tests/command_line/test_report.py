@@ -186,7 +186,7 @@ class ComparedReports(ReportCase):
         arguments = ("--scenes", "sphere", "--sizes", "0.3", "--techniques", self.get_fallback(), "--against", old)
         result = self.report("other", *arguments)
         self.assertEqual(result.returncode, 1)
-        self.assertIn("no cell is in both", result.stderr)
+        self.assertIn("no cell was measured in both", result.stderr)
 
     def test_shards_are_merged_to_the_whole(self):
         whole = self.load_done("whole", self.small("whole"))

@@ -81,8 +81,8 @@ def run(target, what, command):
 
 
 def build_exclude_option(tree):
-    """Return doctest's option that skips tests which the removal of a technique cannot affect: those of techniques, and of
-    modules below the technique registry.
+    """Return doctest's option that skips tests which the removal of a technique cannot affect: those of other techniques,
+    since techniques never depend on each other (tests/layers), and of modules below the technique registry.
     """
     unaffected = set(tree.find_techniques())
     unaffected |= {name for name, config in tree.configs.items() if config["layer"] < tree.configs["shadows"]["layer"]}

@@ -14,10 +14,9 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 	const bool is_changed = ImGui::Checkbox(("##" + p_module.name).c_str(), &is_enabled);
 	r_context.record_item_rect("module " + p_module.name);
 	if (is_changed) {
-		const std::string name = p_module.name; // a copy: switching may change the list
 		r_context.attempt([&] {
-			r_context.document.set_module_enabled(name, is_enabled);
-			r_context.set_status((is_enabled ? "Enabled " : "Disabled ") + name);
+			r_context.document.set_module_enabled(p_module.name, is_enabled);
+			r_context.set_status((is_enabled ? "Enabled " : "Disabled ") + p_module.name);
 		});
 	}
 	for (const std::string *cell_text :
@@ -50,7 +49,7 @@ void draw_table(EditorContext &r_context) {
 		ImGui::TableSetupColumn(heading, ImGuiTableColumnFlags_WidthStretch, weight);
 	}
 	ImGui::TableHeadersRow();
-	// A copy, because a checkbox changes the list.
+	// A copy, because a click can also switch other modules of the list.
 	const std::vector<ModuleInfo> modules = ModuleRegistry::get_modules();
 	for (const ModuleInfo &module : modules) {
 		if (module.can_disable && !module.is_example) {

@@ -25,7 +25,7 @@ TEST_CASE("[SpirvReflection] each kind of resource is recognised") {
 		CHECK(shader.bindings[index].binding == index);
 		CHECK(shader.bindings[index].kind == types[index]);
 		CHECK(shader.bindings[index].is_used);
-		CHECK(shader.bindings[index].is_arrayed == (index == 3));
+		CHECK(shader.bindings[index].is_arrayed == (index == 3)); // a texture2DArray
 	}
 	CHECK(shader.local_size == glm::uvec3(8, 4, 1));
 	CHECK(shader.push_constant_bytes == 0);
@@ -42,20 +42,21 @@ TEST_CASE("[SpirvReflection] a binding that is declared but not accessed is mark
 	const ReflectedShader shader = reflect("tests/unused_binding.comp");
 	REQUIRE(shader.bindings.size() == 3);
 	for (const ReflectedBinding &binding : shader.bindings) {
-		CHECK(binding.is_used == (binding.binding != 7));
+		CHECK(binding.is_used == (binding.binding != 7)); // 7 is declared and never accessed
 	}
 }
 
-TEST_CASE("[SpirvReflection] words that are not SPIR-V are an error that names the shader") {
+TEST_CASE("[SpirvReflection] words that are not SPIR-V, and damaged SPIR-V, are an Error") {
 	const std::vector<uint32_t> words(16, 1);
 	CHECK_THROWS_WITH_AS(reflect_spirv("a.comp", words, {}),
 			"Shader \"a.comp\" holds no SPIR-V. Build it again.", Error);
-	std::vector<uint32_t> cut;
+	std::vector<uint32_t> damaged;
 	for (const uint32_t word : find_embedded_shader("tests/scale.comp")) {
-		cut.push_back(word);
+		damaged.push_back(word);
 	}
-	cut[5] = 0xffff0000u | (cut[5] & 0xffffu); // an instruction longer than the module
-	CHECK_THROWS_AS(reflect_spirv("a.comp", cut, {}), Error);
+	// The first word after the header: an instruction longer than the module.
+	damaged[5] = 0xffff0000u | (damaged[5] & 0xffffu);
+	CHECK_THROWS_AS(reflect_spirv("a.comp", damaged, {}), Error);
 }
 
 TEST_CASE("[SpirvReflection] no embedded shader needs more than SPIR-V 1.3") {

@@ -46,7 +46,7 @@ void check_is_visible(const glm::dvec3 &p_point_camera, const Camera3D &p_camera
 	CHECK(std::abs(p_point_camera.y) < reach);
 }
 
-/// Checks that the shadow of a point on the ground is visible.
+/// Checks that the shadow that p_caster casts on the ground is visible.
 void check_shadow_is_visible(const SceneSnapshot &p_snapshot, const Camera3D &p_camera,
 		const glm::dvec3 &p_caster, double p_ground_y) {
 	const glm::dvec3 light = p_snapshot.lights[0].position_world;
@@ -58,7 +58,7 @@ void check_shadow_is_visible(const SceneSnapshot &p_snapshot, const Camera3D &p_
 
 } // namespace
 
-TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and a ground") {
+TEST_CASE("[Stage] a model alone gets a light, a ground and a camera that sees all of the model") {
 	for (const double scale : { 1.0, 1e-3, 1e5 }) {
 		CAPTURE(scale);
 		const auto scene = make_model(scale, glm::dvec3(7, 3, -2) * scale);
@@ -75,11 +75,12 @@ TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and 
 		const double size_m = 2 * std::sqrt(1 + 4 + 0.25) * scale;
 		CHECK(snapshot->scene_size_m == doctest::Approx(size_m)); // the ground is no caster
 		CHECK(snapshot->lights[0].light_size_m == doctest::Approx(std::min(0.1 * size_m, 10000.0)));
+		const double bottom_y = scale * (3 - 2); // of the model: its position minus half its height
 		for (const InstanceSnapshot &instance : snapshot->instances) {
 			if (!instance.casts_shadow) {
 				// The ground is just below the model.
-				CHECK(instance.bounds_world.maximum.y < scale * (3 - 2));
-				CHECK(instance.bounds_world.maximum.y > scale * (3 - 2) - 0.01 * size_m);
+				CHECK(instance.bounds_world.maximum.y < bottom_y);
+				CHECK(instance.bounds_world.maximum.y > bottom_y - 0.01 * size_m);
 				continue;
 			}
 			for (int corner = 0; corner < 8; ++corner) {
@@ -87,8 +88,8 @@ TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and 
 						transform_to_camera(*snapshot, instance.bounds_world.get_corner(corner));
 				check_is_visible(point_camera, camera);
 				CHECK(-point_camera.z > camera.near_m);
-				check_shadow_is_visible(*snapshot, camera, instance.bounds_world.get_corner(corner),
-						scale * (3 - 2));
+				check_shadow_is_visible(
+						*snapshot, camera, instance.bounds_world.get_corner(corner), bottom_y);
 				// Within the light's cone, and at least 1.5 diagonals of the model from the light.
 				const glm::dvec3 to_corner = instance.bounds_world.get_corner(corner) -
 						snapshot->lights[0].position_world;
@@ -116,6 +117,7 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 		const auto snapshot = build_snapshot(scene, camera);
 		const glm::dvec3 light = snapshot->lights[0].position_world;
 		glm::dvec2 lower(1), upper(-1);
+		// The 8 corners of the box, then the shadow of each on the ground.
 		for (int corner = 0; corner < 16; ++corner) {
 			glm::dvec3 point = (corner & 1 ? 1.0 : -1.0) * glm::dvec3(half.x, 0, 0) +
 					(corner & 2 ? 1.0 : -1.0) * glm::dvec3(0, half.y, 0) +
@@ -131,7 +133,7 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 			lower = glm::min(lower, position);
 			upper = glm::max(upper, position);
 		}
-		const glm::dvec2 extent = upper - lower; // 2: the whole image
+		const glm::dvec2 extent = upper - lower; // 2: the whole image, or its central square
 		CHECK(std::max(extent.x, extent.y) > 1.7);
 		CHECK(std::max(extent.x, extent.y) < 1.9);
 		// Centred, except for the asymmetry of perspective.

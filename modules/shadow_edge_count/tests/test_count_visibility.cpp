@@ -24,12 +24,10 @@ void add_tilted_box(CountScene &r_scene, double p_scale = 1) {
 					glm::dvec3(0.3, 1.0, 0.1)));
 }
 
-void make_directional(CountScene &r_scene, bool p_is_directional, double p_tangent) {
-	r_scene.is_directional = p_is_directional;
-	if (p_is_directional) {
-		r_scene.radius = p_tangent;
-		r_scene.half_extent = 6.0; // metres
-	}
+void make_directional(CountScene &r_scene, double p_tangent) {
+	r_scene.is_directional = true;
+	r_scene.radius = p_tangent;
+	r_scene.half_extent = 6.0; // metres
 }
 
 struct Difference {
@@ -38,7 +36,8 @@ struct Difference {
 	uint32_t penumbra_count = 0;
 };
 
-/// Compares counting with tracing rays, on a grid of the ground around the shadow. p_is_inside:
+/// Compares counting with tracing rays, at 16 x 16 points of the ground: a square with the side
+/// 2 p_half_width, shifted from the origin to where the light casts the shadow. p_is_inside:
 /// returns true for points inside a solid, which are skipped since no camera sees them.
 template <typename Predicate>
 Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_is_inside) {
@@ -94,7 +93,9 @@ TEST_CASE("[EdgeCount] the shadow of a sphere matches ray tracing, for both kind
 	for (const bool is_directional : { false, true }) {
 		CAPTURE(is_directional);
 		CountScene scene;
-		make_directional(scene, is_directional, 0.07);
+		if (is_directional) {
+			make_directional(scene, 0.07);
+		}
 		add_ground(scene);
 		scene.add(make_count_sphere(0.8, 8),
 				glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.3, 0.0)));
@@ -191,7 +192,8 @@ TEST_CASE("[EdgeCount] the scale of the scene does not change visibility") {
 	}
 }
 
-TEST_CASE("[EdgeCount] visibility is exactly 1 with no caster and exactly 0 in full shadow") {
+TEST_CASE("[EdgeCount] visibility is exactly 1 with nothing before the light and exactly 0 in full "
+		  "shadow") {
 	CountScene scene;
 	add_ground(scene);
 	scene.build();

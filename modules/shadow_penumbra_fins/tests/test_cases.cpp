@@ -62,6 +62,8 @@ std::optional<glm::dvec3> find_top(const SceneSnapshot &p_scene, glm::uvec2 p_pi
 	return top;
 }
 
+/// Cases: 1 outer penumbra, 2 lit, 3 umbra without a fin, 4 umbra under an outer fin, 5 inner
+/// penumbra, 6 umbra behind the third layer.
 struct Expected {
 	int case_number = 0; // 0: too near to a border to decide
 	double visibility = 0;
@@ -116,7 +118,7 @@ Expected compute_expected(const glm::dvec3 &p_point) {
 TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, where it should be") {
 	MaskFixture fixture;
 	std::map<int, int> right_counts;
-	// From above, and from below the large cube's top to see the ground under it.
+	// From above, and from below the large cube's bottom to see the ground under it.
 	for (const glm::dvec3 eye : { glm::dvec3(-2.5, 6.0, 3.0), glm::dvec3(-3.5, 1.0, 4.2) }) {
 		SmallScene scene = make_scene();
 		scene.camera->parent_from_node = look_at(eye, { 0, 1.0, 0 });
@@ -161,7 +163,7 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] r = t = 0 gives a plain shadow map and skips fins and layers") {
+TEST_CASE("[GPU][PenumbraFins] r = t = 0 gives a mask of 0 and 1, and skips fins and layers") {
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
@@ -214,7 +216,8 @@ TEST_CASE("[GPU][PenumbraFins] all peeling and fin methods give the same mask") 
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside them stay valid") {
+TEST_CASE("[GPU][PenumbraFins] the mask is valid with widths larger than the casters, and with "
+		  "lights inside these") {
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		for (const std::string id : { "penumbra_fins", "outer_fins" }) {
