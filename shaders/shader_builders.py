@@ -17,6 +17,7 @@ from SCons.Script import Action
 STAGES = ("vert", "frag", "geom", "comp")
 # glslang calls every function and leaves every variable in memory. With these passes of spirv-opt lavapipe creates pipelines in half
 # the time. With all of -O (SPIRV-Tools 2023.1) the masks of edge_count and the culling of shadow_volume are wrong.
+# The shaders of the Godot add-on stay as they are: Godot 4.6 has an optimizer of its own, after which lavapipe refuses some of these.
 OPTIMIZER_PASSES = (
     "--inline-entry-points-exhaustive",
     "--eliminate-dead-functions",
@@ -36,6 +37,11 @@ def _scan(node, env, path):
         return []
     with open(node.srcnode().abspath, encoding="utf-8") as file:
         return [env.File("#shaders/" + name) for name in _INCLUDE.findall(file.read())]
+
+
+def get_spirv_prefix(env):
+    """Return the folder of SPIR-V within a build folder, "" or with a slash at its end: each host has its own passes."""
+    return "godot/" if env["godot"] else ""
 
 
 def find_variants(folder, name):
@@ -91,6 +97,8 @@ def add_builders(env):
     )
     if env["dev_build"]:
         commands = [compile_glsl % "-g"]
+    elif env["godot"]:
+        commands = [compile_glsl % "-g0"]
     else:
         optimize = "spirv-opt %s --target-env=vulkan1.1 --preserve-bindings --preserve-spec-constants $TARGET -o $TARGET"
         commands = [compile_glsl % "-g0", optimize % " ".join(OPTIMIZER_PASSES)]
@@ -112,7 +120,7 @@ def add_test_shaders(env, modules):
         for path in sorted(glob.glob(os.path.join(env.Dir("#").abspath, source, "*"))):
             name = os.path.basename(path)
             if name.rpartition(".")[2] in STAGES:
-                target = "%s/tests/shaders/%s.spv" % (build_folder, name)
+                target = "%s/tests/shaders/%s%s.spv" % (build_folder, get_spirv_prefix(env), name)
                 spirv += env.Spirv(target, "%s/%s/%s" % (build_folder, source, name))
     generated = env.EmbeddedShaders(
         "%s/tests/test_shaders.%s.gen.cpp" % (build_folder, env["HOST"]), spirv, SHADER_FUNCTION="get_test_shaders", SHADER_FOLDER="tests"
