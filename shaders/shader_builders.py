@@ -11,6 +11,7 @@ import glob
 import os
 import re
 import struct
+import subprocess
 
 from SCons.Script import Action
 
@@ -88,25 +89,30 @@ def _embed(target, source, env):
         file.write("\n".join(lines))
 
 
+def _optimize(target, source, env):
+    """Optimises SPIR-V in place. Messages are shown on failure only: each function that returns early causes a warning that it
+    is not inlined."""
+    path = str(target[0])
+    command = ["spirv-opt", *env["OPTIMIZER_PASSES"], "--target-env=vulkan1.1", "--preserve-bindings", "--preserve-spec-constants"]
+    result = subprocess.run(command + [path, "-o", path], capture_output=True, encoding="utf-8", errors="replace")
+    if result.returncode != 0:
+        print("ERROR: spirv-opt cannot optimise %s:\n%s%s" % (path, result.stdout, result.stderr))
+    return result.returncode
+
+
 def add_builders(env):
     """Adds the builders `Spirv` and `EmbeddedShaders`."""
     scanner = env.Scanner(function=_scan, skeys=["." + stage for stage in STAGES] + [".glsl", ".h"], recursive=True)
     # vulkan1.1 (SPIR-V 1.3) is the lowest target that has subgroup operations.
-    compile_glsl = (
-        "glslangValidator -V --quiet --target-env vulkan1.1 %s $SHADER_VARIANT -I" + env.Dir("#shaders").path + " -o $TARGET ${SOURCE.srcpath}"
+    command = "glslangValidator -V --quiet --target-env vulkan1.1 %s $SHADER_VARIANT -I%s -o $TARGET ${SOURCE.srcpath}" % (
+        "-g" if env["dev_build"] else "-g0",
+        env.Dir("#shaders").path,
     )
-    if env["dev_build"]:
-        commands = [compile_glsl % "-g"]
-    elif env["godot"]:
-        commands = [compile_glsl % "-g0"]
-    else:
-        optimize = "spirv-opt %s --target-env=vulkan1.1 --preserve-bindings --preserve-spec-constants $TARGET -o $TARGET"
-        commands = [compile_glsl % "-g0", optimize % " ".join(OPTIMIZER_PASSES)]
-    env["BUILDERS"]["Spirv"] = env.Builder(
-        # Not env.Action: that expands $TARGET at once, to nothing.
-        action=[Action(commands[0], "Compiling shader $TARGET")] + [Action(command, None) for command in commands[1:]],
-        source_scanner=scanner,
-    )
+    actions = [Action(command, "Compiling shader $TARGET")]  # not env.Action: that expands $TARGET at once, to nothing
+    if not env["dev_build"] and not env["godot"]:
+        env["OPTIMIZER_PASSES"] = OPTIMIZER_PASSES
+        actions.append(Action(_optimize, None, varlist=["OPTIMIZER_PASSES"]))  # other passes: shaders are built again
+    env["BUILDERS"]["Spirv"] = env.Builder(action=actions, source_scanner=scanner)
     env["BUILDERS"]["EmbeddedShaders"] = env.Builder(action=Action(_embed, "Embedding shaders in $TARGET"))
 
 

@@ -10,8 +10,9 @@ Usage: tests/benchmark/make_bundle.sh [options]
   --program P   the program to pack (default bin/gnomon)
   --quick       references of two scenes, in 64 x 64 pixels, instead of those of measure.sh --quick (for tests)
 Packs the stripped program, its shared libraries with their licences, the scenes as files, the references of
-measure.sh --quick, and scripts in sh. Needs the packages that run_demo.sh installs and the scenes that it makes. The archive runs on x86-64 Linux with the
-C library of Debian 12 (glibc 2.36) or newer and a Vulkan driver. Exit code: 0 done, 1 failed, 2 wrong usage.
+measure.sh --quick, and scripts in sh. Needs the packages that run_demo.sh installs and the scenes that it makes. The
+archive runs on x86-64 Linux with the C library of Debian 12 (glibc 2.36) or newer and a Vulkan driver.
+Exit code: 0 done, 1 failed, 2 wrong usage.
 TEXT
 }
 
@@ -56,8 +57,9 @@ echo "== Program"
 strip -o "$bundle/bin/gnomon" "$program"
 
 echo "== Libraries"
-# The C library is not packed: the program and the driver share that of the system. Libraries that a driver may need too are packed as fallbacks for
-# systems without them, because a process loads only one version of each, and the driver of a newer system needs the newer one.
+# The C library is not packed: the program and the driver share that of the system. Libraries that a driver may need too are
+# packed as fallbacks for systems without them, because a process loads only one version of each, and the driver of a newer
+# system needs the newer one.
 is_of_c_library() {
     case $1 in
         libc.so.* | libm.so.* | libdl.so.* | libpthread.so.* | librt.so.* | ld-linux*) return 0 ;;

@@ -3,8 +3,8 @@
 
 These are frames in which everything is added and removed (tests/godot/addon/soak.gd), frames of the room with eight lights
 (room_soak.gd), and of courtyard, in which a skinned figure walks and a flag of morph targets waves (walk_soak.gd); 400 of each,
-with --full 2,000, 2,000 and 1,000. After SETTLED frames the numbers of Godot's objects, nodes and resources and the memory of its RenderingDevice must not
-grow. Last line: N passed, N failed, N skipped.
+with --full 2,000, 2,000 and 1,000. After SETTLED frames the numbers of Godot's objects, nodes and resources and the memory of its
+RenderingDevice must not grow. Last line: N passed, N failed, N skipped.
 """
 
 import argparse
