@@ -83,7 +83,8 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	}
 	write_outputs(result, p_size_px);
 	for (const PassTiming &timing : result.timings) {
-		std::printf("%-40s %8.3f ms GPU\n", timing.name.c_str(), timing.gpu_ms);
+		std::printf("%-40s %8.3f ms %s\n", timing.name.c_str(), timing.get_cost_ms(),
+				timing.is_on_host ? "CPU" : "GPU");
 	}
 	std::printf("%-40s %8.3f ms GPU, %.3f ms wall\n", "frame", result.gpu_ms, result.wall_ms);
 	if (!options.time_path.empty()) {

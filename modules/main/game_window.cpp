@@ -117,7 +117,7 @@ std::vector<std::string> describe_frame(const RenderRequest &p_request, const De
 		format_milliseconds("frame, GPU", p_last.gpu_ms) };
 	for (size_t index = 0; index < p_last.timings.size() && index < MAX_SHOWN_PASSES; ++index) {
 		const PassTiming &timing = p_last.timings[index];
-		lines.push_back(format_milliseconds(timing.name.c_str(), timing.gpu_ms));
+		lines.push_back(format_milliseconds(timing.name.c_str(), timing.get_cost_ms()));
 	}
 	lines.push_back("W A S D Q E, right mouse: fly   T: technique   +/-: light size");
 	lines.push_back("V: mask, error   Space: pause   F1: text   Esc: end");

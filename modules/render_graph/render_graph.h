@@ -60,7 +60,9 @@ struct PassTiming {
 	std::string name;
 	double gpu_ms = 0;
 	double wall_ms = 0;
-	bool is_on_host = false; // a host pass: its cost is wall_ms, its gpu_ms is 0
+	bool is_on_host = false; // a host pass; its gpu_ms is 0
+
+	double get_cost_ms() const { return is_on_host ? wall_ms : gpu_ms; }
 };
 
 /// Declares one pass: first what it reads and writes, then the function that records it.

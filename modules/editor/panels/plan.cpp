@@ -17,7 +17,7 @@ void draw_timings(const RenderResult &p_result) {
 		ImGui::TableNextColumn();
 		ImGui::TextUnformatted(timing.name.c_str());
 		ImGui::TableNextColumn();
-		ImGui::Text("%.2f", timing.gpu_ms);
+		ImGui::Text("%.2f", timing.get_cost_ms());
 	}
 	ImGui::EndTable();
 }
