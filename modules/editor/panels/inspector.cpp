@@ -64,33 +64,41 @@ private:
 	bool draw_whole_number() {
 		const PropertyRange range = get_range(info);
 		// The limits of a property without a range, 1e30, do not fit an int64_t.
-		const int64_t min_value = static_cast<int64_t>(std::max(range.minimum, -1e15));
-		const int64_t max_value = static_cast<int64_t>(std::min(range.maximum, 1e15));
-		return ImGui::DragScalar("##value", ImGuiDataType_S64, &std::get<int64_t>(value),
-				std::max(float(range.step), 0.2f), &min_value, &max_value, nullptr,
-				ImGuiSliderFlags_AlwaysClamp);
+		// Per pixel of a drag. The default step, 0.01, would need 100 pixels for the next number.
+		const float MIN_SPEED = 0.2f;
+		return drag_number<int64_t>(ImGuiDataType_S64, "%lld", "",
+				std::max(float(range.step), MIN_SPEED),
+				static_cast<int64_t>(std::max(range.minimum, -1e15)),
+				static_cast<int64_t>(std::min(range.maximum, 1e15)));
+	}
+
+	bool draw_number() {
+		const PropertyRange range = get_range(info);
+		return drag_number<double>(ImGuiDataType_Double, "%.4g", " (derived)", float(range.step),
+				range.minimum, range.maximum);
 	}
 
 	/// A value that is dragged below the range becomes the special value, such as -1 for "derived".
-	/// Dragged up from there, it becomes the minimum of the range.
-	bool draw_number() {
-		const PropertyRange range = get_range(info);
-		double &number = std::get<double>(value);
-		double min_value = range.minimum;
-		double special = 0;
+	/// Dragged up from there, it becomes the minimum of the range. p_special_meaning: shown after
+	/// the special value.
+	template <typename T>
+	bool drag_number(ImGuiDataType p_type, const char *p_format, const char *p_special_meaning,
+			float p_speed, T p_minimum, T p_maximum) {
+		T &number = std::get<T>(value);
+		T lower_limit = p_minimum;
+		T special = 0;
 		const bool has_special = !info.special.empty();
 		if (has_special) {
 			std::from_chars(
 					info.special.data(), info.special.data() + info.special.size(), special);
-			min_value = std::min(min_value, special);
+			lower_limit = std::min(lower_limit, special);
 		}
 		const bool is_special = has_special && number == special;
-		const bool is_changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number,
-				float(range.step), &min_value, &range.maximum,
-				is_special ? (info.special + " (derived)").c_str() : "%.4g",
+		const bool is_changed = ImGui::DragScalar("##value", p_type, &number, p_speed, &lower_limit,
+				&p_maximum, is_special ? (info.special + p_special_meaning).c_str() : p_format,
 				ImGuiSliderFlags_AlwaysClamp);
-		if (is_changed && has_special && number < range.minimum) {
-			number = is_special && number > special ? range.minimum : special;
+		if (is_changed && has_special && number < p_minimum) {
+			number = is_special && number > special ? p_minimum : special;
 		}
 		return is_changed;
 	}
