@@ -24,6 +24,7 @@ bool ShaderReloader::update(EditorContext &r_context, Clock::time_point p_now) {
 	};
 	for (ShaderChange &change : watcher.poll()) {
 		errors.erase(change.name);
+		refused.erase(change.name);
 		if (change.failure.empty()) {
 			compiled[change.name] = std::move(change.spirv);
 		} else {
@@ -33,11 +34,17 @@ bool ShaderReloader::update(EditorContext &r_context, Clock::time_point p_now) {
 	if (compiled.empty()) {
 		return false;
 	}
+	compiled.merge(refused);
+	refused.clear();
 	try {
 		device.replace_shaders(compiled); // all at once: a pipeline's stages must match
 	} catch (const Error &error) {
-		report_failure(compiled.begin()->first, error.what());
+		report_failure(compiled.begin()->first, error.what()); // one entry: none of them is used
+		refused = std::move(compiled);
 		return false;
+	}
+	for (const auto &[name, spirv] : compiled) {
+		errors.erase(name);
 	}
 	r_context.viewport.needs_redraw = true;
 	if (errors.empty()) {

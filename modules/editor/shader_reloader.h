@@ -4,6 +4,9 @@
 #include "modules/shader_reload/shader_watcher.h"
 
 #include <chrono>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace gnomon {
 
@@ -27,4 +30,6 @@ private:
 	Clock::time_point next_check;
 };
 
+	// Shaders that compile, in a set that the device refused: tried again with the next change.
+	std::map<std::string, std::vector<uint32_t>> refused;
 } // namespace gnomon
