@@ -105,6 +105,12 @@ void write_number(float p_value, float p_before, const char *p_key, Value::Objec
 }
 
 void write_surface(const Material &p_material, const Material &p_before, bool p_is_new,
+const char *get_alpha_mode_name(AlphaMode p_mode) {
+	return p_mode == AlphaMode::MASK ? "MASK" : p_mode == AlphaMode::BLEND ? "BLEND" : "OPAQUE";
+}
+
+/// Writes what differs from p_before. A new material always states its base colour, metallic and
+/// roughness, because glTF's defaults (white and metallic) differ from those of Material.
 		tinygltf::Model &r_model, tinygltf::Material &r_target) {
 	tinygltf::PbrMetallicRoughness &surface = r_target.pbrMetallicRoughness;
 	if (p_is_new || p_material.base_color != p_before.base_color) {
@@ -113,6 +119,16 @@ void write_surface(const Material &p_material, const Material &p_before, bool p_
 		surface.baseColorFactor.push_back(alpha);
 	}
 	if (p_is_new || p_material.metallic != p_before.metallic) {
+	if (p_material.alpha != p_before.alpha) {
+		surface.baseColorFactor[3] = to_shortest_decimal(p_material.alpha);
+	}
+	if (p_material.alpha_mode != p_before.alpha_mode) {
+		r_target.alphaMode = get_alpha_mode_name(p_material.alpha_mode);
+	}
+	if (p_material.alpha_mode == AlphaMode::MASK &&
+			p_material.alpha_cutoff != p_before.alpha_cutoff) {
+		r_target.alphaCutoff = to_shortest_decimal(p_material.alpha_cutoff);
+	}
 		surface.metallicFactor = to_shortest_decimal(p_material.metallic);
 	}
 	if (p_is_new || p_material.roughness != p_before.roughness) {

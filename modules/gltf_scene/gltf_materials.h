@@ -14,8 +14,9 @@ namespace gnomon {
 Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextures &r_textures,
 		GltfMessages &r_messages);
 
-/// Writes the values that differ from p_before, or from the defaults if it is null, into a
-/// material's definition. Adds the extensions used to r_model's `extensionsUsed`.
+/// Writes the values that differ from p_before, the material as loaded, or from the defaults if it
+/// is null, into a material's definition. Textures are not written: r_target keeps its own. Adds
+/// the extensions used to r_model's `extensionsUsed`.
 void write_material(const Material &p_material, const Material *p_before, tinygltf::Model &r_model,
 		tinygltf::Material &r_target);
 

@@ -56,7 +56,7 @@ size_t GltfMeshWriter::append_mesh(
 		const Accessors &made = found->second;
 		tinygltf::Primitive primitive;
 		primitive.mode = TINYGLTF_MODE_TRIANGLES;
-		primitive.attributes = { { "POSITION", made.positions }, { "NORMAL", made.normals } };
+		primitive.attributes = made.attributes;
 		primitive.indices = made.indices;
 		if (surface.material) {
 			primitive.material = static_cast<int>(store_material(*surface.material));
@@ -67,24 +67,31 @@ size_t GltfMeshWriter::append_mesh(
 }
 
 GltfMeshWriter::Accessors GltfMeshWriter::append_vertices(const Mesh &p_mesh) {
-	if (p_mesh.attributes.rig) { // only for a mesh of another file
+	if (p_mesh.attributes.rig) { // change_materials preserves the rigs of the document's meshes
 		log_warning("Mesh \"", p_mesh.name, "\" is saved at rest, without its joints and morph ",
 				"targets: they are preserved only in the file from which they were loaded.");
 	}
-	const size_t vertex_count = p_mesh.positions_node.size();
-	const tinygltf::Accessor vectors =
-			make_accessor(TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, vertex_count);
-	tinygltf::Accessor positions = vectors;
+	Accessors made;
+	const auto append = [&](const char *p_name, const auto &p_values, int p_type) {
+		if (!p_values.empty()) {
+			made.attributes[p_name] = append_accessor(bytes_of(std::span(p_values)),
+					make_accessor(p_type, TINYGLTF_COMPONENT_TYPE_FLOAT, p_values.size()),
+					TINYGLTF_TARGET_ARRAY_BUFFER);
+		}
+	};
+	const MeshAttributes &attributes = p_mesh.attributes;
+	append("POSITION", p_mesh.positions_node, TINYGLTF_TYPE_VEC3);
+	append("NORMAL", p_mesh.normals_node, TINYGLTF_TYPE_VEC3);
+	append("TANGENT", attributes.tangents, TINYGLTF_TYPE_VEC4);
+	append("TEXCOORD_0", attributes.uvs[0], TINYGLTF_TYPE_VEC2);
+	append("TEXCOORD_1", attributes.uvs[1], TINYGLTF_TYPE_VEC2);
+	append("COLOR_0", attributes.colors, TINYGLTF_TYPE_VEC4);
 	// glTF requires bounds for positions. They are valid, because p_mesh has at least one triangle.
 	const glm::dvec3 &low = p_mesh.bounds_node.minimum;
 	const glm::dvec3 &high = p_mesh.bounds_node.maximum;
+	tinygltf::Accessor &positions = model.accessors[made.attributes.at("POSITION")];
 	positions.minValues = { low.x, low.y, low.z };
 	positions.maxValues = { high.x, high.y, high.z };
-	Accessors made;
-	made.positions = append_accessor(bytes_of(std::span(p_mesh.positions_node)),
-			std::move(positions), TINYGLTF_TARGET_ARRAY_BUFFER);
-	made.normals = append_accessor(
-			bytes_of(std::span(p_mesh.normals_node)), vectors, TINYGLTF_TARGET_ARRAY_BUFFER);
 	made.indices = append_accessor(bytes_of(std::span(p_mesh.indices)),
 			make_accessor(TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
 					p_mesh.indices.size()),
@@ -116,6 +123,12 @@ size_t GltfMeshWriter::store_material(const Material &p_material) {
 	const tinygltf::Material loaded = !before	? tinygltf::Material()
 			: replaced.contains(original_index) ? replaced.at(original_index)
 												: model.materials[original_index];
+	if (!before && std::ranges::any_of(p_material.list_textures(), [](const Texture *p_texture) {
+			return p_texture->image != nullptr;
+		})) {
+		log_warning("Material \"", p_material.name, "\" is saved without its textures: they are ",
+				"preserved only in the file from which they were loaded.");
+	}
 	tinygltf::Material made = loaded;
 	write_material(p_material, before, model, made);
 	size_t index = original_index;

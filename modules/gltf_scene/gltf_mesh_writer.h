@@ -20,29 +20,28 @@ public:
 	/// materials of the scene that is written. r_model and p_document must outlive this object.
 	GltfMeshWriter(tinygltf::Model &r_model, size_t p_buffer_index, size_t p_first_byte,
 			const GltfDocument *p_document, std::set<const Material *> p_used);
-	/// Writes a new mesh and returns its index. p_surfaces is not empty.
+	/// Writes a new mesh, at rest and without textures, and returns its index. At least one of
+	/// p_surfaces has triangles.
 	size_t append_mesh(
 			const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	/// Like append_mesh, for a mesh that differs from one of the document only in its materials.
-	/// The new mesh shares the accessors and all data unknown to the program. If the material
-	/// indices are unchanged too, returns the existing mesh. Returns nothing if the document has no
-	/// such mesh.
+	/// The new mesh shares the accessors and has all data unknown to the program. If no material
+	/// index changes, returns the index of the existing mesh. Returns nothing if the document has
+	/// no such mesh.
 	std::optional<size_t> change_materials(const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	const std::vector<uint8_t> &get_bytes() const { return bytes; }
 
 private:
 	struct Accessors {
-		int positions = 0;
-		int normals = 0;
+		std::map<std::string, int> attributes; // by glTF's name of the attribute
 		int indices = 0;
 	};
 	Accessors append_vertices(const Mesh &p_mesh);
 	int append_accessor(
 			std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target);
 	/// Writes a material if needed and returns its index. A changed material replaces its original
-	/// in the file if the original is used neither by the scene nor possibly by a node that is not
-	/// loaded (shares_materials), and if no different material has replaced it. Otherwise it is
-	/// appended.
+	/// in the file, unless the scene uses the original, a node that is not loaded may use it
+	/// (shares_materials), or a different material has replaced it already: then it is appended.
 	size_t store_material(const Material &p_material);
 
 	std::optional<size_t> find_loaded_mesh(

@@ -93,6 +93,44 @@ TEST_CASE("[GltfWriter] a skinned mesh is saved without its skin in another scen
 	CHECK_FALSE(find(*load_gltf(folder.path / "other.gltf"), "Skinned").skin);
 }
 
+TEST_CASE("[GltfWriter] a mesh keeps its vertex attributes and alpha test in another scene's file; "
+		  "lost textures are logged") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	auto leaf = std::make_shared<Material>();
+	leaf->name = "Leaf";
+	leaf->alpha = 0.75f;
+	leaf->alpha_mode = AlphaMode::MASK;
+	leaf->alpha_cutoff = 0.25f;
+	leaf->base_color_texture.image = std::make_shared<Image>();
+	MeshAttributes attributes;
+	attributes.uvs[0] = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
+	attributes.uvs[1] = { { 0, 0 }, { 0.5, 0 }, { 0, 0.5 } };
+	attributes.tangents.assign(3, { 1, 0, 0, -1 });
+	attributes.colors = { { 1, 0, 0, 1 }, { 0, 1, 0, 0.5 }, { 0, 0, 1, 1 } };
+	auto card = std::make_unique<MeshInstance3D>();
+	card->name = "Card";
+	card->surfaces.push_back({ make_mesh("card", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {},
+									   { 0, 1, 2 }, attributes),
+			leaf });
+	Scene scene;
+	scene.root->add_child(std::move(card));
+	save_gltf(scene, folder.path / "card.gltf");
+	CHECK(log.contains(log.warnings, "\"Leaf\" is saved without its textures"));
+	const Json primitive = folder.read_json("card.gltf")["meshes"][0]["primitives"][0];
+	for (const char *name :
+			{ "POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0" }) {
+		CAPTURE(name);
+		CHECK(primitive["attributes"].contains(name));
+	}
+	const auto loaded = load_gltf(folder.path / "card.gltf");
+	const MeshInstance3D::Surface &surface = find(*loaded, "Card").surfaces.at(0);
+	CHECK(surface.mesh->attributes.colors == attributes.colors);
+	CHECK(surface.material->alpha == 0.75f);
+	CHECK(surface.material->alpha_mode == AlphaMode::MASK);
+	CHECK(surface.material->alpha_cutoff == 0.25f);
+}
+
 TEST_CASE("[GltfWriter] a node whose mesh is removed also loses its skin and morph weights") {
 	GltfTestFolder folder;
 	const auto scene = folder.load(make_animated(folder));
