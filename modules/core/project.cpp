@@ -31,18 +31,6 @@ std::string unquote(const std::string &p_text) {
 	return is_quoted ? p_text.substr(1, p_text.size() - 2) : p_text;
 }
 
-/// Parses ["a", "b"]; the caller has checked the brackets.
-std::vector<std::string> parse_list(const std::string &p_text) {
-	std::vector<std::string> items;
-	std::stringstream stream(p_text.substr(1, p_text.size() - 2));
-	for (std::string item; std::getline(stream, item, ',');) {
-		if (!trim(item).empty()) {
-			items.push_back(unquote(trim(item)));
-		}
-	}
-	return items;
-}
-
 /// A key=value entry and the lines that it spans, counted from 0.
 struct Entry {
 	std::string section;
@@ -52,6 +40,31 @@ struct Entry {
 	size_t end_line = 0; // one past the last line
 	bool is_list() const { return !value.empty() && value.front() == '['; }
 };
+
+/// Parses ["a", "b, c"]: commas in quotes do not separate. A value without brackets is one item.
+std::vector<std::string> parse_list(const Entry &p_entry) {
+	const std::string content =
+			p_entry.is_list() ? p_entry.value.substr(1, p_entry.value.size() - 2) : p_entry.value;
+	std::vector<std::string> items;
+	std::string item;
+	const auto finish_item = [&] {
+		if (!trim(item).empty()) {
+			items.push_back(unquote(trim(item)));
+		}
+		item.clear();
+	};
+	bool is_quoted = false;
+	for (const char letter : content) {
+		is_quoted = is_quoted != (letter == '"');
+		if (letter == ',' && !is_quoted) {
+			finish_item();
+		} else {
+			item += letter;
+		}
+	}
+	finish_item();
+	return items;
+}
 
 /// The lines and entries of a project.cfg. Reading and writing both use it, so that they agree on
 /// how a file is interpreted.
@@ -130,7 +143,7 @@ Project Project::load(const fs::path &p_path) {
 	std::error_code code;
 	const fs::path path = fs::is_directory(p_path, code) ? p_path / "project.cfg" : p_path;
 	if (!fs::exists(path, code)) {
-		fail("Project ", p_path, " has no project.cfg. Name a project's folder or a .gltf file.");
+		fail("There is no ", path, ". Name a project's folder or a .gltf file.");
 	}
 	return parse(load_text_file(path, MAX_PROJECT_BYTES), path);
 }
@@ -145,12 +158,12 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 			project.name = unquote(entry.value);
 		} else if (section == "project" && key == "start_scene") {
 			project.start_scene = project.folder / unquote(entry.value);
-		} else if (section == "project" && key == "scenes" && entry.is_list()) {
-			project.add_scenes(parse_list(entry.value), project.scenes);
-		} else if (section == "project" && key == "stability_scenes" && entry.is_list()) {
-			project.add_scenes(parse_list(entry.value), project.stability_scenes);
-		} else if (section == "modules" && key == "disabled" && entry.is_list()) {
-			project.disabled_modules = parse_list(entry.value);
+		} else if (section == "project" && key == "scenes") {
+			project.add_scenes(parse_list(entry), project.scenes);
+		} else if (section == "project" && key == "stability_scenes") {
+			project.add_scenes(parse_list(entry), project.stability_scenes);
+		} else if (section == "modules" && key == "disabled") {
+			project.disabled_modules = parse_list(entry);
 		} else if (section == "defaults") {
 			project.defaults[key] = unquote(entry.value);
 		} else if (section.starts_with(TECHNIQUE_SECTION)) {

@@ -59,6 +59,16 @@ TEST_CASE("[Project] a malformed line and a list without end are errors that loc
 }
 
 TEST_CASE("[Project] saving the disabled modules leaves the rest of the file unchanged") {
+TEST_CASE("[Project] a name may have commas, and a list of one item needs no brackets") {
+	const ProjectFolder folder("[project]\nscenes=[\"scenes/a, b.gltf\", \"c.gltf\"]\n"
+							   "stability_scenes=\"scenes/a.gltf\"\n[modules]\ndisabled=one\n");
+	const Project project = Project::load(folder.path);
+	CHECK(project.missing_scenes ==
+			std::vector<fs::path>{ folder.path / "scenes/a, b.gltf", folder.path / "c.gltf" });
+	CHECK(project.stability_scenes == std::vector<fs::path>{ folder.path / "scenes/a.gltf" });
+	CHECK(project.disabled_modules == std::vector<std::string>{ "one" });
+}
+
 	const std::string before = "; a comment\n[project]\nname=\"Demo\"\n\n[modules]\n"
 							   "; disabled=[\"none\"]\ndisabled=[\"one\",\n  \"two\"]\n"
 							   "[defaults]\nsize=\"64x64\"\n";
