@@ -29,5 +29,6 @@ void main() {
 		radiance = push.ambient.rgb * base_color.rgb * base_color.a +
 				texelFetch(emissive_texture, pixel, 0).rgb;
 	}
-	imageStore(radiance_image, pixel, vec4(radiance * push.ambient.a, 1.0));
+	radiance = min(radiance * push.ambient.a, vec3(RENDERER_MAX_RADIANCE));
+	imageStore(radiance_image, pixel, vec4(radiance, 1.0));
 }

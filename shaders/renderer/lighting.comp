@@ -49,6 +49,6 @@ void main() {
 	// The exposure is applied before the result is stored as half floats (at most 65504), so that lights of 1e6 cd do
 	// not overflow.
 	const vec3 added = reflected * illuminance(light, to_light) * visibility * push.ambient.a;
-	imageStore(radiance_image, pixel,
-			vec4(imageLoad(radiance_image, pixel).rgb + min(added, vec3(6e4)), 1.0));
+	const vec3 sum = imageLoad(radiance_image, pixel).rgb + added;
+	imageStore(radiance_image, pixel, vec4(min(sum, vec3(RENDERER_MAX_RADIANCE)), 1.0));
 }
