@@ -89,13 +89,16 @@ PassBuilder RenderGraph::add_pass(const std::string &p_name) {
 void RenderGraph::add_use(uint32_t p_pass_index, Use p_use) {
 	Pass &pass = passes[p_pass_index];
 	GNOMON_ASSERT(p_use.resource < resources.size(), "pass ", pass.name, ": an empty handle");
-	for (const Use &use : pass.uses) {
-		// One layout and one barrier per pass and resource; UNIFORM_READ covers all stages.
-		GNOMON_ASSERT(use.resource != p_use.resource || use.access == p_use.access, "pass ",
-				pass.name, " uses ", resources[use.resource].name, " in two ways");
-		if (use.resource == p_use.resource) {
-			return;
+	for (Use &use : pass.uses) {
+		if (use.resource != p_use.resource) {
+			continue;
 		}
+		// One layout and one barrier per pass and resource; UNIFORM_READ covers all stages.
+		GNOMON_ASSERT(use.access == p_use.access, "pass ", pass.name, " uses ",
+				resources[use.resource].name, " in two ways");
+		use.is_written |= p_use.is_written;
+		use.needs_content |= p_use.needs_content;
+		return;
 	}
 	pass.uses.push_back(p_use);
 }

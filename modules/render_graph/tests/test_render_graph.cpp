@@ -12,6 +12,7 @@ using namespace gnomon;
 
 namespace {
 
+/// A device with validation enabled, and a pool for its graphs.
 struct GraphFixture {
 	std::unique_ptr<RenderingDevice> device;
 	std::unique_ptr<TransientPool> pool;
@@ -90,6 +91,8 @@ TEST_CASE("[GPU][RenderGraph] values pass through a chain of copies in every mod
 
 namespace {
 
+/// Runs a chain of copies in three frames. Checks that textures share memory, and that only the
+/// first frame allocates.
 void check_chain(const FeatureList &p_denied) {
 	GraphFixture fixture(p_denied);
 	uint64_t used_bytes = 0;
@@ -106,7 +109,7 @@ void check_chain(const FeatureList &p_denied) {
 		add_read(graph, texture, value);
 		graph.execute(RenderGraph::Mode::WAIT);
 		CHECK(value == 0.5f);
-		// Eight textures, of which two live at a time.
+		// Eight textures, of which two live at a time: a quarter of the memory, plus alignment.
 		CHECK(graph.get_aliased_bytes() * 3 <= graph.get_unaliased_bytes());
 		if (frame > 0) {
 			CHECK(fixture.device->get_memory_use().used_bytes == used_bytes);
@@ -127,7 +130,7 @@ TEST_CASE("[GPU][RenderGraph] without aliased memory, equal textures of a chain 
 
 TEST_CASE("[GPU][RenderGraph] a fill reaches every word of a buffer") {
 	GraphFixture fixture;
-	const size_t word_count = 1000; // no multiple of a workgroup
+	const size_t word_count = 1000; // not a multiple of the workgroup size, 256
 	RenderGraph graph(*fixture.device, *fixture.pool);
 	const RGBuffer words = graph.create_buffer({ "words", word_count * sizeof(uint32_t),
 			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE });
@@ -161,6 +164,22 @@ TEST_CASE("[GPU][RenderGraph] a pass whose result is unused does not run, nor do
 	CHECK(value == 2.0f);
 	CHECK(graph.get_culled_passes() == std::vector<std::string>{ "fill", "copy" });
 	CHECK(graph.to_dot().find("style=dashed") != std::string::npos);
+}
+
+TEST_CASE("[GPU][RenderGraph] a pass that declares a fresh write and an update needs the content") {
+	GraphFixture fixture;
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const RGTexture texture = graph.create_texture(make_desc("twice"));
+	add_fill(graph, texture, 3.0f);
+	graph.add_pass("update")
+			.writes(texture, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::FRESH)
+			.writes(texture, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
+			.execute([](PassContext &) {});
+	float value = 0;
+	add_read(graph, texture, value);
+	graph.execute(RenderGraph::Mode::WAIT);
+	CHECK(graph.get_culled_passes().empty());
+	CHECK(value == 3.0f);
 }
 
 TEST_CASE("[GPU][RenderGraph] an imported texture keeps its content from frame to frame") {
@@ -215,7 +234,7 @@ TEST_CASE("[GPU][RenderGraph] passes have names and times, and wall time when ru
 	float value = 0;
 	add_read(graph, texture, value);
 	graph.execute(RenderGraph::Mode::ONE_BY_ONE);
-	REQUIRE(graph.get_timings().size() == 3);
+	REQUIRE(graph.get_timings().size() == 3); // fill, read back, host read
 	CHECK(graph.get_timings()[0].name == "Lamp: fill");
 	CHECK((graph.get_timings()[0].gpu_ms > 0) == fixture.device->get_features().timestamps);
 	CHECK(graph.get_timings()[0].wall_ms > 0);
