@@ -80,6 +80,7 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count, 0, 0 },
 					[&](double p_fraction) { progress.update(p_fraction * 0.5); });
 	p_request.wants_mask = false;
+	p_request.wants_surfaces = false;
 	p_request.mode = RenderGraph::Mode::WAIT;
 	std::vector<double> gpu_ms;
 	std::vector<double> wall_ms;
