@@ -97,12 +97,14 @@ std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::
 		if (nodes.size() < settings.most_lights) {
 			nodes.push_back(node);
 		} else if (!std::exchange(has_warned, true)) {
+			const size_t limit = RECEIVER_ROW_COUNT - 1;
+			const std::string step = settings.most_lights < limit
+					? "Raise rendering/gnomon/most_lights in the project's settings, at most " +
+							std::to_string(limit) + "."
+					: "This is the largest number: remove GnomonShadow3D nodes from lights that "
+					  "need none.";
 			log_warning("\"", node->get_path(), "\" has no shadow of Gnomon: its world has ",
-					settings.most_lights,
-					" lights before it that have one. Raise rendering/gnomon/most_lights in the "
-					"project's "
-					"settings, at most ",
-					RECEIVER_ROW_COUNT - 1, ".");
+					settings.most_lights, " lights before it that have one. ", step);
 		}
 		r_tree = godot::SceneTree(node->get_node().get_tree().get_object());
 	}

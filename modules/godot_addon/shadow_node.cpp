@@ -104,7 +104,8 @@ std::vector<std::string> ShadowNode::find_warnings() const {
 		if (other == this) {
 			break;
 		}
-		if (other->find_light().get_object() == light.get_object()) {
+		if (other->find_light().get_object() == light.get_object() &&
+				other->node.is_visible_in_tree()) {
 			warnings.push_back("The light has another GnomonShadow3D, which alone counts. Remove "
 							   "one of the two.");
 			break;
