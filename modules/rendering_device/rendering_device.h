@@ -49,6 +49,9 @@ struct DeviceInfo {
 };
 
 /// Optional features of a device. The minimum that Gnomon requires of every device is compute
+/// Shaders size their shared memory for subgroups that are at least this large.
+inline constexpr uint32_t MIN_SUBGROUP_SIZE = 4;
+
 /// shaders, 128 bytes of push constants, and 32-bit depth that shaders can read. Without geometry
 /// shaders, aliased memory, conditional rendering, depth bounds, storage_and_texel_buffers or
 /// copies to textures, frames are slower, but the same surface normals give the same masks.
@@ -71,8 +74,8 @@ struct DeviceFeatures {
 	uint64_t max_storage_buffer_bytes = 0;
 	uint32_t max_texture_size_px = 0;
 	uint32_t subgroup_size = 0;
-	/// Vote, arithmetic, ballot and shuffle in compute shaders, with subgroups of at least 4
-	/// invocations.
+	/// Vote, arithmetic, ballot and shuffle in compute shaders, with subgroups of at least
+	/// MIN_SUBGROUP_SIZE invocations.
 	bool subgroup_operations = false;
 };
 

@@ -216,6 +216,10 @@ private:
 	void set_kind(uint32_t p_type, uint32_t p_storage_class, ReflectedBinding &r_binding) const {
 		Instruction type = get_definition(p_type);
 		if (p_storage_class == spv::StorageClassStorageBuffer) {
+		if (get_op(type) == spv::OpTypeArray || get_op(type) == spv::OpTypeRuntimeArray) {
+			fail("Shader \"", name, "\": binding ", r_binding.binding,
+					" is an array of resources, which is not supported. Use one binding for each.");
+		}
 			r_binding.kind = ResourceKind::STORAGE_BUFFER;
 			return;
 		}
@@ -235,7 +239,7 @@ private:
 		}
 		if (get_op(type) != spv::OpTypeImage) {
 			fail("Shader \"", name, "\": binding ", r_binding.binding,
-					" is an array of resources, which is not supported. Use one binding for each.");
+					" is neither a buffer nor a texture or sampler. Use one of these.");
 		}
 		const bool is_buffer = type[3] == spv::DimBuffer;
 		const bool is_storage = type[7] == IMAGE_IS_STORAGE;

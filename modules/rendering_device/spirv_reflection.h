@@ -47,8 +47,8 @@ struct ReflectedShader {
 };
 
 /// Reads the interface of a SPIR-V module with one entry point `main`. A construct that the device
-/// does not support (other sets, descriptor arrays, storage texel buffers) is an Error that names
-/// the shader.
+/// does not support (other sets, arrays of resources, storage texel buffers) is an Error
+/// that names the shader.
 ReflectedShader reflect_spirv(std::string_view p_name, std::span<const uint32_t> p_words,
 		std::span<const SpecializationConstant> p_constants);
 

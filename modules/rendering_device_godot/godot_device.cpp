@@ -41,7 +41,7 @@ GodotDevice::GodotDevice(
 	features.max_texture_size_px = uint32_t(rd.limit_get(RD::LIMIT_MAX_TEXTURE_SIZE_2D));
 	features.max_storage_buffer_bytes = MAX_BUFFER_BYTES;
 	features.subgroup_size = measure_subgroup_size();
-	features.subgroup_operations = features.subgroup_size > 0;
+	features.subgroup_operations = features.subgroup_size >= MIN_SUBGROUP_SIZE;
 	for (const auto &feature : p_options.denied_features) {
 		features.*feature = false;
 	}

@@ -8,9 +8,8 @@ namespace gnomon {
 
 namespace {
 
-// Below this, shaders that use subgroups would need more shared memory than they declare.
-const uint32_t MIN_SUBGROUP_SIZE = 4;
-// Limit that lets texel buffers hold a large scene's faces. Desktop GPUs have at least this many.
+// Below this, a texel buffer might not hold a large scene's faces, so storage buffers replace them
+// (see fetch_inc.glsl). Desktop GPUs have at least this many.
 const uint32_t MIN_TEXEL_BUFFER_ELEMENTS = 1u << 26;
 
 /// The feature structures that Gnomon enables, chained.

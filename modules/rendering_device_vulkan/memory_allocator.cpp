@@ -131,8 +131,10 @@ Allocation MemoryAllocator::allocate(const MemoryRequest &p_request) {
 	if (size_bytes <= block_bytes / 2) {
 		for (const auto &block : blocks) {
 			if (!block->is_dedicated && block->memory_type == type &&
-					block->tiling == p_request.tiling) {
+					block->tiling == p_request.tiling && is_suitable) {
 				if (Allocation allocation = allocate_in_block(*block, p_request);
+			// A block for the GPU is not mapped if that failed, see create_block.
+			const bool is_suitable = block->mapped || p_request.kind == MemoryKind::GPU;
 						allocation.block) {
 					return allocation;
 				}

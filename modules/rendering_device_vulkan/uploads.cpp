@@ -143,7 +143,9 @@ void VulkanDevice::flush_uploads_when_many() {
 	// A separate submission that is waited for. It runs before the commands recorded so far, as the
 	// uploads at submission would.
 	SubmissionSlot &slot = get_recording_slot();
-	wait_for(std::min(slot.number, submitted_number)); // until its command buffers can be reused
+	// The slot's command buffers can be reused after this. If earlier work hangs, it throws
+	// DeviceLost, while vkQueueWaitIdle has no time limit.
+	wait_for(submitted_number);
 	const VkCommandBufferSubmitInfo commands_info = record_uploads(slot);
 	const VkSubmitInfo2 submit_info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
 		.commandBufferInfoCount = 1,
