@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <cmath>
+
 using namespace gnomon;
 
 namespace {
@@ -28,7 +30,7 @@ TEST_CASE("[NodeProperties] every property of every class can be read, set and r
 	for (const std::unique_ptr<Node3D> &node : nodes) {
 		CAPTURE(node->get_class_name());
 		const PropertyList list = list_node_properties(*node);
-		CHECK(list.get_properties().size() >= 3);
+		CHECK(list.get_properties().size() >= 3); // position, rotation and scale
 		for (const PropertyInfo &info : list.get_properties()) {
 			CAPTURE(info.name);
 			CHECK(info.tooltip.size() > 10);
@@ -88,7 +90,7 @@ TEST_CASE("[NodeProperties] a stored value of another type is converted, or read
 	CHECK(std::get<double>(get_node_property(light, "light_size")) == 0.1);
 }
 
-TEST_CASE("[NodeProperties] properties without effect on a type of light are not listed") {
+TEST_CASE("[NodeProperties] a light's type decides what is listed; the inner cone stays inside") {
 	Light3D light;
 	set_node_property(light, "type", std::string("directional"));
 	CHECK(light.type == LightType::DIRECTIONAL);
@@ -141,20 +143,21 @@ TEST_CASE("[NodeProperties] a mesh has world bounds, and a light has gizmos of i
 	Light3D light;
 	for (const LightType type : { LightType::OMNI, LightType::SPOT, LightType::DIRECTIONAL }) {
 		light.type = type;
-		light.properties = { { "light_size", 0.25 }, { "light_angular_distance", 90.0 } };
+		light.properties = { { "light_size", 0.25 }, { "light_angular_distance", 60.0 } };
 		std::vector<NodeGizmo> gizmos;
 		light.add_gizmos(gizmos);
 		REQUIRE_FALSE(gizmos.empty());
-		CHECK(gizmos[0].radius_m == doctest::Approx(type == LightType::DIRECTIONAL ? 1.0 : 0.25));
+		// A directional light's gizmo is a disc of the light's apparent size, 1 m away.
+		const double radius_m =
+				type == LightType::DIRECTIONAL ? std::tan(glm::radians(30.0)) : 0.25;
+		CHECK(gizmos[0].radius_m == doctest::Approx(radius_m));
 		CHECK(gizmos[0].value == std::get<double>(get_node_property(light, gizmos[0].property)));
 		// value_per_m is the change of the property per metre of the gizmo's radius.
 		const double more = gizmos[0].value + 1e-6 * gizmos[0].value_per_m;
-		set_node_property(light, gizmos[0].property, std::min(more, 90.0));
+		set_node_property(light, gizmos[0].property, more);
 		gizmos.clear();
 		light.add_gizmos(gizmos);
-		if (type != LightType::DIRECTIONAL) {
-			CHECK(gizmos[0].radius_m == doctest::Approx(0.25 + 1e-6).epsilon(1e-9));
-		}
+		CHECK(gizmos[0].radius_m == doctest::Approx(radius_m + 1e-6).epsilon(1e-9));
 	}
 }
 
