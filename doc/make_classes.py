@@ -31,6 +31,8 @@ def run_gnomon(*arguments):
         result = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     except OSError as error:
         raise SystemExit("ERROR: %s: %s. Build it with scons." % (GNOMON, error.strerror)) from error
+    except subprocess.TimeoutExpired as error:
+        raise SystemExit("ERROR: %s did not end in %d s." % (" ".join(command), TIMEOUT_S)) from error
     if result.returncode != 0:
         raise SystemExit("ERROR: %s ended with %d: %s" % (" ".join(command), result.returncode, result.stderr))
     return result.stdout

@@ -19,7 +19,7 @@ COLORS = 256  # so that a screenshot stays small in the repository
 
 
 class Photographer(EditorCase):
-    checks = ()  # Vulkan validation would distort the frame times in the screenshots
+    validation_arguments = ()  # Vulkan validation would distort the frame times in the screenshots
 
     def runTest(self):
         editor_story.run_story(self, self.take)
