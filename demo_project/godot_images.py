@@ -20,7 +20,7 @@ def load_rows(path, row_length):
     if sys.byteorder != "little":
         values.byteswap()
     if not values or len(values) % row_length:
-        raise SystemExit("ERROR: %s has %d values, no whole rows of %d." % (path, len(values), row_length))
+        raise SystemExit("ERROR: %s has %d values, must be one or more rows of %d." % (path, len(values), row_length))
     return values, len(values) // row_length
 
 
@@ -52,7 +52,7 @@ def save_gray_png(path, values, width):
 
 
 def _save_png(path, pixels, width):
-    """pixels: bytes of red, green and blue, from the top."""
+    """Write an 8-bit RGB PNG. pixels: bytes of red, green and blue, from the top."""
     stride = 3 * width
     rows = b"".join(b"\0" + pixels[first : first + stride] for first in range(0, len(pixels), stride))
     parts = [(b"IHDR", struct.pack(">2I5B", width, len(pixels) // stride, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows, 6))]
@@ -69,8 +69,9 @@ def _attribute(name, kind, data):
 def save_exr(path, values, width, height):
     """Save a mask as uncompressed OpenEXR with the float32 channels Y (visibility) and receiver (0 or 1)."""
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    # Pixel type 2: float32; not pLinear; no subsampling.
     channels = b"".join(name + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for name in (b"Y", b"receiver")) + b"\0"
-    header = struct.pack("<ii", 20000630, 2)
+    header = struct.pack("<ii", 20000630, 2)  # OpenEXR's magic number, version
     for name, kind, data in (
         ("channels", "chlist", channels),
         ("compression", "compression", b"\0"),
@@ -83,8 +84,8 @@ def save_exr(path, values, width, height):
     ):
         header += _attribute(name, kind, data)
     header += b"\0"
-    line_bytes = 8 * width
-    first = len(header) + 8 * height
+    line_bytes = 8 * width  # two float32 channels
+    first = len(header) + 8 * height  # after the table of the lines' offsets, uint64
     with open(path + ".part", "wb") as file:
         file.write(header)
         file.write(struct.pack("<%dQ" % height, *(first + line * (8 + line_bytes) for line in range(height))))

@@ -4,6 +4,7 @@ import html
 
 from page_style import STYLE
 
+# Mode of measure_godot.py -> name on the page.
 NAMES = {"gnomon": "Gnomon, edge_count", "low": "Godot, Soft Low", "ultra": "Godot, Soft Ultra"}
 BODY = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -43,14 +44,14 @@ def _cells(row):
 
 
 def _images(case, columns):
-    """Return a row of the shadows of each mode, and one of their errors."""
+    """Return the shadows of each mode in rows of that many columns, and a row of their errors."""
     shadows = [_figure("%s_reference.png" % case, "Reference")]
     errors = []
     for mode, name in NAMES.items():
         shadows.append(_figure("%s_%s.png" % (case, mode), name))
         errors.append(_figure("%s_%s_error.png" % (case, mode), name + ": error (blue too dark, red too light)"))
     strip = '<div class="strip" style="--aspect: 1; grid-template-columns: repeat(%d, 1fr)">%s</div>'
-    return strip % (columns, "".join(shadows)) + strip % (3, "".join(errors))
+    return strip % (columns, "".join(shadows)) + strip % (len(NAMES), "".join(errors))
 
 
 def _case(case):
@@ -69,8 +70,8 @@ def _room_rows(room):
 def write_page(path, results):
     """results: the contents of results.json, see measure_godot.py."""
     room = results["room"]
-    names = [("three_lights.png", "The image")]
-    names += [("three_lights_%s.png" % light, light.capitalize()) for light in ("spot", "omni", "sun")]
+    figures = [("three_lights.png", "The image")]  # (file, caption)
+    figures += [("three_lights_%s.png" % light, light.capitalize()) for light in ("spot", "omni", "sun")]
     page = BODY % {
         "style": STYLE,
         "godot": "Godot " + html.escape(results["godot"]),
@@ -80,7 +81,7 @@ def write_page(path, results):
         "room_images": _images("room", 2),
         "room_heads": "".join("<th>%s light%s</th>" % (count, "" if count == "1" else "s") for count in room["times"]),
         "room_rows": _room_rows(room),
-        "lights": "".join(_figure(*name) for name in names),
+        "lights": "".join(_figure(*figure) for figure in figures),
         "heads": "".join("<th>%s</th><th>added</th>" % name for name in NAMES.values()),
         "rows": "".join(
             '<tr><td><a href="#%s">%s</a></td>%s</tr>' % (row["case"], row["case"].replace("_", ", "), _cells(row))

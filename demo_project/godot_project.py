@@ -15,8 +15,8 @@ HARMLESS = re.compile(r"is not supported yet\.$|Parameter \"getcwd\(real_current
 
 
 def prepare(project=PROJECT):
-    """Make the project's folder .godot again: register the add-on's library and the scripts' classes with Godot, as opening the
-    project in the editor does.
+    """Make the project's folder .godot from scratch: register the add-on's library and the scripts' classes with Godot,
+    as opening the project in the editor does.
 
     The list of extensions is written here, because Godot 4.6 crashes if it finds an add-on's library for the first time during an
     import without a window (Godot issue 111048).
@@ -46,7 +46,7 @@ def start_game(path, arguments):
 def _start(command, variables):
     environment = dict(os.environ, **variables)
     environment.setdefault("GODOT_DISPLAY", "virtual")
-    # A session of its own, so that a timeout also ends what the command started: the display and Godot.
+    # A process session of its own, so that a timeout also ends what the command started: the display and Godot.
     process = subprocess.Popen(
         command,
         env=environment,
@@ -62,7 +62,7 @@ def _start(command, variables):
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         output, _errors = process.communicate()
-        return 124, output + "\nFAILED: no end in %d s" % TIMEOUT_S
+        return 124, output + "\nFAILED: did not end within %d s" % TIMEOUT_S
     except BaseException:
         os.killpg(process.pid, signal.SIGKILL)
         raise

@@ -30,7 +30,7 @@ install_godot() {
     case $version in
         4.[5-9].* | 4.[1-9][0-9].* | [5-9].*) return 0 ;;
     esac
-    echo "ERROR: $GODOT is \"$version\", Gnomon needs Godot 4.5 or later. Set \$GODOT to one." >&2
+    echo "ERROR: \`$GODOT --version\` prints \"$version\", Gnomon needs Godot 4.5 or later. Set \$GODOT to one." >&2
     return 1
 }
 
@@ -51,6 +51,7 @@ _make_godot_root() {
     echo "Setting up Godot in $folder (1.2 GB)"
     rm -rf "$folder/root.part"
     mkdir -p "$folder/root.part"
+    # Check-Valid-Until=false accepts a mirror whose index has expired, such as a snapshot.
     if ! unshare --mount debootstrap --variant=minbase --include=ca-certificates "$GODOT_SUITE" "$folder/root.part" \
         "$mirror" >"$folder/log" 2>&1 ||
         ! cp /etc/resolv.conf "$folder/root.part/etc/" ||

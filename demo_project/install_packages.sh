@@ -31,7 +31,7 @@ is_package_installed() {
 install_packages() {
     local missing=() package as_root=()
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-        echo "ERROR: this system has no apt. Install what these Debian 12 packages hold, then build with scons:" >&2
+        echo "ERROR: this system has no apt. Install what these Debian 12 packages contain, then build with scons:" >&2
         printf '    %s\n' "$*" >&2
         return 1
     fi

@@ -2,7 +2,7 @@
 """Measures the add-on inside $GODOT next to Godot's own shadows, and writes the page of the Godot demo.
 
 Godot renders demo_project/godot's study scenes with shadows of edge_count and with its own, of the qualities Soft Low and
-Soft Ultra. Compared is the image with shadows divided by the image without. The reference is traced by
+Soft Ultra. The image with shadows, divided by the image without, is compared with a reference, traced by
 `gnomon visibility --technique reference` in the same scenes, which Godot exports. Errors are root mean squares over the
 penumbra's pixels (doc/glossary.md). Times are what the shadow of a moving light adds: the median frame time with it minus
 the median without. The room is measured with all its lights, and its times are those of whole frames.
@@ -48,17 +48,20 @@ def trace_reference(scene, light, stem, size_px, samples, camera=""):
 
 
 def compute_rmse(reference, values, pixels):
-    """Return the root mean square error over those of the pixels where the values have a receiver."""
+    """Return the root mean square error over those of the pixels where the values have a receiver (are not -1).
+
+    Exits if there is none.
+    """
     pixels = [pixel for pixel in pixels if values[pixel] >= 0.0]
     if not pixels:
-        raise SystemExit("ERROR: no pixel is in the penumbra: this is not the study scene.")
+        raise SystemExit("ERROR: no receiver is in a penumbra. Check the light's size and the camera.")
     return (sum((values[pixel] - reference.visibility[pixel]) ** 2 for pixel in pixels) / len(pixels)) ** 0.5
 
 
 def show_error(name, reference, values, mode, options):
     """Write WORK/NAME_MODE_error.png; needs WORK/NAME_reference.exr."""
     stem = os.path.join(WORK, name)
-    # Where only one of both has a receiver, no error is shown.
+    # Where only one of the two has a receiver, no error is shown.
     shown = array.array("f", values)
     for pixel, receiver in enumerate(reference.receiver):
         shown[pixel] = -1.0 if receiver < 0.5 else values[pixel] if values[pixel] >= 0.0 else reference.visibility[pixel]
@@ -88,6 +91,7 @@ def find_outlines(scene, options):
     """Return the pixels where a surface of the scene ends or bends, and two rasterizers may see different surfaces."""
     folder = os.path.join(WORK, "surfaces")
     os.makedirs(folder, exist_ok=True)
+    # Only the depth is used; any technique would do.
     arguments = ["visibility", scene, "--technique", "pcss", "--out", os.path.join(WORK, "surfaces.exr")]
     run_gnomon(arguments + ["--size", "%dx%d" % (options.size, options.size), "--surfaces", folder])
     depth, _height = godot_images.load_rows(os.path.join(folder, "depth.f32"), options.size)  # near / z, linear on planes
@@ -105,7 +109,10 @@ def load_room_image(what, options):
 
 
 def add_room_light(light, dark, off, image, options):
-    """Add the image of one light, times its traced visibility, to image; return (penumbra pixels, receivers)."""
+    """Add the image of one light, times its traced visibility, to image; return (penumbra pixels, receivers).
+
+    dark: RGB without lights. off: luminance with all lights, without shadows.
+    """
     alone = load_room_image("only_" + light, options)
     stem = os.path.join(WORK, "room")
     size_px = (options.size, options.size)
@@ -163,7 +170,7 @@ def main():
     parser.add_argument("--frames", type=int, default=20, help="frames over which each mode is timed")
     parser.add_argument("--samples", type=int, default=9216, help="light samples of the reference")
     parser.add_argument("--cases", default="", help="LIGHT_CASTER, separated by commas (default: all)")
-    parser.add_argument("--scenes", default="", help="more glTF files below the project, separated by commas")
+    parser.add_argument("--scenes", default="", help="more glTF files, inside the repository, separated by commas")
     options = parser.parse_args()
     shutil.rmtree(WORK, ignore_errors=True)
     os.makedirs(WORK)

@@ -1,4 +1,4 @@
-"""Style sheet of the Godot page. It is self-contained: the page loads nothing from elsewhere."""
+"""Style sheet of the Godot demo's page (godot_page.py), which loads nothing from elsewhere."""
 
 STYLE = """
 :root { --paper: #f6f4ef; --card: #ffffff; --ink: #23201c; --soft: #6d665c; --line: #e2dcd0;

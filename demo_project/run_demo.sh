@@ -1,25 +1,25 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to demo_project/out/index.html: installs what is missing, builds, renders
 # demo scenes with and without soft shadows, and measures every technique (`gnomon report`). The page
-# exists once the first cells are measured, and grows while the report runs.
+# exists once the first configuration (scene, light, light size) is measured, and grows from then on.
 set -euo pipefail
 
 usage() {
     cat <<'TEXT'
 Usage: demo_project/run_demo.sh [options]
-  --all           every scene at three sizes of its lights, all quality levels, sweeps: more than an hour
+  --all           every scene at three sizes of its lights, all quality levels, stability sweeps: more than an hour
   --size WxH      size of the images and masks (default 256x256)
   --samples N     light samples of the reference (default 1024)
   --frames N      maximum number of frames over which each technique is timed (default 20)
   --quick         three scenes only: sphere, three_lights, torus_knot
   --scenes A,B    these scenes only (default: ten scenes)
-  --skip A,B*     none of these of the scenes that would be measured; * is any text
+  --skip A,B*     skip these of the scenes that would be measured; * matches any text
   --out DIR       where the page goes (default demo_project/out)
   --jobs N        build jobs (default: one per core)
   --device NAME   Vulkan device, by name or index (default: the engine's choice)
   --no-window     do not open the window at the end, even where there is a display
   --no-build      use bin/gnomon as it is
-The page is measured again from scratch. Exit code: 0 all done, 1 something failed, 2 wrong usage.
+Every run measures everything again. Exit code: 0 all done, 1 something failed, 2 wrong usage.
 TEXT
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to demo_project/godot/out/index.html: installs Godot if there is none, builds the add-on and the
-# program, renders the Godot project, and measures the masks next to Godot's own shadows.
+# program, renders the Godot project, and measures Gnomon's shadows next to Godot's own.
 set -euo pipefail
 
 usage() {
@@ -10,7 +10,7 @@ Usage: demo_project/run_godot_demo.sh [options]
   --samples N     light samples of the reference (default 9216)
   --frames N      frames over which each shadow mode is timed (default 20)
   --cases A,B     cases LIGHT_CASTER, such as omni_box (default: all twelve)
-  --scenes A,B    also glTF files below this project, each of their lights alone
+  --scenes A,B    also glTF files inside this repository, each of their lights alone
   --out DIR       where the page goes (default demo_project/godot/out)
   --jobs N        build jobs (default: one per core)
   --no-build      use what is built

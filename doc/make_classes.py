@@ -19,7 +19,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
 FOLDER = os.path.join(ROOT, "doc", "classes")
 NOTE = "<!-- Written by doc/make_classes.py from the declarations in the code; do not edit. -->"
-COMMON_HEADING = "every light"
+COMMON_HEADING = "every light"  # in the output of `gnomon techniques`, before the properties that all lights have
 # "    light_size = 0.1 (0..10000 m): Radius ...", as `gnomon techniques` prints it.
 PROPERTY_LINE = re.compile(r"^    (\w+) = (.*?) ?\((.+?)\): (.+)$")
 TIMEOUT_S = 60
@@ -62,6 +62,7 @@ def format_default(value):
 
 
 def format_table(properties):
+    """Return the lines of a Markdown table. properties: dicts with name, default, range and tooltip."""
     lines = ["| property | default | allowed | meaning |", "|---|---|---|---|"]
     for item in properties:
         default = format_default(item["default"])
@@ -78,6 +79,7 @@ def make_page_link(added_id):
 
 
 def make_properties_page(item):
+    """Return the page of a technique or filter. item: its description in the JSON of `gnomon techniques` or `filters`."""
     lines = ["# Properties of `%s`" % item["id"], "", NOTE, "", "%s. Source: %s." % (item["name"], item["source"])]
     lines += make_page_link(item["id"]) + [""]
     if item["properties"]:
@@ -101,6 +103,7 @@ def make_light_page(properties):
 
 
 def make_index(names):
+    """Return index.md. names: those of the pages of techniques and filters, without .md."""
     lines = ["# Properties", "", NOTE, "", "- [Every light](light_3d.md)"]
     lines += ["- [%s](%s.md)" % (name, name) for name in names]
     return "\n".join(lines + [""])

@@ -2,7 +2,7 @@
 """Runs a scripted session of the editor (tests/command_line/editor_story.py) under Xvfb, and writes its screenshots to
 doc/images/editor*.png. Build first: scons.
 
-Look at them afterwards: a screenshot that contradicts its page is worse than none.
+Afterwards compare the screenshots with doc/editor.md, which shows them.
 """
 
 import os
@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "command_line"))
 import editor_story  # noqa: E402
 from editor_case import EditorCase  # noqa: E402
 
-WINDOW = "1280x720+0+0"
+WINDOW = "1280x720+0+0"  # size and position of the editor's window in pixels
 COLORS = 256  # so that a screenshot stays small in the repository
 
 
@@ -26,6 +26,7 @@ class Photographer(EditorCase):
 
     def take(self, name):
         path = os.path.join(ROOT, "doc", "images", name + ".png")
+        # `import` is ImageMagick's program for screenshots.
         command = ["import", "-silent", "-window", "root", "-crop", WINDOW, "+repage", "+dither", "-colors", str(COLORS)]
         subprocess.run([*command, "PNG8:" + path], env={**os.environ, "DISPLAY": self.display}, check=True)
         print("%s: %d bytes" % (os.path.relpath(path, ROOT), os.path.getsize(path)))

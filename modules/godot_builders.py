@@ -1,4 +1,5 @@
-"""Finds Godot, generates bindings from the description of its API that it writes itself, and packs the add-on."""
+"""Finds Godot, generates bindings from the description of its API that Godot writes, and packs the
+add-on."""
 
 import os
 import shutil
@@ -9,7 +10,7 @@ import zipfile
 
 from SCons.Script import Action
 
-HOW_TO_GET_ONE = (
+NO_GODOT_ERROR = (
     "ERROR: no Godot was found. Set $GODOT to a Godot 4.5 or later, or have `godot` in PATH.\n"
     "demo_project/run_godot_demo.sh sets one up on Debian 12, below build/godot_program/."
 )
@@ -39,7 +40,7 @@ def add_bindings(env):
 
     env["GODOT"] = find_godot()
     if not env["GODOT"]:
-        print(HOW_TO_GET_ONE)
+        print(NO_GODOT_ERROR)
         env.Exit(2)
     folder = "#" + env["BUILD_FOLDER"].lstrip("#") + "/api/"
     described = env.Command(
@@ -63,6 +64,7 @@ def add_bindings(env):
 
 
 def get_api_folder(env):
+    """Return the folder of the generated headers, relative to the repository's root."""
     return env.Dir("#" + env["BUILD_FOLDER"].lstrip("#") + "/api").path
 
 

@@ -22,7 +22,7 @@ import re
 import shlex
 import subprocess
 
-VERSION = "0.1.0"
+VERSION = "0.1.0"  # of all modules, shown to users
 REQUIRED_FILES = ("register_types.h", "SCsub", "config.py")
 
 
@@ -70,8 +70,9 @@ def find_modules(modules_folder):
 
 
 def select_modules(modules, env):
-    """Return the modules to build: those that are enabled, for this host, and can be built here. Exits with an error that names both
-    if a dependency is missing; in a build for Godot the module is skipped instead."""
+    """Return the modules to build: those that are enabled, for this host, and can be built here. If
+    a dependency is missing, exits with an error that names it and the module; in a build for Godot
+    the module is skipped instead."""
     selected = []
     names = set()
     for module in modules:
@@ -108,6 +109,7 @@ def find_missing_modules(path, modules):
         for name in included:
             if name.startswith("tests/"):
                 waiting.append(os.path.join(root, name))
+            # The last condition excludes headers that are in no module, such as modules/pch.h.
             elif name.startswith("modules/") and name.split("/")[1] not in built and "/" in name[8:]:
                 missing.add(name.split("/")[1])
     return missing

@@ -41,7 +41,8 @@ def _scan(node, env, path):
 
 
 def get_spirv_prefix(env):
-    """Return the folder of SPIR-V within a build folder, "" or with a slash at its end: each host has its own passes."""
+    """Return the folder of SPIR-V within a build folder, "" or with a slash at its end. The add-on has
+    its own, because its SPIR-V is not optimised."""
     return "godot/" if env["godot"] else ""
 
 
@@ -82,6 +83,7 @@ def _embed(target, source, env):
     for index, name in enumerate(names):
         lines.append('\t{ "%s", SHADER_%d },' % (name, index))
     function = env.get("SHADER_FUNCTION", "get_embedded_shaders")
+    # The last entry is not part of the span: an array must not be empty.
     lines += ["\t{ {}, {} },", "};", "} // namespace", "", "std::span<const EmbeddedShader> %s();" % function, ""]
     lines += ["std::span<const EmbeddedShader> %s() {" % function]
     lines += ["\treturn std::span<const EmbeddedShader>(SHADERS, %d);" % len(names), "}", "", "} // namespace gnomon", ""]
@@ -90,8 +92,8 @@ def _embed(target, source, env):
 
 
 def _optimize(target, source, env):
-    """Optimises SPIR-V in place. Messages are shown on failure only: each function that returns early causes a warning that it
-    is not inlined."""
+    """Optimises SPIR-V in place. Messages are shown on failure only: spirv-opt warns of each function
+    that returns early, since it cannot inline it."""
     path = str(target[0])
     command = ["spirv-opt", *env["OPTIMIZER_PASSES"], "--target-env=vulkan1.1", "--preserve-bindings", "--preserve-spec-constants"]
     result = subprocess.run(command + [path, "-o", path], capture_output=True, encoding="utf-8", errors="replace")
@@ -111,7 +113,8 @@ def add_builders(env):
     actions = [Action(command, "Compiling shader $TARGET")]  # not env.Action: that expands $TARGET at once, to nothing
     if not env["dev_build"] and not env["godot"]:
         env["OPTIMIZER_PASSES"] = OPTIMIZER_PASSES
-        actions.append(Action(_optimize, None, varlist=["OPTIMIZER_PASSES"]))  # other passes: shaders are built again
+        # varlist: a change of the passes rebuilds the shaders.
+        actions.append(Action(_optimize, None, varlist=["OPTIMIZER_PASSES"]))
     env["BUILDERS"]["Spirv"] = env.Builder(action=actions, source_scanner=scanner)
     env["BUILDERS"]["EmbeddedShaders"] = env.Builder(action=Action(_embed, "Embedding shaders in $TARGET"))
 

@@ -39,7 +39,8 @@ inline void apply_light_settings(const Scene &p_scene, const nlohmann::json &p_s
 			info = find_added_light_property(name);
 		}
 		if (info == nullptr) {
-			fail("Setting \"", name, "\": no light and no technique of this build has it.");
+			fail("Setting \"", name,
+					"\": no light, technique or mask filter of this build has this property.");
 		}
 		const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
 		for (Light3D *light : p_scene.find_nodes<Light3D>()) {

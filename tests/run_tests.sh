@@ -8,9 +8,10 @@ usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--jobs N] [--only PART]...
   --sanitized  also the modules that need no GPU under sanitizers, and the stored fuzzing inputs
-  --full       in addition to all of these: sanitizers over everything, removal of every technique in
-               turn, a build of the smallest game, tables with 9216 light samples, the editor's tests ten
-               times, shadow volumes of large meshes and gltf-validator (installs npm, which downloads them), fuzzing
+  --full       also what --sanitized adds, sanitizers over everything, the thread sanitizer over the modules that
+               need no GPU, removal of every technique in turn, a build of the smallest game, tables with 9216 light
+               samples, the editor's tests ten times, shadow volumes of large meshes and gltf-validator (installs npm,
+               which downloads them), fuzzing
                (installs clang), 10,000 frames of scenes that change at random, programs killed 200
                times, all stability sweeps
   --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
@@ -112,17 +113,18 @@ export GALLIVM_PERF=${GALLIVM_PERF-nopt}
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
 
-# One file per lane, with a line for each part in the order in which they end: "PASSED FAILED SKIPPED" and text for people.
+# One file per lane (see run_lanes), with a line for each part in the order in which they end: "PASSED FAILED SKIPPED" and
+# text for people.
 results=$work/results
 mkdir "$results"
 
-# add_result PART PASSED FAILED SKIPPED
+# add_result PART PASSED FAILED SKIPPED: adds the line of a part that began at $part_begin.
 add_result() {
     printf '%d %d %d %-16s %5d passed %4d failed %4d skipped  %4d s\n' "$2" "$3" "$4" "$1" "$2" "$3" "$4" \
         $((SECONDS - part_begin)) >>"$results/$lane"
 }
 
-# keep_failures PART LOG: the log's lines on failures, to be shown at the end: the beginning of a long output is soon lost.
+# keep_failures PART LOG: saves the log's lines on failures, which finish() shows again after all other output.
 keep_failures() {
     {
         echo "-- $1:"
@@ -195,6 +197,7 @@ run_lanes() {
     done
 }
 
+# finish: prints failures, one line per part and the sums, and exits with 0 if some passed and none failed.
 finish() {
     local counts passed failed skipped rest
     echo
@@ -235,7 +238,8 @@ build_without_device() {
     scons -Q -j"$jobs" compiledb=no sanitize="$sanitizers" "${options[@]}" "$@"
 }
 
-# run_sanitized PART SANITIZERS TEST_OPTION...: modules without a device, built with sanitizers.
+# run_sanitized PART SANITIZERS TEST_OPTION...: tests the modules that need no device. First the sanitizers must report the
+# deliberate errors of the canaries.
 run_sanitized() {
     local part=$1 sanitizers=$2 suffix=release_${2//,/_}
     shift 2
@@ -279,8 +283,8 @@ part_blender() {
     run_part blender python3 tests/run_unittest.py tests/blender/test_export.py tests/blender/test_round_trip.py
 }
 part_demo() {
-    # Without --all the demo draws few of the untuned meshes. The part "stability" draws more, and "tables" all of them.
-    # It draws many frames with each shader.
+    # Without --all the demo draws one of the package meshes; "stability" draws more, and "tables" all of them. Shaders are
+    # optimised (no GALLIVM_PERF), because the demo draws many frames with each.
     run_check demo env -u GALLIVM_PERF demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
 }
 part_bundle() {
@@ -332,7 +336,7 @@ part_godot_editor() {
 part_godot_soak() {
     local options=()
     [ "$is_full" = yes ] && options=(--full)
-    # It draws many frames with each shader.
+    # Optimised shaders (no GALLIVM_PERF): the test draws many frames with each.
     run_part "godot soak" env -u GALLIVM_PERF python3 tests/godot/test_soak.py "${options[@]}"
 }
 part_sanitized_all() {

@@ -58,6 +58,7 @@ def main():
     sys.stdout.flush()
     result = unittest.TextTestRunner(verbosity=2, resultclass=CountingResult).run(suite)
     failed, skipped = len(result.failed), len(result.skipped)
+    # Not below 0: a setUpClass that fails or skips is counted, but its tests have not run.
     passed = max(0, result.testsRun - failed - skipped)
     sys.stderr.flush()
     print("%d passed, %d failed, %d skipped" % (passed, failed, skipped), flush=True)

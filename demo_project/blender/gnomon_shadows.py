@@ -52,8 +52,8 @@ class BlenderValue(NamedTuple):
     types: tuple
     allowed: tuple  # (minimum, maximum) in the engine's unit
     unit: str
-    # Custom properties that the engine reads, in order of precedence, with the factors that convert
-    # them to Blender's unit. Names such as `radius` are written by other programs.
+    # Custom properties that the engine reads, in order of precedence: name -> factor that converts
+    # it to Blender's unit. Names such as `radius` are written by other programs.
     factors: dict
 
     def compute(self, light):
@@ -153,9 +153,10 @@ def check_lights(lights, scene):
 
 
 def find_owners(value, light, objects):
-    """Return the light or the objects in which Blender's value is stored. Custom properties that the user typed win.
+    """Return what gets Blender's value as a custom property during the export: the light, or objects.
 
-    The engine reads the light before the object.
+    Properties that the user typed are not overwritten. The engine reads the light before the object,
+    so the light gets none if one of its objects has a typed one.
     """
     if value.find_names(light):
         return []
@@ -199,7 +200,7 @@ def run_exporter(path, is_embedded):
         "use_active_scene": True,
         "use_visible": True,
         "use_renderable": True,
-        # The engine shows one moment: modifiers are applied in the file, as the current frame has them.
+        # The file shows the current frame: modifiers and armatures are applied, no animation is written.
         "export_apply": True,
         "export_animations": False,
         "export_skins": False,
@@ -241,7 +242,7 @@ def export_scene(context, path, is_embedded=False):
     except OSError as error:
         raise ExportError("%s cannot be written: %s. Choose another folder." % (path, error.strerror)) from error
     if not any(item.type == "CAMERA" and item.data.type == "PERSP" for item in objects):
-        return ["No perspective camera is visible; `gnomon edit` shows the file, `gnomon run` needs one (Add > Camera)."]
+        return ["No perspective camera is visible, so Gnomon adds one that shows all meshes. Add your own (Add > Camera)."]
     return []
 
 
@@ -321,9 +322,9 @@ TECHNIQUES = TechniqueList()
 
 def search_techniques(_light, context, _text):
     items = list(TECHNIQUES.load(context))
-    known = {name for name, _ in items}
-    used = {light.get(TECHNIQUE) for light in bpy.data.lights}
-    return items + [(name, "used in this file") for name in sorted(filter(is_text, used)) if name not in known]
+    known_ids = {item_id for item_id, _name in items}
+    used_ids = sorted(filter(is_text, {light.get(TECHNIQUE) for light in bpy.data.lights}))
+    return items + [(used_id, "used in this file") for used_id in used_ids if used_id not in known_ids]
 
 
 def is_text(value):
@@ -373,7 +374,7 @@ def make_width_property(name, label, description):
     )
 
 
-class GNOMON_PT_shadow(bpy.types.Panel):
+class GNOMON_PT_shadow(bpy.types.Panel):  # Blender expects class names PREFIX_TYPE_name
     bl_label = "Gnomon Shadow"
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
@@ -515,7 +516,7 @@ def unregister():
 
 
 def run_command(arguments):
-    """Export as the command line says; return the exit code."""
+    """Run the export that the command line describes; return the exit code."""
     parser = argparse.ArgumentParser(prog="blender -b FILE.blend -P gnomon_shadows.py --", description="Exports for Gnomon.")
     parser.add_argument("--export", required=True, metavar="OUT", help="the .gltf or .glb file to write")
     parser.add_argument("--embedded", action="store_true", help="a .gltf without a .bin next to it")

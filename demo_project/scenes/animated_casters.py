@@ -11,6 +11,8 @@ LEG_KEYS_PER_CYCLE = 24  # keys per cycle of the walk; between them a flat foot 
 BODY_KEYS_PER_CYCLE = 12
 HIPS_KEYS_PER_CYCLE = 8
 FLAG_KEYS_PER_CYCLE = 12
+POLE_RADIUS_M = 0.018
+FLAG_BELOW_TOP_M = 0.03  # from the top of the pole to the flag's upper edge
 CLOTH_COLORS = ((0.93, 0.90, 0.82), (0.12, 0.42, 0.44))
 
 
@@ -28,7 +30,10 @@ def round_position(position):
 
 
 def add_figure(document, center, stem):
-    """Add the figure at rest, where its walk around the center begins; return joint -> node."""
+    """Add the figure at rest, where its walk around the center begins; return joint -> node.
+
+    stem: of the texture's file name.
+    """
     root, heading = figure_walk.get_root(0.0)
     root = round_position(root)
     heading = tuple(round(value, 9) for value in heading)
@@ -60,13 +65,13 @@ def make_cloth_png(size_px=32):
 
 
 def add_flag(document, foot, height_m, stem):
-    """Add a flag at the top of its pole; return the flag's node."""
+    """Add a pole and a flag at its top; return the flag's node. foot: of the pole. stem: as in add_figure()."""
     x, y, z = foot
     metal = document.add_material("Pole", (0.55, 0.55, 0.57), roughness=0.4)
-    document.add_object("Pole", make_cylinder(0.018, 0.5 * height_m, 16), metal, (x, y + 0.5 * height_m, z))
+    document.add_object("Pole", make_cylinder(POLE_RADIUS_M, 0.5 * height_m, 16), metal, (x, y + 0.5 * height_m, z))
     cloth = document.add_material("Cloth", (1.0, 1.0, 1.0), roughness=0.8, is_double_sided=True)
     document.set_texture(cloth, document.add_texture(stem + "_cloth.png", make_cloth_png()))
-    position = round_position((x + 0.018, y + height_m - 0.03 - 0.5 * flag_shapes.HEIGHT_M, z))
+    position = round_position((x + POLE_RADIUS_M, y + height_m - FLAG_BELOW_TOP_M - 0.5 * flag_shapes.HEIGHT_M, z))
     return document.add_object("Flag", flag_shapes.make_flag(), cloth, position)
 
 
@@ -78,6 +83,7 @@ def sample(steps_per_cycle, get_value):
 
 
 def get_hips_key(phase):
+    """Return (in-tangent, translation, out-tangent) of the hips, for CUBICSPLINE."""
     translation, rate = figure_walk.get_hips(phase)
     tangent = scale(rate, 1.0 / figure_walk.CYCLE_S)
     return tangent, translation, tangent
@@ -91,7 +97,7 @@ def build_walk(nodes):
     times, keys = sample(HIPS_KEYS_PER_CYCLE, get_hips_key)
     channels.append(Channel(nodes["Hips"], "translation", times, [row for key in keys for row in key], "CUBICSPLINE"))
     legs, body = (sample(steps, figure_walk.build_rotations) for steps in (LEG_KEYS_PER_CYCLE, BODY_KEYS_PER_CYCLE))
-    for joint in list(nodes)[1:]:
+    for joint in list(nodes)[1:]:  # without the root
         # The hips have the same times as the legs, whose keys are computed for the rotation of the hips at these times.
         times, poses = legs if joint == "Hips" or " leg " in joint or joint.startswith("Foot") else body
         rotations = [pose[joint] for pose in poses]
@@ -103,7 +109,10 @@ def build_walk(nodes):
 
 
 def add_walk(document, center, pole, pole_height_m, stem):
-    """Add the figure, the flag, and one animation of both."""
+    """Add the figure, the flag, and one animation of both.
+
+    center: of the figure's circle. pole: the foot of the flag's pole. stem: as in add_figure().
+    """
     channels = build_walk(add_figure(document, center, stem))
     flag = add_flag(document, pole, pole_height_m, stem)
     count = round(FLAG_KEYS_PER_CYCLE * figure_walk.LOOP_S / flag_shapes.CYCLE_S)

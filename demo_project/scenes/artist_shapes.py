@@ -1,7 +1,7 @@
 """Meshes with the usual flaws of artists' work: intersecting parts in one mesh, open, duplicated and non-manifold faces.
 
-Functions take random numbers from a seeded generator and return a gltf_writer.Mesh in metres with the ground at y = 0. All
-that is sure of such a mesh is that its positions are finite, its normals have unit length and its triangles have an area.
+Functions take random numbers from a seeded generator and return a gltf_writer.Mesh in metres with the ground at y = 0.
+Only finite positions, normals of unit length, and triangles with an area are guaranteed.
 """
 
 import math
@@ -31,7 +31,8 @@ def make_open_tube(points, radius, side_count, angle_rad=0.0):
 
 
 def make_strip(left, right):
-    """Return quads with flat normals between two polylines, front where right is on the right, looking along them."""
+    """Return quads with flat normals between two polylines. Seen from their front, along the polylines, `left` is on
+    the left."""
     mesh = Mesh(is_closed=False)
     for i in range(len(left) - 1):
         corners = (left[i], right[i], right[i + 1], left[i + 1])
@@ -70,13 +71,13 @@ def make_kitbash_part(generator):
     return make_quad(generator.uniform(0.1, 0.3), generator.uniform(0.1, 0.3))
 
 
-# One part in DUPLICATE_STEP is duplicated, and one in FIN_STEP has a third face on one of its edges.
-DUPLICATE_STEP, FIN_STEP = 30, 20
+# One part in DUPLICATE_STEP is duplicated, and one in THIRD_FACE_STEP has a third face on one of its edges.
+DUPLICATE_STEP, THIRD_FACE_STEP = 30, 20
 
 
 def make_kitbash(generator, part_count):
     """Return a mound of parts in one mesh: closed and open, intersecting each other and the ground, some duplicated, some
-    with an edge of three faces. The first ones are broad slabs and cards on which the others cast shadows."""
+    with an edge of three faces. The first twentieth of them are broad slabs and cards on which the others cast shadows."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     for index in range(part_count):
         # Uniform over a disc, and higher towards its centre.
@@ -97,20 +98,20 @@ def make_kitbash(generator, part_count):
         mesh.add_mesh(part, rotation, position)
         if index % DUPLICATE_STEP == 0:
             mesh.triangles += [tuple(corner + first_vertex for corner in triangle) for triangle in part.triangles]
-        if index % FIN_STEP == 0:
-            add_fin(mesh, mesh.triangles[-1], generator.uniform(0.05, 0.2))
+        if index % THIRD_FACE_STEP == 0:
+            add_third_face(mesh, mesh.triangles[-1], generator.uniform(0.05, 0.2))
     return mesh
 
 
-def add_fin(mesh, triangle, height):
+def add_third_face(mesh, triangle, height):
     """Add a third face to the triangle's first edge, in the direction of the triangle's normal."""
     a, b, c = (mesh.positions[index] for index in triangle)
-    face_normal = normalize(cross(subtract(b, a), subtract(c, a)))
-    fin_normal = cross(subtract(b, a), face_normal)
-    corners = (b, a, add(a, scale(face_normal, height)))
-    if dot(cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0])), fin_normal) < 0.0:
-        fin_normal = scale(fin_normal, -1.0)
-    mesh.add_triangle(*(mesh.add_vertex(corner, fin_normal) for corner in corners))
+    triangle_normal = normalize(cross(subtract(b, a), subtract(c, a)))
+    normal = cross(subtract(b, a), triangle_normal)
+    corners = (b, a, add(a, scale(triangle_normal, height)))
+    if dot(cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0])), normal) < 0.0:
+        normal = scale(normal, -1.0)
+    mesh.add_triangle(*(mesh.add_vertex(corner, normal) for corner in corners))
 
 
 def make_rope_points(start, end, sag, segment_count):
@@ -125,6 +126,7 @@ def make_rope_points(start, end, sag, segment_count):
 HULL_HALF_LENGTH, HULL_HALF_BEAM, DECK_HEIGHT, KEEL_HEIGHT = 1.6, 0.45, 0.55, 0.03
 MASTS = ((-0.85, 1.75), (0.05, 2.1), (0.9, 1.6))  # x, height of the top
 YARD_HALF_WIDTH = 0.6
+YARD_HEIGHT_FRACTIONS = (0.62, 0.88)  # of the mast's height
 
 
 def find_rail(x, side):
@@ -136,6 +138,7 @@ def find_rail(x, side):
 def make_hull(strake_count=6, station_count=24):
     """Return a ship's hull: strakes (rows of planks) with separate vertices, a deck with hatches, masts and yards, all open."""
     mesh = Mesh(is_closed=False, is_manifold=False)
+    # Not quite to the ends, where the hull has no width and its quads would have no area.
     stations = [HULL_HALF_LENGTH * 0.985 * (2.0 * i / station_count - 1.0) for i in range(station_count + 1)]
 
     def find_point(x, side, t):
@@ -157,7 +160,7 @@ def make_hull(strake_count=6, station_count=24):
         mesh.add_mesh(make_strip(starboard, port))
     for x, top in MASTS:
         mesh.add_mesh(make_open_tube([(x, 0.1, 0.0), (x, top, 0.0)], 0.028, 10))
-        for height_fraction in (0.62, 0.88):
+        for height_fraction in YARD_HEIGHT_FRACTIONS:
             y = top * height_fraction
             mesh.add_mesh(make_open_tube([(x, y, -YARD_HALF_WIDTH), (x, y, YARD_HALF_WIDTH)], 0.015, 6))
     bow = find_rail(0.98 * HULL_HALF_LENGTH, 1.0)
@@ -185,7 +188,8 @@ def make_rigging(generator, rope_count):
             other_x, other_top = generator.choice([mast for mast in MASTS if mast[0] != mast_x])
             foot = (other_x, other_top * generator.uniform(0.45, 0.98), 0.0)
         elif kind < 0.6:  # from a yard down to the rail
-            head = (mast_x, mast_top * generator.choice((0.62, 0.88)), side * generator.uniform(0.1, YARD_HALF_WIDTH))
+            yard_height = mast_top * generator.choice(YARD_HEIGHT_FRACTIONS)
+            head = (mast_x, yard_height, side * generator.uniform(0.1, YARD_HALF_WIDTH))
         elif kind < 0.7:  # into the ground
             foot = (foot_x + generator.uniform(-0.4, 0.4), -0.05, side * generator.uniform(0.7, 1.3))
         points = make_rope_points(foot, head, generator.uniform(0.0, 0.12), 12)
@@ -195,16 +199,17 @@ def make_rigging(generator, rope_count):
 
 def add_ladder(mesh, foot, head, half_width):
     rung_step = 0.09
+    segment_count = 6  # of each rail
     rails = [
-        make_rope_points((foot[0] + offset, foot[1], foot[2]), (head[0] + 0.25 * offset, head[1], head[2]), 0.02, 6)
+        make_rope_points((foot[0] + offset, foot[1], foot[2]), (head[0] + 0.25 * offset, head[1], head[2]), 0.02, segment_count)
         for offset in (-half_width, half_width)
     ]
     for rail in rails:
         mesh.add_mesh(make_open_tube(rail, 0.005, 4))
     rung_count = int(math.dist(foot, head) / rung_step)
     for i in range(1, rung_count):
-        at = 6.0 * i / rung_count
-        segment = min(int(at), 5)
+        at = segment_count * i / rung_count
+        segment = min(int(at), segment_count - 1)
         ends = [mix(rail[segment], rail[segment + 1], at - segment) for rail in rails]
         mesh.add_mesh(make_open_tube(ends, 0.004, 3))
 
@@ -222,7 +227,7 @@ def make_grass(generator, blade_count):
         height, half_width = generator.uniform(0.12, 0.45), generator.uniform(0.008, 0.02)
         bend = generator.uniform(0.0, 0.35) * height
         yaw = quaternion_about((0.0, 1.0, 0.0), 2.0 * math.pi * generator.random())
-        slope = 2.0 * bend / height  # horizontal per vertical metre of the bent blade at its tip
+        slope = 2.0 * bend / height  # about the horizontal per vertical metre of the bent blade at its tip
         corners = []
         for t in (0.0, 0.45, 0.8, 1.0):
             center = (0.0, t * (height + BLADE_ROOT_DEPTH), bend * t * t)

@@ -10,7 +10,7 @@ import math
 from gltf_writer import Mesh, add, encode_png, rotate
 from isosurface import compute_gradient, find_surface, relax_points, split_quads
 
-# Joint -> (parent, position). A joint with a name in " L" has a mirrored twin with " R".
+# Joint -> (parent, position). A joint whose name ends with " L" has a mirrored twin that ends with " R".
 LEFT_AND_MIDDLE = {
     "Root": (None, (0.0, 0.0, 0.0)),
     "Hips": ("Root", (0.0, 0.86, 0.0)),
@@ -78,6 +78,7 @@ def build_skeleton():
 
 
 def prepare_part(part):
+    """Return a part of PARTS as get_part_distance() needs it."""
     joint, a, b, radius_a, radius_b, stretch, blend = part
     along = tuple(b[axis] - a[axis] for axis in range(3))
     return (joint, a, along, 1.0 / sum(value * value for value in along), radius_a, radius_b - radius_a, stretch, blend)
@@ -107,6 +108,7 @@ def get_body_distance(point):
         result = min(result, distance)
         if overlap > 0.0:  # smooth minimum (Quilez), a quadratic polynomial
             result -= overlap * overlap / (4.0 * blend)
+    # The feet are cut off at y = 0 by a smooth intersection with the half-space above.
     overlap = SOLE_ROUNDING_M - abs(result + y)
     return max(result, -y) + (overlap * overlap / (4.0 * SOLE_ROUNDING_M) if overlap > 0.0 else 0.0)
 
@@ -188,7 +190,7 @@ def find_body():
 def get_color(x, height):
     """Return the colour of the clothes, sRGB, at a position on the texture in metres."""
     hand, wrist = LEFT_AND_MIDDLE["Hand L"][1], 0.005
-    if abs(x) > 0.2:
+    if abs(x) > 0.2:  # the arms, away from the trunk; a slanted line separates sleeve and skin
         return SKIN if hand[1] - height + 0.35 * (abs(x) - hand[0]) > wrist else SHIRT
     for top, color in ((0.072, SHOES), (0.868, TROUSERS), (0.89, BELT), (1.277, SHIRT), (1.443, SKIN)):
         if height < top:

@@ -139,7 +139,10 @@ def find_bone_rotation(rest, direction, hinge):
 
 
 def find_leg(hip, ankle, thigh, shin, forward):
-    """Return (rotation of the thigh, rotation of the shin) for a leg from hip to ankle whose knee points forward."""
+    """Return (rotation of the thigh, rotation of the shin) for a leg from hip to ankle whose knee points forward.
+
+    thigh, shin: the vectors from hip to knee and from knee to ankle at rest.
+    """
     upper, lower = math.sqrt(dot(thigh, thigh)), math.sqrt(dot(shin, shin))
     reach = subtract(ankle, hip)
     length = min(math.sqrt(dot(reach, reach)), MAX_LEG_FRACTION * (upper + lower))
@@ -152,6 +155,7 @@ def find_leg(hip, ankle, thigh, shin, forward):
 
 
 def pose_legs(rotations, phase):
+    """Rotate the legs by inverse kinematics; needs the rotation of the hips."""
     root, heading = get_root(phase)
     hips = add(root, rotate(heading, get_hips(phase)[0]))
     hips_rotation = multiply_quaternions(heading, rotations["Hips"])

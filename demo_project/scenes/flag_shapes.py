@@ -28,6 +28,7 @@ def get_wave(s, t, offset_rad):
 
 
 def get_deltas(name, s, t):
+    """Return how far a morph target, one of TARGETS, moves a point."""
     if name == "Wave":
         return (0.0, 0.0, get_wave(s, t, 0.0))
     if name == "Wave, a quarter on":
@@ -35,11 +36,12 @@ def get_deltas(name, s, t):
     return (-0.35 * SAG_M * s * s * (1.0 - t), -SAG_M * s * s, 0.05 * s * s * (1.0 - t))
 
 
-# The second is the first a quarter period earlier.
+# The second wave is the first one a quarter of its period earlier.
 TARGETS = ("Wave", "Wave, a quarter on", "Sag")
 
 
 def get_normal(get_point, s, t):
+    # One-sided at the pole: get_wave() has no real value at s < 0.
     along = subtract(get_point(s + STEP, t), get_point(s - STEP if s > STEP else s, t))
     return normalize(cross(along, subtract(get_point(s, t + STEP), get_point(s, t - STEP))))
 
@@ -56,6 +58,7 @@ def make_flag():
 
         normals = [subtract(get_normal(get_point, s, t), (0.0, 0.0, 1.0)) for s, t in parameters]
         deltas = [get_deltas(name, s, t) for s, t in parameters]
+        # + 0.0 turns -0.0 into 0.0.
         mesh.targets.append((name, *([tuple(to_float32(value) + 0.0 for value in row) for row in rows] for rows in (deltas, normals))))
     for j in range(ROWS):
         for i in range(COLUMNS):

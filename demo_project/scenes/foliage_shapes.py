@@ -8,7 +8,7 @@ import math
 
 from gltf_writer import Mesh, add, cross, encode_png, normalize, scale
 
-CHAIN_WIRE = 0.075  # half a wire's width, in tiles
+WIRE_HALF_WIDTH = 0.075  # of chain link, in tiles
 
 
 def make_card(half_x, half_y, repeats=(1.0, 1.0)):
@@ -33,7 +33,7 @@ def get_leaf_depth(shape, x, y):
 def get_chain_depth(u, v):
     """Return a point's depth inside a chain-link wire, in tiles; both wires of a tile run from corner to corner."""
     distance = min(abs((along + 0.5) % 1.0 - 0.5) for along in (u + v, u - v)) / math.sqrt(2.0)
-    return CHAIN_WIRE - distance
+    return WIRE_HALF_WIDTH - distance
 
 
 def make_mask_png(size_px, get_depth, get_color):
@@ -61,7 +61,7 @@ def make_leaf_png(shape, color, size_px=64):
 
 def make_chain_png(size_px=64):
     def get_color(u, v):
-        return [0.55 + 0.35 * max(get_chain_depth(u, v), 0.0) / CHAIN_WIRE] * 3
+        return [0.55 + 0.35 * max(get_chain_depth(u, v), 0.0) / WIRE_HALF_WIDTH] * 3
 
     return make_mask_png(size_px, get_chain_depth, get_color)
 
@@ -74,6 +74,8 @@ def make_stone_png(generator, size_px=128, rows=8, columns=4):
     def get_color(u, v):
         row = int(v * rows) % rows
         across = u * columns + (0.5 if row % 2 else 0.0)
+        # Distance to the nearest joint, in block heights: with two rows per column, blocks are twice as
+        # wide as high.
         to_joint = min(v * rows % 1.0, 1.0 - v * rows % 1.0, 2 * (across % 1.0), 2 * (1.0 - across % 1.0))
         shade = shades[row, int(across) % columns] * (0.55 if to_joint < 0.06 else 1.0)
         shade += grain[int(v * size_px) % size_px][int(u * size_px) % size_px]

@@ -23,7 +23,7 @@ class Channel:
 
 
 def make_signs_continuous(quaternions):
-    """Return the quaternions with signs by which LINEAR takes the shorter way in readers that do not choose signs themselves."""
+    """Return the quaternions with such signs that LINEAR takes the shorter arc in every reader."""
     result = []
     for quaternion in quaternions:
         if result and sum(a * b for a, b in zip(quaternion, result[-1])) < 0.0:

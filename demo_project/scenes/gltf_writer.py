@@ -1,6 +1,6 @@
 """Meshes and a small glTF 2.0 writer for the demo scenes. Standard library only.
 
-A mesh is checked before it is written. Positions are float32, and no triangle is degenerate. Unless is_manifold is False, it is
+A mesh is checked before it is written. No triangle has two corners at one position. Unless is_manifold is False, the mesh is
 an oriented 2-manifold after welding by position; if is_closed is True as well, it is closed and its faces point outward.
 """
 
@@ -185,7 +185,7 @@ class Mesh:
         for triangle in self.triangles:
             a, b, c = (ids[index] for index in triangle)
             if len({a, b, c}) < 3:
-                raise ValueError("mesh %s: triangle %s has no area" % (name, triangle))
+                raise ValueError("mesh %s: triangle %s has no area: two of its corners coincide" % (name, triangle))
             for edge in ((a, b), (b, c), (c, a)):
                 directed[edge] = directed.get(edge, 0) + 1
                 parent[find(edge[0])] = find(edge[1])
@@ -324,7 +324,7 @@ class Document:
         return len(self.root["meshes"]) - 1
 
     def add_node(self, name, translation=None, rotation=None, parent=None, **members):
-        """Add a node below the parent, a node's index, or else to the scene; return its index."""
+        """Add a node, return its index. parent: a node's index, None for the scene. members: further glTF members."""
         node = {"name": name}
         if translation is not None:
             node["translation"] = list(translation)

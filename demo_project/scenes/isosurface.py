@@ -26,9 +26,10 @@ def move_to_surface(field, point, step_count=4):
     """Move a point to the surface by Newton steps along the gradient."""
     for _step in range(step_count):
         value = field(point)
-        if abs(value) < 1e-6:
+        if abs(value) < 1e-6:  # metres, if the field is a distance
             break
         gradient = compute_gradient(field, point)
+        # The gradient's squared length counts as at least 0.25: a step is at most twice the field's value.
         point = subtract(point, scale(gradient, value / max(dot(gradient, gradient), 0.25)))
     return point
 
@@ -102,7 +103,7 @@ def relax_points(field, points, quads, round_count):
                 mean = add(mean, scale(points[index], 1.0 / len(ring)))
             step = scale(subtract(mean, point), 0.5)
             normal = normalize(compute_gradient(field, point))
-            moved.append(move_to_surface(field, add(point, subtract(step, scale(normal, dot(step, normal)))), 1))
+            moved.append(move_to_surface(field, add(point, subtract(step, scale(normal, dot(step, normal)))), step_count=1))
         points = moved
     return [move_to_surface(field, point) for point in points]
 

@@ -6,7 +6,7 @@
 --count is the number of parts, ropes or blades of each scene.
 
 The same seed and count give the same bytes. By default the files are written next to this file. They are not committed;
-run_demo.sh and tests/stability generate them.
+run_demo.sh and tests generate them.
 """
 
 import math
@@ -18,6 +18,7 @@ from seeded_scenes import SeededScenes
 
 MAX_PARTS = 20000
 LIGHT_SIZE_FRACTION = 0.1  # of the scene's size: the size of each light
+# The sun looks as large as such a light at a distance of the scene's size.
 SUN_ANGLE_DEG = round(2.0 * math.degrees(math.atan(LIGHT_SIZE_FRACTION)), 6)
 
 

@@ -24,12 +24,14 @@ TRIANGLE_COUNT = 69666
 
 
 def make_bunny(points, triangles):
+    """Return the mesh, HEIGHT_M high, with its foot on y = 0 and centred on the Y axis."""
     low = [min(point[axis] for point in points) for axis in range(3)]
     high = [max(point[axis] for point in points) for axis in range(3)]
     factor = HEIGHT_M / (high[1] - low[1])
     middle = ((low[0] + high[0]) / 2.0, low[1], (low[2] + high[2]) / 2.0)
     mesh = Mesh()
     for point in points:
+        # The normal is a placeholder: set_smooth_normals() replaces it.
         mesh.add_vertex([(point[axis] - middle[axis]) * factor for axis in range(3)], (0.0, 1.0, 0.0))
     mesh.triangles = triangles
     mesh.set_smooth_normals()

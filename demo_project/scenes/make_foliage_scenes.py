@@ -7,7 +7,7 @@ and tree, in which a figure walks and a flag waves.
 --count is the number of leaves of a tree.
 
 The same seed and count give the same bytes. By default the files are written next to this file. They are not committed;
-run_demo.sh, tests/godot and tests/benchmark generate them.
+run_demo.sh and tests generate them.
 """
 
 import math
@@ -59,7 +59,7 @@ def make_fence_scene(_generator, _count):
     turn = quaternion_about((0.0, 1.0, 0.0), 0.35)
     document.add_object("Chain link", make_card(1.5, 0.6, (15.0, 6.0)), material, (0.0, 0.66, 0.0), turn)
     for side in (-1.0, 1.0):
-        x, z = 1.5 * side * math.cos(0.35), -1.5 * side * math.sin(0.35)
+        x, z = 1.5 * side * math.cos(0.35), -1.5 * side * math.sin(0.35)  # an end of the card
         document.add_object("Post", make_cylinder(0.04, 0.68, 24), post, (x, 0.68, z))
     return document
 
@@ -111,7 +111,7 @@ def make_courtyard_scene(generator, count):
     return document
 
 
-# Name -> (function that builds it, default number of leaves).
+# Name -> (function that builds it, default number of leaves, unused by leaf and fence).
 SCENES = {
     "leaf": (make_leaf_scene, 1),
     "fence": (make_fence_scene, 0),

@@ -4,7 +4,7 @@
     make_scenes.py [--out DIR]     writes every scene
     make_scenes.py --check         exits 1 when a committed scene differs from what would be written
 
-The first six of SCENES are those of the study in doc/benchmarks.md, with its values, so that results are comparable.
+The first six of SCENES are those of the study in doc/benchmarks.md, unchanged, so that results are comparable.
 Units are metres, +Y is up.
 """
 
@@ -34,7 +34,7 @@ SCENE_SIZE_M = 4
 LIGHT_EYE, LIGHT_TARGET, LIGHT_TANGENT = (1.8, 6.0, 1.2), (0.0, 0.4, 0.0), 0.95
 CAMERA_EYE, CAMERA_TARGET, CAMERA_FOV_DEG = (-3.2, 4.6, 4.6), (-0.3, 0.45, -0.2), 36.87
 LIGHT_SIZE_M = 0.4
-LIGHT_INTENSITY_CD = 260.0  # about 7 lx at 6 m: a light grey ground comes out light grey
+LIGHT_INTENSITY_CD = 260.0  # about 7 lx at 6 m; exposure is automatic
 WARM_WHITE = [1.0, 0.95, 0.87]
 GROUND_HALF = (4.2, 0.2, 4.2)
 
@@ -55,7 +55,7 @@ SCATTER_DISTANCE_M = 0.12
 
 
 def make_ground():
-    """Return the ground box with its top in the plane y = 0 of the node, so that the node defines the receiver plane."""
+    """Return the ground box with its top in the plane y = 0 of the node."""
     mesh = make_box(GROUND_HALF)
     mesh.positions = [(x, 0.0 if y > 0.0 else -2.0 * GROUND_HALF[1], z) for x, y, z in mesh.positions]
     return mesh

@@ -11,9 +11,9 @@ DEFAULT_SEED = 1
 
 
 class SeededScenes:
-    """scenes: name -> (function of a random generator and a count, default count). counted: what is counted, for the help.
+    """The scenes that one script can make. scenes: name -> (function of a random generator and a count, default count).
 
-    max_count: the largest allowed count.
+    counted: what the count is the number of, for the help. max_count: the largest allowed count.
     """
 
     def __init__(self, scenes, counted, max_count):
@@ -22,6 +22,7 @@ class SeededScenes:
         self.max_count = max_count
 
     def build(self, name, seed=DEFAULT_SEED, count=None):
+        """Return the scene as a gltf_writer.Document."""
         build, default_count = self.scenes[name]
         return build(random.Random(seed), default_count if count is None else count)
 
@@ -30,6 +31,7 @@ class SeededScenes:
         return self.build(name, seed, count).build_files(name)
 
     def run(self, description):
+        """Write the scenes that the command line selects. description: of the script, for --help."""
         parser = argparse.ArgumentParser(description=description)
         parser.add_argument("--scenes", default=",".join(self.scenes), help="comma-separated (default: %(default)s)")
         parser.add_argument("--seed", type=int, default=DEFAULT_SEED, help="of the random numbers (default: %(default)s)")

@@ -28,13 +28,14 @@ def make_box(half):
 
 
 def make_icosphere(subdivisions, radius):
-    golden = (1.0 + math.sqrt(5.0)) / 2.0
+    """Return a smooth sphere about the origin: an icosahedron whose faces are split into four, `subdivisions` times."""
+    golden_ratio = (1.0 + math.sqrt(5.0)) / 2.0
     points = []
-    for a, b in ((-1, golden), (1, golden), (-1, -golden), (1, -golden)):
+    for a, b in ((-1, golden_ratio), (1, golden_ratio), (-1, -golden_ratio), (1, -golden_ratio)):
         points.append(normalize((a, b, 0.0)))
-    for a, b in ((-1, golden), (1, golden), (-1, -golden), (1, -golden)):
+    for a, b in ((-1, golden_ratio), (1, golden_ratio), (-1, -golden_ratio), (1, -golden_ratio)):
         points.append(normalize((0.0, a, b)))
-    for a, b in ((-1, golden), (1, golden), (-1, -golden), (1, -golden)):
+    for a, b in ((-1, golden_ratio), (1, golden_ratio), (-1, -golden_ratio), (1, -golden_ratio)):
         points.append(normalize((b, 0.0, a)))
     triangles = [
         (0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11),
@@ -132,7 +133,7 @@ def make_teapot(size, step_count):
     known = {}
 
     def add_point(point):
-        # Points where patches meet are equal except for rounding.
+        # Points where patches meet are equal except for rounding. Adding 0 turns -0 into 0.
         key = tuple(round(value, 6) + 0.0 for value in (point[0] * size, point[2] * size, -point[1] * size))
         if key not in known:
             known[key] = mesh.add_vertex(key, (0.0, 1.0, 0.0))
@@ -148,7 +149,7 @@ def make_teapot(size, step_count):
             for j in range(step_count):
                 corners = (grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1])
                 for triangle in ((corners[0], corners[1], corners[2]), (corners[0], corners[2], corners[3])):
-                    if len(set(triangle)) == 3:
+                    if len(set(triangle)) == 3:  # an edge of some patches is a single point
                         mesh.triangles.append(triangle)
     mesh.set_smooth_normals()
     return mesh
@@ -180,7 +181,7 @@ def make_cylinder(radius, half_height, side_count):
 
 
 def make_clutter(count, half, center, ball_radius, seed):
-    """Return boxes at seeded random positions in a sphere, each with a uniformly random rotation."""
+    """Return one mesh of equal boxes (half: their half extents) at random positions in a ball, each rotated at random."""
     generator = random.Random(seed)
     box = make_box(half)
     mesh = Mesh()

@@ -59,7 +59,7 @@ void AnimationPart::plan(const ReportOptions &p_options, const AddConfiguration 
 	for (const ReportScene &item : p_options.animated_scenes) {
 		if (!item.scene || item.scene->animations.empty() ||
 				!(item.scene->animations[0]->duration_s > 0)) {
-			continue; // no animation, or not loaded; the matrix reports the latter
+			continue; // no animation, or not loaded, which the group "matrix" reports
 		}
 		const std::shared_ptr<const Animation> animation = item.scene->animations[0];
 		ReportConfiguration configuration;
@@ -72,7 +72,7 @@ void AnimationPart::plan(const ReportOptions &p_options, const AddConfiguration 
 				lights.push_back(light->name);
 			}
 		} catch (const Error &) {
-			continue; // the matrix reports it
+			continue; // no camera or light, which the group "matrix" reports
 		}
 		configuration.light_count = uint32_t(lights.size());
 		for (const std::string &light : lights) {

@@ -7,7 +7,7 @@ def get_layer():
 
 
 def get_description():
-    return "The report's errors of change while an animation plays"
+    return "The report's errors and temporal errors while an animation plays"
 
 
 def can_disable():

@@ -13,6 +13,8 @@
 #include <mutex>
 #include <set>
 
+// Implements save_file_atomically and the functions around it, which files.h declares.
+
 namespace gnomon {
 
 namespace fs = std::filesystem;
@@ -23,9 +25,9 @@ const size_t CHUNK_BYTES = size_t(1) << 20; // bytes per write, 1 MiB
 /// The temporary name begins with at most this many bytes of the target's name, so that it stays
 /// below the limit of 255 bytes.
 const size_t MAX_NAME_PREFIX_BYTES = 128;
-const int LOCK_ATTEMPT_COUNT = 8;
+const int LOCK_ATTEMPT_COUNT = 8; // temporary files that are created before saving fails
 
-std::function<void()> step_hook;
+std::function<void()> step_hook; // see set_save_step_hook
 
 void end_step() {
 	if (step_hook) {
@@ -100,7 +102,7 @@ public:
 	}
 
 	void finish() {
-		::fchmod(file, 0644);
+		::fchmod(file, 0644); // mkostemps creates a file that only the owner may read
 		if (::fsync(file) != 0) {
 			fail("Cannot write ", target, ": ", std::strerror(errno),
 					". Free some space or choose another location.");

@@ -57,13 +57,18 @@ fs::path find_user_folder(const UserFolder &p_folder) {
 std::vector<uint8_t> load_file(const fs::path &p_path, uint64_t p_limit_bytes) {
 	std::error_code code;
 	if (!fs::exists(p_path, code)) {
-		fail("File ", p_path, " does not exist. Check the path.");
+		fail("File ", p_path,
+				code ? " cannot be accessed: " + code.message() : std::string(" does not exist"),
+				". Check the path.");
 	}
 	if (!fs::is_regular_file(p_path, code)) {
 		fail(p_path, " is not a file. Name a file.");
 	}
 	const uint64_t size_bytes = fs::file_size(p_path, code);
-	if (code || size_bytes > p_limit_bytes) {
+	if (code) {
+		fail("Cannot read ", p_path, ": ", code.message(), ". Check its permissions.");
+	}
+	if (size_bytes > p_limit_bytes) {
 		fail("File ", p_path, " has ", size_bytes, " bytes, at most ", p_limit_bytes,
 				" are read. Use a smaller file.");
 	}

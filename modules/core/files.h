@@ -13,8 +13,8 @@
 
 namespace gnomon {
 
-/// Loads the whole file. A path that is missing, unreadable, a folder, or larger than the limit is
-/// an Error that names it.
+/// Loads the whole file. A path that is missing, unreadable, a folder, or larger than the limit
+/// (default 2 GiB) is an Error that names it.
 std::vector<uint8_t> load_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
 /// Loads a file like load_file, as text.

@@ -83,8 +83,8 @@ void ModuleRegistry::set_enabled(const std::string &p_name, bool p_is_enabled) {
 				names += (names.empty() ? "" : ", ") + candidate.name;
 			}
 		}
-		fail("Module \"", p_name, "\" cannot be disabled: the engine needs it. These can: ", names,
-				".");
+		fail("Module \"", p_name,
+				"\" cannot be disabled while the program runs. These can: ", names, ".");
 	}
 	if (!p_is_enabled) {
 		for (const ModuleInfo &other : modules) {

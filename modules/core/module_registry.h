@@ -5,8 +5,8 @@
 
 namespace gnomon {
 
-/// The steps of startup. At each level, every module is initialized after its dependencies; modules
-/// stop in the opposite order.
+/// The steps of startup. At each level, every module is initialized after its dependencies. Modules
+/// stop in the opposite order, each at all of its levels, the last level first.
 /// CORE: settings, log. SERVERS: device and scene classes. FEATURES: techniques, filters, file
 /// formats. EDITOR: panels; a game never initializes this level.
 enum class ModuleLevel { CORE, SERVERS, FEATURES, EDITOR };

@@ -24,14 +24,14 @@ Progress::Progress(std::string p_what) :
 Progress::~Progress() {
 	--alive_count;
 	if (is_terminal && shown_percent >= 0) {
-		std::fprintf(stderr, "\r\033[K");
+		std::fprintf(stderr, "\r\033[K"); // erases the line
 	}
 }
 
 void Progress::update(double p_fraction) {
 	const double seconds =
 			std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-	const int step = is_terminal ? 1 : 10;
+	const int step = is_terminal ? 1 : 10; // in percent
 	const int percent = static_cast<int>(std::clamp(p_fraction, 0.0, 1.0) * 100) / step * step;
 	if (is_inner || seconds < QUIET_SECONDS || percent <= shown_percent) {
 		return;

@@ -9,7 +9,7 @@ namespace gnomon {
 
 /// The contents of a project.cfg: sections of key=value in Godot's ConfigFile style, where a value
 /// is a "text", a list ["a", "b"], a number, true or false. Lines that begin with ; or # are
-/// comments.
+/// comments. Unknown sections and keys are ignored.
 class Project {
 public:
 	std::filesystem::path folder; // absolute; contains all files of the project
@@ -22,7 +22,7 @@ public:
 	/// Absolute paths of the scenes of both lists that do not exist, without duplicates.
 	std::vector<std::filesystem::path> missing_scenes;
 	std::vector<std::string> disabled_modules;
-	/// The [defaults] section as written, without quotes.
+	/// The [defaults] section (image size, antialiasing, animation) as written, without quotes.
 	std::map<std::string, std::string> defaults;
 	/// The [technique.ID] sections as written, without quotes; by ID.
 	std::map<std::string, std::map<std::string, std::string>> technique_settings;

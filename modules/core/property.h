@@ -23,7 +23,7 @@ using PropertyValues = std::map<std::string, PropertyValue, std::less<>>;
 /// Declares a property. The editor's inspector, the scene file's extras, `--set` on the command
 /// line and the generated docs all use this declaration.
 struct PropertyInfo {
-	std::string name; // snake_case; a technique's properties begin with its id
+	std::string name; // snake_case; those that a technique adds to lights begin with its id
 	PropertyType type = PropertyType::FLOAT;
 	PropertyValue default_value;
 	/// INT, FLOAT and each component of VECTOR3: "minimum,maximum,step". ENUM: "first,second,...".

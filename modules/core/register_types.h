@@ -1,3 +1,4 @@
 #pragma once
 
-// Registers nothing: core only contains utilities for the other modules.
+// The build requires this file in every module. Core registers nothing: it only contains utilities
+// for the other modules.

@@ -1,3 +1,4 @@
 #pragma once
 
-// Registers nothing: callers create a Window directly.
+// The build requires this file in every module. Desktop registers nothing: callers create a Window
+// directly.

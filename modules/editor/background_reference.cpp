@@ -12,7 +12,7 @@ namespace gnomon {
 namespace {
 
 const uint32_t ROUND_SAMPLE_FACTOR = 4; // ratio of the rays of a round to those of the previous one
-const int NICENESS = 15;				// of at most 19, the lowest priority
+const int NICENESS = 15;				// 0 is the normal, 19 the lowest priority
 
 } // namespace
 
@@ -24,8 +24,8 @@ void BackgroundReference::start(
 	progress = 0.0f;
 	round_sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
 	thread = std::thread([this, make = std::move(p_make), p_sample_count] {
-		// On Linux 0 is this thread, not the process, and threads that it creates inherit the
-		// value. On failure the thread keeps its priority.
+		// On Linux the id 0 is this thread, not the process, and threads that it creates inherit
+		// the value. On failure the thread keeps its priority.
 		setpriority(PRIO_PROCESS, 0, NICENESS);
 		try {
 			run(make, p_sample_count);

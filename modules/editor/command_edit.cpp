@@ -12,7 +12,7 @@ namespace gnomon {
 
 namespace {
 
-EditorOptions options;
+EditorOptions options; // not local, because the parser fills it in after add_edit_command
 
 } // namespace
 

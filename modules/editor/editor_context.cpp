@@ -41,6 +41,7 @@ void EditorContext::record_item_rect(const std::string &p_name) {
 }
 
 bool EditorContext::begin_tab(const char *p_name, const std::string &p_addition) {
+	// ImGui identifies the tab by the part after ###, so that the addition may change.
 	const std::string label = p_name + p_addition + "###" + p_name;
 	const bool is_requested = requested_tab == p_name;
 	const bool is_shown = ImGui::BeginTabItem(
@@ -73,6 +74,7 @@ std::string EditorContext::describe_items(const EditorProgress &p_progress) cons
 	const Node3D *selected = document.get_selected();
 	const Timeline &timeline = document.get_timeline();
 	const Animation *animation = timeline.get_animation();
+	const double NO_MAE = -1.0; // while there is no reference
 	return nlohmann::json(
 			{ { "items", positions }, { "selected", selected ? selected->name : "" },
 					{ "status", status }, { "is_changed", document.is_changed() },
@@ -88,7 +90,7 @@ std::string EditorContext::describe_items(const EditorProgress &p_progress) cons
 									{ "rays", error.reference ? error.round.sample_count : 0 },
 									{ "penumbra_mae",
 											error.metrics ? error.metrics->penumbra.mae
-														  : -1.0 } } } })
+														  : NO_MAE } } } })
 			.dump();
 }
 

@@ -23,7 +23,7 @@ namespace gnomon {
 /// The ray from the camera through the point that was clicked in the viewport.
 struct ViewportPick {
 	glm::dvec3 origin_world = glm::dvec3(0.0);
-	glm::dvec3 direction_world = glm::dvec3(0.0); // scaled to unit depth
+	glm::dvec3 direction_world = glm::dvec3(0.0); // its component along the view axis is 1
 };
 
 /// The state of the viewport. The "active light" is that of EditorContext::find_light.
@@ -49,6 +49,7 @@ struct ViewportState {
 /// The error of one light's mask against its reference, from the viewport's camera. ErrorMeter
 /// writes the results.
 struct ErrorState {
+	/// Choices for sample_count. The published tables use 9216.
 	static constexpr uint32_t SAMPLE_COUNTS[] = { 256, 1024, 4096, 9216 };
 	bool is_shown = false;		  // the panel is visible
 	bool is_stopped = false;	  // the user has stopped the tracing

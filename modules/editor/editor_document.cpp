@@ -131,17 +131,17 @@ EditorDocument::FileTimes EditorDocument::read_file_times() const {
 }
 
 Bounds EditorDocument::compute_selected_bounds() const {
-	const double MARGIN_FRACTION = 0.05; // margin, as a fraction of the scene size S
+	const double MIN_HALF_SIZE_FRACTION = 0.05; // half the smallest box, as a fraction of S
 	const auto snapshot = build_snapshot(*scene, Camera3D());
 	if (selected == nullptr) {
 		return snapshot->compute_caster_bounds();
 	}
 	Bounds bounds = selected->compute_bounds();
-	// The bounds of a skinned mesh follow its joints, not its node.
+	// Not simply the node's position: the bounds of a skinned mesh follow its joints, not its node.
 	const glm::dvec3 center = bounds.is_empty() ? glm::dvec3(selected->compute_world_from_node()[3])
 												: 0.5 * (bounds.minimum + bounds.maximum);
-	bounds.add(center - glm::dvec3(MARGIN_FRACTION * snapshot->scene_size_m));
-	bounds.add(center + glm::dvec3(MARGIN_FRACTION * snapshot->scene_size_m));
+	bounds.add(center - glm::dvec3(MIN_HALF_SIZE_FRACTION * snapshot->scene_size_m));
+	bounds.add(center + glm::dvec3(MIN_HALF_SIZE_FRACTION * snapshot->scene_size_m));
 	return bounds;
 }
 
@@ -193,7 +193,8 @@ std::string EditorDocument::undo() {
 	const std::string name = history.get_undo_name();
 	Node3D *node = history.undo();
 	timeline.pose();
-	selected = node->parent != nullptr ? node : nullptr; // null: its addition was undone
+	// Without a parent it has left the tree, or is the root.
+	selected = node->parent != nullptr ? node : nullptr;
 	return name;
 }
 
@@ -296,7 +297,8 @@ void EditorDocument::recover() {
 		const fs::path moved = get_recovery_path().string() + ".unread";
 		std::error_code code;
 		fs::rename(get_recovery_path(), moved, code);
-		fail("The recovery file cannot be read. It was renamed to ", moved, ": ", error.what());
+		fail("The recovery file ", get_recovery_path(), " cannot be read",
+				code ? std::string() : text(" and was renamed to ", moved), ": ", error.what());
 	}
 	is_recovered = true;
 	owns_recovery = true;

@@ -74,7 +74,7 @@ public:
 	/// Undoes a step, selects the node that changed (nothing, if that left the tree or is the root)
 	/// and returns the step's name; empty: nothing to undo.
 	std::string undo();
-	/// Does an undone step again; otherwise like undo.
+	/// Repeats an undone step; otherwise like undo.
 	std::string redo();
 
 	/// Switches a module on or off, in this process and in the project's project.cfg. Not undoable.
@@ -86,8 +86,8 @@ public:
 	void save_as(const std::filesystem::path &p_path);
 	/// Returns the path of the recovery file, which autosave writes next to the scene.
 	std::filesystem::path get_recovery_path() const;
-	/// Writes the recovery file if there have been new changes for the autosave interval. Call it
-	/// once a frame. Returns false on failure, which is logged; it retries after another interval.
+	/// Writes the recovery file once new changes are as old as the autosave interval. Call it once
+	/// a frame. Returns false on failure, which is logged; it retries after another interval.
 	bool autosave(Clock::time_point p_now);
 	void set_autosave_interval(std::chrono::seconds p_interval) { autosave_interval = p_interval; }
 	/// Writes the recovery file at once if there are unsaved changes.
@@ -98,7 +98,7 @@ public:
 	/// Loads the recovery file; the document then counts as changed. If it cannot be read, it is
 	/// preserved under another name, and an Error is thrown.
 	void recover();
-	/// Deletes the recovery file, also that of an earlier session.
+	/// Deletes the recovery file, even that of an earlier session.
 	void discard_recovery();
 	/// Deletes the recovery file if this document wrote or loaded it.
 	void discard_own_recovery();
@@ -108,9 +108,9 @@ public:
 	bool is_file_newer() const;
 	/// Ignores the newer file: the next save overwrites it.
 	void ignore_newer_file() { record_file_times(); }
-	/// Reloads the file. Changes and history are lost; the node with the name of the selected one
-	/// is selected. An Error leaves scene and history unchanged; is_file_newer is then false until
-	/// the file changes again.
+	/// Reloads the file. Changes and history are lost; the selection is restored by name. An Error
+	/// leaves scene and history unchanged; is_file_newer is then false until the file changes
+	/// again.
 	void reload();
 
 private:
@@ -136,7 +136,7 @@ private:
 	Timeline timeline;
 	Node3D *selected = nullptr;
 	bool is_recovered = false;	// the scene comes from the recovery file and is not saved yet
-	bool owns_recovery = false; // the recovery file is this document's, not an earlier session's
+	bool owns_recovery = false; // this document wrote or loaded the recovery file
 	FileTimes file_times;
 	std::chrono::seconds autosave_interval = AUTOSAVE_INTERVAL;
 	uint64_t autosaved_serial = 0; // UndoHistory::get_serial of the last saved or autosaved state

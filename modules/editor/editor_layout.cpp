@@ -1,3 +1,5 @@
+// The positions of the panels in the window, and the lines between them that can be dragged.
+
 #include "modules/editor/editor_context.h"
 #include "modules/editor/editor_settings.h"
 
@@ -47,13 +49,15 @@ void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is
 
 void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	const ImVec2 window = ImGui::GetIO().DisplaySize;
-	// Heights of toolbar, status bar and timeline; thickness of the splitters.
+	// Smallest size of the area between toolbar, status bar and side panels, in a tiny window.
+	const ImVec2 MIN_MIDDLE_PX(32.0f, 64.0f);
+	// Height of the toolbar, the status bar and the timeline.
 	const float bar = ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y;
-	const float line = ImGui::GetFontSize() * 0.3f;
+	const float line = ImGui::GetFontSize() * 0.3f; // thickness of a splitter
 	const float left = std::floor(window.x * r_layout.left);
 	const float right = std::floor(window.x * r_layout.right);
-	const float middle = std::max(window.x - left - right - 2.0f * line, 32.0f);
-	const float height = std::max(window.y - 2.0f * bar, 64.0f);
+	const float middle = std::max(window.x - left - right - 2.0f * line, MIN_MIDDLE_PX.x);
+	const float height = std::max(window.y - 2.0f * bar, MIN_MIDDLE_PX.y);
 	const float bottom = std::floor(height * r_layout.bottom);
 	const bool has_timeline = !r_context.document.get_scene().animations.empty();
 	const float viewport = height - bottom - line - (has_timeline ? bar : 0.0f);
@@ -62,8 +66,8 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	draw_toolbar(r_context);
 	set_next_window(ImVec2(0, bar), ImVec2(left, height));
 	draw_scene_tree(r_context);
-	draw_splitter(
-			"##left", ImVec2(left, bar), ImVec2(line, height), true, window.x, 1.0f, r_layout.left);
+	draw_splitter("##left", ImVec2(left, bar), ImVec2(line, height), /*p_is_vertical=*/true,
+			window.x, /*p_sign=*/1.0f, r_layout.left);
 	set_next_window(ImVec2(left + line, bar), ImVec2(middle, viewport));
 	draw_viewport(r_context);
 	if (has_timeline) {
@@ -71,7 +75,8 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 		draw_timeline(r_context);
 	}
 	draw_splitter("##bottom", ImVec2(left + line, bar + height - bottom - line),
-			ImVec2(middle, line), false, height, -1.0f, r_layout.bottom);
+			ImVec2(middle, line), /*p_is_vertical=*/false, height, /*p_sign=*/-1.0f,
+			r_layout.bottom);
 	set_next_window(ImVec2(left + line, bar + height - bottom), ImVec2(middle, bottom));
 	if (ImGui::Begin("Frame", nullptr, PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar) &&
 			ImGui::BeginTabBar("bottom")) {
@@ -82,8 +87,8 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 		ImGui::EndTabBar();
 	}
 	ImGui::End();
-	draw_splitter("##right", ImVec2(left + line + middle, bar), ImVec2(line, height), true,
-			window.x, -1.0f, r_layout.right);
+	draw_splitter("##right", ImVec2(left + line + middle, bar), ImVec2(line, height),
+			/*p_is_vertical=*/true, window.x, /*p_sign=*/-1.0f, r_layout.right);
 	set_next_window(ImVec2(window.x - right, bar), ImVec2(right, height));
 	draw_inspector(r_context);
 	set_next_window(ImVec2(0, window.y - bar), ImVec2(window.x, bar));

@@ -16,6 +16,7 @@ namespace gnomon {
 namespace {
 
 const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
+const double DEFAULT_PIVOT_DISTANCE_M = 5.0; // for a scene without casters
 
 } // namespace
 
@@ -53,7 +54,7 @@ bool EditorSession::draw_dialog(const Dialog &p_dialog) {
 	if (p_dialog.may_cancel) {
 		ImGui::SameLine();
 		draw_answer("Cancel", [] {});
-		is_answered |= ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
+		is_answered |= ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, /*repeat=*/false);
 	}
 	if (is_answered) {
 		ImGui::CloseCurrentPopup();
@@ -76,7 +77,7 @@ void EditorSession::move_to_scene_camera() {
 	}
 	const glm::dvec3 position(cameras.front()->compute_world_from_node()[3]);
 	const double distance_m = bounds.is_empty()
-			? 5.0
+			? DEFAULT_PIVOT_DISTANCE_M
 			: glm::length(0.5 * (bounds.minimum + bounds.maximum) - position);
 	context.viewport.camera.move_to_camera(*cameras.front(), distance_m);
 }
@@ -125,6 +126,7 @@ void EditorSession::run(EditorCommand p_command) {
 		case EditorCommand::OPEN:
 			next_path = find_project_scene(context.open_path).scene_path;
 			if (!std::filesystem::exists(next_path)) {
+				// Clears next_path, so that closing the editor later does not open it.
 				fail("Scene ", std::exchange(next_path, {}), " does not exist. Check the path.");
 			}
 			is_closing = true;
@@ -193,7 +195,8 @@ std::string EditorSession::describe_staged() const {
 void EditorSession::open_page() {
 	const std::filesystem::path page = program.parent_path().parent_path() / context.requested_page;
 	if (!std::filesystem::exists(page)) {
-		fail("Page ", page, " does not exist. It is part of the program's source tree.");
+		fail("Page ", page,
+				" does not exist. Run bin/gnomon of the source tree, which contains the pages.");
 	}
 	start_program({ "xdg-open", page.string() });
 	context.set_status(text("Opened ", page.string()));
@@ -215,7 +218,7 @@ void EditorSession::draw_dialogs() {
 	} else if (is_closing) {
 		is_closing = !draw_dialog(make_closing_dialog());
 		if (!is_closing && !is_done) {
-			next_path.clear(); // cancelled
+			next_path.clear(); // cancelled, or saving failed
 		}
 	} else if (prompts_recovery) {
 		prompts_recovery = !draw_dialog({ "Recover changes?",
@@ -233,7 +236,7 @@ void EditorSession::draw_dialogs() {
 EditorSession::Dialog EditorSession::make_closing_dialog() {
 	const auto save = [&] {
 		if (document.is_file_newer()) {
-			prompts_reload = true; // first ask which version to keep
+			prompts_reload = true; // first, the user chooses which version to keep
 			return;
 		}
 		context.attempt([&] {
@@ -248,7 +251,8 @@ EditorSession::Dialog EditorSession::make_closing_dialog() {
 	return { "Save the changes?",
 		text(document.get_path().filename().string(), " has changes that are not saved.",
 				describe_staged()),
-		"Save and close", "Close without saving", save, close_without_saving, true };
+		"Save and close", "Close without saving", save, close_without_saving,
+		/*may_cancel=*/true };
 }
 
 } // namespace gnomon

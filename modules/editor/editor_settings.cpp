@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const uint32_t MIN_WINDOW_PX = 320;
-const uint32_t MAX_SAMPLE_COUNT = 65536;
+const uint32_t MAX_SAMPLE_COUNT = 65536; // the limit of ReferenceSource::trace
 const uint32_t MAX_AUTOSAVE_S = 600;
 
 std::filesystem::path get_path() {
@@ -81,7 +81,8 @@ void EditorSettings::save() const {
 		{ "shows_penumbra", shows_penumbra }, { "autosave_s", autosave_s }, { "recent", recent } };
 	try {
 		// Invalid UTF-8, which a path may contain, is replaced.
-		const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+		const std::string text = json.dump(
+				/*indent=*/2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
 		save_file_atomically(get_path(), text + "\n");
 	} catch (const Error &error) {
 		log_warning("The editor's settings are not saved: ", error.what());

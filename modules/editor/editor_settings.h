@@ -35,7 +35,7 @@ struct EditorSettings {
 	std::vector<std::string> recent; // absolute paths of scenes, newest first
 
 	/// Loads the settings. Values that are missing or out of range get their defaults. A damaged
-	/// file gives all defaults and a warning in the log.
+	/// file, or a value of a wrong type, gives all defaults and a warning in the log.
 	static EditorSettings load();
 	/// Saves the settings. A failure only logs a warning.
 	void save() const;

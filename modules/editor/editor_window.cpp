@@ -30,8 +30,11 @@ namespace {
 
 using Clock = EditorDocument::Clock;
 
-const std::chrono::milliseconds FRAME{ 16 }; // minimum time per frame
+const std::chrono::milliseconds MIN_FRAME_TIME{ 16 };
 const uint32_t QUIET_FRAME_COUNT = 3; // frames without changes until EditorProgress::is_resting
+
+const char *const WINDOW_ADVICE =
+		"The editor needs a window: set DISPLAY to a display with Vulkan.";
 
 /// Returns the command of a keyboard shortcut; NONE: the key is not a shortcut. The shortcuts
 /// follow Godot and Blender; see doc/editor.md.
@@ -73,7 +76,7 @@ public:
 			EditorSettings &r_settings) :
 			options(p_options),
 			settings(r_settings), document(p_path, p_options.stage),
-			window("Gnomon", r_settings.window_size_px, "The editor needs one: set DISPLAY."),
+			window("Gnomon", r_settings.window_size_px, WINDOW_ADVICE),
 			device(create_rendering_device(make_device_options())),
 			swapchain(window.create_swapchain(*device)), renderer(*device), transients(*device),
 			ui_context(window), ui(*device), viewport_renderer(*device, renderer),
@@ -131,7 +134,7 @@ private:
 		};
 		while (!is_done()) {
 			const Clock::time_point start = Clock::now();
-			const double seconds = std::chrono::duration<double>(start - last_start).count();
+			const double elapsed_s = std::chrono::duration<double>(start - last_start).count();
 			last_start = start;
 			if (!window.poll()) {
 				window.keep_open();
@@ -140,7 +143,7 @@ private:
 			if (window.get_size_px().x == 0 || window.get_size_px().y == 0) {
 				document.autosave(Clock::now());
 				session.close_if_unchanged();
-				std::this_thread::sleep_for(FRAME);
+				std::this_thread::sleep_for(MIN_FRAME_TIME);
 				continue;
 			}
 			session.check_file(start);
@@ -148,11 +151,11 @@ private:
 				viewport_renderer.clear_caches();
 				error_meter.forget_cost();
 			}
-			if (document.get_timeline().advance(seconds)) {
+			if (document.get_timeline().advance(elapsed_s)) {
 				context.viewport.is_moving = true;
 				context.viewport.needs_redraw = true;
 			}
-			// User input is handled before the image is drawn, so that one frame shows its effect.
+			// User input is handled before the image is drawn, so that this frame shows its effect.
 			build_panels();
 			session.run_command();
 			const bool is_changed = seen_serial != document.get_history().get_serial();
@@ -166,13 +169,14 @@ private:
 			write_items();
 			document.autosave(Clock::now());
 			++drawn_count;
-			std::this_thread::sleep_until(start + FRAME);
+			std::this_thread::sleep_until(start + MIN_FRAME_TIME);
 		}
 	}
 
 	void draw_images() {
 		viewport_renderer.update(context);
 		guides.update(context, viewport_renderer.get_drawn_count());
+		// The error needs full resolution. While an animation plays, this stops the measurement.
 		if (viewport_renderer.is_sharp() || document.get_timeline().is_playing()) {
 			error_meter.update(context, viewport_renderer.get_sharp_count());
 		}
@@ -225,8 +229,8 @@ private:
 	void show_frame() {
 		const glm::uvec2 size_px = window.get_size_px();
 		RenderGraph graph(*device, transients);
-		const RGTexture target = graph.create_texture({ "editor", Format::RGBA8_UNORM, size_px, 1,
-				TextureUsage::COLOR_ATTACHMENT | TextureUsage::SAMPLED });
+		const RGTexture target = graph.create_texture({ "editor", Format::RGBA8_UNORM, size_px,
+				/*layer_count=*/1, TextureUsage::COLOR_ATTACHMENT | TextureUsage::SAMPLED });
 		graph.add_pass("editor background").color(target, LoadOp::CLEAR).execute([](PassContext &) {
 		});
 		ui.add_pass(graph, target, *ImGui::GetDrawData());

@@ -9,6 +9,7 @@
 
 namespace gnomon {
 
+/// Options of the command `gnomon edit`.
 struct EditorOptions {
 	std::filesystem::path path; // a project or a scene; empty: the last opened scene
 	std::string device;			// index or part of the name; empty: the engine's choice

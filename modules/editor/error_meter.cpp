@@ -19,7 +19,7 @@ const double COST_TIME_LIMIT_MS = 1500;
 
 /// Returns a key that changes with everything that the cost of a mask depends on.
 std::string describe_cost(const LightSnapshot &p_light, uint64_t p_reference_hash) {
-	const ShadowTechniqueInfo *technique = choose_technique(p_light, {}).info;
+	const ShadowTechniqueInfo *technique = choose_technique(p_light, /*p_override=*/{}).info;
 	std::string description =
 			text(p_reference_hash, " ", technique != nullptr ? technique->id : std::string(), " ",
 					ShadowRegistry::get_revision(), " ", MaskFilterRegistry::get_revision(), " ",
@@ -124,7 +124,7 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 		refuse(state, text("Light \"", node->name, "\" casts no shadow. Set its shadow_enabled."));
 		return;
 	}
-	const ShadowTechniqueInfo *technique = choose_technique(light, {}).info;
+	const ShadowTechniqueInfo *technique = choose_technique(light, /*p_override=*/{}).info;
 	state.technique = technique != nullptr ? technique->id : "";
 	request.size_px = r_context.viewport.size_px;
 	request.mask_light = node->name;
@@ -135,7 +135,8 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 	request.wants_surfaces = needs_reference;
 	RenderResult result = renderer.render(request);
 	state.mask = { request.size_px, std::move(result.visibility), result.receiver };
-	mask_texture = upload_texture("mask", request.size_px, 1, compute_mask_pixels(state.mask));
+	mask_texture = upload_texture(
+			"mask", request.size_px, /*p_channel_count=*/1, compute_mask_pixels(state.mask));
 	if (const std::string key = describe_cost(light, hash); key != timed_key) {
 		timed_key = key;
 		timings = TimingSamples();
@@ -195,9 +196,9 @@ void ErrorMeter::compare(ErrorState &r_state) {
 	const MaskImage reference_image = { r_state.reference->size_px, r_state.reference->visibility,
 		r_state.reference->receiver };
 	r_state.metrics = compute_mask_metrics(reference_image, r_state.mask);
-	reference_texture = upload_texture(
-			"reference mask", reference_image.size_px, 1, compute_mask_pixels(reference_image));
-	error_texture = upload_texture("error", reference_image.size_px, 3,
+	reference_texture = upload_texture("reference mask", reference_image.size_px,
+			/*p_channel_count=*/1, compute_mask_pixels(reference_image));
+	error_texture = upload_texture("error", reference_image.size_px, /*p_channel_count=*/3,
 			compute_error_pixels(reference_image, r_state.mask));
 }
 
@@ -213,7 +214,7 @@ OwnedTexture ErrorMeter::upload_texture(const std::string &p_name, glm::uvec2 p_
 	}
 	return OwnedTexture(device,
 			device.create_texture_with_data(
-					{ "editor " + p_name, Format::RGBA8_UNORM, p_size_px, 1,
+					{ "editor " + p_name, Format::RGBA8_UNORM, p_size_px, /*layer_count=*/1,
 							TextureUsage::SAMPLED | TextureUsage::COPY_TARGET },
 					texels));
 }

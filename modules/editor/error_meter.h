@@ -8,8 +8,8 @@ namespace gnomon {
 
 /// Measures what the error panel shows for the active light (EditorContext::find_light): its mask
 /// from the viewport's camera, the mask's cost (one measured frame per update), and its reference,
-/// which is traced in the background. Works only while the panel or the viewport's error
-/// view is visible.
+/// which is traced in the background. It works only while the panel or the viewport's
+/// error view is visible.
 class ErrorMeter {
 public:
 	ErrorMeter(RenderingDevice &p_device, Renderer &p_renderer) :
@@ -34,6 +34,7 @@ private:
 	bool has_cost() const;
 	void request_reference(EditorContext &r_context, RenderResult p_result);
 	void compare(ErrorState &r_state);
+	/// Stops the measurement, discards the reference, and sets ErrorState::refusal.
 	void refuse(ErrorState &r_state, std::string p_text);
 	OwnedTexture upload_texture(const std::string &p_name, glm::uvec2 p_size_px,
 			uint32_t p_channel_count, const std::vector<uint8_t> &p_pixels);
@@ -41,7 +42,7 @@ private:
 	RenderingDevice &device;
 	Renderer &renderer;
 	RenderRequest request;			  // that produced the current mask
-	LightSnapshot light;			  // whose mask it is
+	LightSnapshot light;			  // to which the current mask belongs
 	uint32_t measured_image = 0;	  // p_image_count when the mask was measured; 0: measure again
 	uint32_t traced_sample_count = 0; // target of the last trace, rays per pixel; 0: trace again
 	std::string timed_key; // describes the state that `timings` measured, see describe_cost

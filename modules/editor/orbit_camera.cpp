@@ -9,7 +9,7 @@ namespace gnomon {
 
 namespace {
 
-const double MAX_PITCH_RAD = 1.55;
+const double MAX_PITCH_RAD = 1.55; // just below a right angle, at which yaw is ambiguous
 const double MIN_DISTANCE_M = 1e-4;
 const double MAX_DISTANCE_M = 1e7;
 
@@ -72,6 +72,7 @@ void OrbitCamera::frame(const Bounds &p_bounds_world) {
 	}
 	pivot_world = 0.5 * (p_bounds_world.minimum + p_bounds_world.maximum);
 	const double radius_m = 0.5 * glm::length(p_bounds_world.maximum - p_bounds_world.minimum);
+	// The second radius keeps small bounds well behind the near plane.
 	distance_m = std::clamp(
 			std::max(radius_m, 10.0 * double(near_m)) / std::sin(0.5 * double(vertical_fov_rad)),
 			MIN_DISTANCE_M, MAX_DISTANCE_M);

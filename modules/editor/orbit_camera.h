@@ -41,9 +41,9 @@ private:
 
 	glm::dvec3 pivot_world = glm::dvec3(0.0);
 	double distance_m = 5;
-	double yaw_rad = 0; // 0 looks along -Z; positive turns left
-	double pitch_rad = 0;
-	float vertical_fov_rad = 0.785398163f;
+	double yaw_rad = 0;					   // 0 looks along -Z; positive turns left
+	double pitch_rad = 0;				   // positive looks up
+	float vertical_fov_rad = 0.785398163f; // 45 degrees
 	float near_m = 0.05f;
 	uint64_t revision = 0;
 };

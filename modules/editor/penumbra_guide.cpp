@@ -9,8 +9,9 @@ namespace gnomon {
 
 namespace {
 
-// Hits that are closer to a ray's start or end point than this fraction of its length are ignored.
-// For rays to a directional light it is a fraction of the scene size S.
+// Hits this close to the end of a ray on a surface are ignored: at a silhouette edge as a fraction
+// of the distance to the light's centre (directional: of the scene size S), at a receiver as a
+// fraction of the distance to the camera.
 const double EDGE_EPSILON = 1e-3;
 const double RECEIVER_EPSILON = 5e-3;
 /// A line that is more than this many times as long as the projection of its edge is assumed to
@@ -21,7 +22,8 @@ const double MAX_LINE_RATIO = 3.0;
 struct CasterEdge {
 	const SceneRays::Instance *caster = nullptr;
 	glm::dvec3 ends[2] = {};
-	glm::dvec3 inside = glm::dvec3(0.0); // third vertex of the edge's light-facing triangle
+	/// Third vertex of the edge's light-facing triangle, or of its only triangle.
+	glm::dvec3 inside = glm::dvec3(0.0);
 };
 
 std::vector<CasterEdge> collect_edges(const SceneRays &p_rays, const LightSnapshot &p_light) {
@@ -75,6 +77,7 @@ public:
 		if (!(length > 0.0) || is_hidden_from_light(p_end, from_light)) {
 			return std::nullopt;
 		}
+		// Makes it a unit vector that points away from the triangle.
 		outwards /= glm::dot(outwards, p_edge.inside - p_end) > 0.0 ? -length : length;
 		// To pass the edge in the direction of `outwards`, the ray starts on the opposite side of
 		// the light's centre.
@@ -87,8 +90,9 @@ public:
 			return std::nullopt;
 		}
 		const glm::dvec3 position = p_end + hit->t * ray_direction;
-		return is_lit(position) && !is_hidden_from_camera(position) ? std::optional(position)
-																	: std::nullopt;
+		return is_in_light_range(position) && !is_hidden_from_camera(position)
+				? std::optional(position)
+				: std::nullopt;
 	}
 
 	/// Whether the line is at most MAX_LINE_RATIO times as long as the edge projected from the
@@ -122,7 +126,8 @@ private:
 		const std::optional<SceneRays::Hit> hit = rays.find_nearest(eye, p_position - eye);
 		return hit && hit->t < 1.0 - RECEIVER_EPSILON;
 	}
-	bool is_lit(const glm::dvec3 &p_position) const {
+	/// Whether the point is inside the light's cone and range.
+	bool is_in_light_range(const glm::dvec3 &p_position) const {
 		const glm::dvec3 from_light = get_light_vector(p_position);
 		const double distance_m = glm::length(from_light);
 		if (is_directional || distance_m == 0.0) {

@@ -27,9 +27,9 @@ public:
 private:
 	RenderingDevice &device;
 	ShaderWatcher watcher;
+	// Shaders that compile, in a set that the device refused: tried again with the next change.
+	std::map<std::string, std::vector<uint32_t>> refused;
 	Clock::time_point next_check;
 };
 
-	// Shaders that compile, in a set that the device refused: tried again with the next change.
-	std::map<std::string, std::vector<uint32_t>> refused;
 } // namespace gnomon

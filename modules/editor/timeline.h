@@ -26,8 +26,9 @@ public:
 	void seek(double p_time_s);
 	void set_speed(double p_speed) { playback.speed = p_speed; }
 	void set_loops(bool p_loops) { playback.loops = p_loops; }
-	/// Starts playing. At rest it chooses the last shown animation, or the default. Does nothing if
-	/// the scene has no animations. An animation of zero length is shown but does not play.
+	/// Starts playing, see AnimationPlayback::play. At rest it chooses the last shown animation, or
+	/// the default. Does nothing if the scene has no animations. An animation of zero length is
+	/// shown but does not play.
 	void play();
 	void pause() { playback.is_playing = false; }
 	/// Advances by p_seconds of real time if it is playing. Returns true if the pose has changed.

@@ -13,8 +13,10 @@ namespace gnomon {
 
 namespace {
 
+const float FONT_SIZE_PX = 14.0f; // at a window scale of 1
 // Pairs of first and last code point: Latin with accents, Greek and Cyrillic, for names of nodes
-// and files; punctuation, arrows and mathematical symbols, for messages. 0 ends the list.
+// and files; punctuation, the euro sign, arrows and mathematical symbols, for messages; the
+// replacement character, for invalid UTF-8. 0 ends the list.
 const ImWchar GLYPH_RANGES[] = { 0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2044, 0x20ac, 0x20ac, 0x2190,
 	0x21ff, 0x2200, 0x22ff, 0xfffd, 0xfffd, 0 };
 
@@ -48,7 +50,8 @@ UiContext::UiContext(Window &p_window) {
 	const std::span<const unsigned char> typeface = get_typeface();
 	// ImGui only reads the data, although the parameter is not const.
 	io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char *>(typeface.data()),
-			static_cast<int>(typeface.size()), std::round(14.0f * scale), &font, GLYPH_RANGES);
+			static_cast<int>(typeface.size()), std::round(FONT_SIZE_PX * scale), &font,
+			GLYPH_RANGES);
 	ImGui::StyleColorsDark();
 	ImGui::GetStyle().ScaleAllSizes(scale);
 	ImGui::GetStyle().WindowRounding = 0.0f;
@@ -57,7 +60,7 @@ UiContext::UiContext(Window &p_window) {
 	// Dear ImGui installs its own callbacks and calls these from them.
 	glfwSetMouseButtonCallback(p_window.get_handle(), record_button_position);
 	glfwSetCursorPosCallback(p_window.get_handle(), record_position);
-	ImGui_ImplGlfw_InitForOther(p_window.get_handle(), true);
+	ImGui_ImplGlfw_InitForOther(p_window.get_handle(), /*install_callbacks=*/true);
 }
 
 UiContext::~UiContext() {

@@ -78,7 +78,7 @@ UiRenderer::UiRenderer(RenderingDevice &p_device) : device(p_device) {
 	const glm::uvec2 size_px(static_cast<uint32_t>(width), static_cast<uint32_t>(height));
 	font = OwnedTexture(device,
 			device.create_texture_with_data(
-					{ "editor font", Format::RGBA8_UNORM, size_px, 1,
+					{ "editor font", Format::RGBA8_UNORM, size_px, /*layer_count=*/1,
 							TextureUsage::SAMPLED | TextureUsage::COPY_TARGET },
 					std::span(pixels, size_t(4) * size_px.x * size_px.y)));
 	fonts.SetTexID(to_texture_id(0));
@@ -114,6 +114,7 @@ void UiRenderer::add_pass(RenderGraph &r_graph, RGTexture p_target, const ImDraw
 	desc.name = "editor";
 	desc.vertex_shader = "editor/ui.vert";
 	desc.fragment_shader = "editor/ui.frag";
+	// Each: location, index of the vertex buffer, format and number of components, offset.
 	desc.attributes = { { 0, 0, Format::R32_SFLOAT, 2, offsetof(UiVertex, position_px) },
 		{ 1, 0, Format::R32_SFLOAT, 2, offsetof(UiVertex, uv) },
 		{ 2, 0, Format::R32_SFLOAT, 4, offsetof(UiVertex, color) } };

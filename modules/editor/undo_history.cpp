@@ -78,7 +78,7 @@ void UndoHistory::add(Node3D &r_parent, std::unique_ptr<Node3D> p_node, const st
 	step.parent = &r_parent;
 	step.index = r_parent.children.size();
 	step.detached_node = std::move(p_node);
-	apply(step, nullptr, true);
+	apply(step, nullptr, /*p_inserts=*/true);
 	push(std::move(step));
 }
 
@@ -93,7 +93,7 @@ void UndoHistory::remove(Node3D &r_node, const std::string &p_name) {
 		return p_one.get() == &r_node;
 	}) - siblings.begin());
 	step.is_removal = true;
-	apply(step, nullptr, false);
+	apply(step, nullptr, /*p_inserts=*/false);
 	push(std::move(step));
 }
 

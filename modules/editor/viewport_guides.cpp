@@ -6,10 +6,10 @@ namespace gnomon {
 
 namespace {
 
-// Maximum numbers of silhouette edges that are traced: fewer while something moves, to keep the
-// frame time low.
-const size_t MOVING_EDGE_COUNT = 150;
-const size_t EDGE_COUNT = 1500;
+// Numbers of silhouette edges that are traced: fewer while something moves, to keep the frame time
+// low.
+const size_t MAX_MOVING_EDGE_COUNT = 150;
+const size_t MAX_EDGE_COUNT = 1500;
 
 } // namespace
 
@@ -51,7 +51,7 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 					r_context.is_image_coarse || document.get_timeline().is_playing();
 			update_scene();
 			viewport.penumbra_lines = find_penumbra_lines(
-					rays, *scene, *light, is_moving ? MOVING_EDGE_COUNT : EDGE_COUNT);
+					rays, *scene, *light, is_moving ? MAX_MOVING_EDGE_COUNT : MAX_EDGE_COUNT);
 		}
 	} catch (const std::exception &) {
 		// Drawing the scene fails too, and reports why.

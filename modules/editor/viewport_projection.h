@@ -32,7 +32,7 @@ private:
 	glm::dvec2 size;
 	glm::dmat4 world_from_camera = glm::dmat4(1.0);
 	glm::dmat4 camera_from_world = glm::dmat4(1.0);
-	double focal_px = 1;
+	double focal_px = 1; // focal length: size in pixels of 1 m at a depth of 1 m
 	double near_m = 0.05;
 };
 

@@ -78,9 +78,9 @@ void ViewportRenderer::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	const ErrorState &error = r_context.error;
 	RenderRequest request = make_request(r_context, p_size_px, viewport.debug_view);
 	drawn_light = request.debug_light;
-	const LightSnapshot *seen = request.scene->find_light(request.debug_light);
-	if (error.reference && seen != nullptr && seen->casts_shadow &&
-			compute_reference_hash(*request.scene, *seen, p_size_px) == error.reference_hash) {
+	const LightSnapshot *light = request.scene->find_light(request.debug_light);
+	if (error.reference && light != nullptr && light->casts_shadow &&
+			compute_reference_hash(*request.scene, *light, p_size_px) == error.reference_hash) {
 		request.reference = error.reference;
 	}
 	r_context.shown = draw_into(image, request, renderer);
@@ -132,8 +132,8 @@ RenderResult ViewportRenderer::draw_into(
 	OwnedTexture new_texture;
 	if (!r_image || device.get_desc(r_image.get()).size_px != p_request.size_px) {
 		new_texture = OwnedTexture(device,
-				device.create_texture({ "viewport", Format::RGBA8_UNORM, p_request.size_px, 1,
-						TextureUsage::SAMPLED | TextureUsage::COPY_TARGET }));
+				device.create_texture({ "viewport", Format::RGBA8_UNORM, p_request.size_px,
+						/*layer_count=*/1, TextureUsage::SAMPLED | TextureUsage::COPY_TARGET }));
 	}
 	p_request.image_target = new_texture ? new_texture.get() : r_image.get();
 	RenderResult result = r_renderer.render(p_request);

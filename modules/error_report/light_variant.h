@@ -13,7 +13,7 @@ struct LightVariant {
 	LightType type = LightType::SPOT;
 	/// Radius R of the light in metres, 0..1e4. A directional light gets the apparent diameter of a
 	/// disc of radius R at a distance of 1.5 S (S: scene size); R is then at most 1.5 S, which is
-	/// 90 degrees. This matches the benchmark scenes (doc/benchmarks.md, "The study's scenes").
+	/// 90 degrees. The lights of the benchmark scenes are at about that distance.
 	double size_m = 0;
 };
 

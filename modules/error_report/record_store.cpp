@@ -36,7 +36,7 @@ RecordStore::RecordStore(fs::path p_folder) : folder(std::move(p_folder)) {
 	std::error_code code;
 	fs::create_directories(folder, code);
 	if (code || !fs::is_directory(folder)) {
-		fail("Folder ", folder, " cannot be made: ", code.message(),
+		fail("Folder ", folder, " cannot be created: ", code.message(),
 				". Choose another location with --out.");
 	}
 }

@@ -20,7 +20,7 @@ struct ReportMachine {
 	std::string device;
 	std::string driver;
 	std::string cpu;
-	uint32_t threads = 0;
+	uint32_t threads = 0; // hardware threads of the CPU
 
 	bool operator==(const ReportMachine &) const = default;
 };
@@ -129,7 +129,7 @@ struct ReportStability {
 	/// large to trace two references, or if the set of receiver pixels changes.
 	std::optional<double> temporal_rmse;
 	/// Fraction, 0..1, of all receivers: those that are fully lit or fully hidden in the reference
-	/// (not is_penumbra) and whose error exceeds 0.5.
+	/// (not is_penumbra) and whose error exceeds 0.5. Always 0 in animations.
 	double wrong_share = 0;
 	std::vector<std::string> warnings; // logged while drawing
 	/// The Error with which the technique refused to draw; then there are no other results. Empty

@@ -27,8 +27,9 @@ const double TIME_MARGIN_FRACTION = 0.3; // for times in ms, which also vary wit
 using Key = std::tuple<std::string, std::string, std::string, uint32_t, uint32_t>;
 
 Key make_key(const Report &p_report, const ReportCell &p_cell) {
-	const ReportConfiguration &at = p_report.configurations[p_cell.configuration_index];
-	return { at.id, p_cell.technique, p_cell.setting, at.size_px.x, at.size_px.y };
+	const ReportConfiguration &configuration = p_report.configurations[p_cell.configuration_index];
+	return { configuration.id, p_cell.technique, p_cell.setting, configuration.size_px.x,
+		configuration.size_px.y };
 }
 
 /// Returns the 90th percentile minus the median, divided by the median, of the cell's GPU time; of
@@ -190,12 +191,14 @@ std::string to_text(const ReportComparison &p_comparison) {
 			" cells that both measured, ", p_comparison.only_old_count, " only in the old, ",
 			p_comparison.only_new_count, " only in the new.\n");
 	for (const ReportDifference &difference : p_comparison.differences) {
+		// Only an unusable mask has no message.
+		const std::string problem = difference.message.empty() ? "its mask is unusable now"
+															   : "fails now: " + difference.message;
 		lines += text(difference.is_worse ? "worse " : "better ", difference.what, ": ",
 				difference.configuration, ", ", difference.technique, ", ", difference.setting,
 				": ");
 		lines += difference.what == "status"
-				? (difference.is_worse ? "fails now: " + difference.message
-									   : std::string("does not fail any more"))
+				? (difference.is_worse ? problem : std::string("does not fail any more"))
 				: text(format_value(difference.old_value), " -> ",
 						  format_value(difference.new_value),
 						  difference.what == "time ratio"	  ? " times the baseline"

@@ -20,7 +20,8 @@ struct ReportDifference {
 	std::string what;
 	double old_value = 0;
 	double new_value = 0;
-	std::string message; // error message, if `what` is "status"
+	/// Error message of a worse "status"; empty if the mask is unusable, and in all other cases.
+	std::string message;
 	bool is_worse = false;
 
 	bool is_of_time() const { return what == "time" || what == "time ratio"; }

@@ -41,7 +41,7 @@ std::string join(const std::map<std::string, std::string> &p_properties) {
 void add_metrics(const ErrorMetrics *p_metrics, std::vector<std::string> &r_fields) {
 	r_fields.push_back(p_metrics ? text(p_metrics->pixel_count) : "");
 	if (!p_metrics || p_metrics->pixel_count == 0) {
-		r_fields.insert(r_fields.end(), 5, ""); // no pixels, no error
+		r_fields.insert(r_fields.end(), 5, ""); // no pixels, none of the five values below
 		return;
 	}
 	for (const double value :
@@ -53,6 +53,7 @@ void add_metrics(const ErrorMetrics *p_metrics, std::vector<std::string> &r_fiel
 
 void add_times(const ReportCell &p_cell, std::vector<std::string> &r_fields) {
 	if (!p_cell.is_ok() || p_cell.stability) {
+		// Instead of the seven values below: cells with `stability` are not timed.
 		r_fields.insert(r_fields.end(), 7, "");
 		return;
 	}

@@ -27,7 +27,7 @@ void read_record(const RecordStore &p_store, const std::string &p_name, Read p_r
 		try {
 			p_read(*content);
 		} catch (const Error &error) {
-			log_warning(error.what(), " It counts as absent.");
+			log_warning(error.what(), " Record \"", p_name, "\" counts as absent.");
 		}
 	}
 }

@@ -103,7 +103,7 @@ private:
 			}
 		}
 		fail(p_field, " is \"", p_name, "\", must be ", get_name(T(0)), ", ", get_name(T(1)),
-				" or ", get_name(T(2)));
+				" or ", get_name(T(2)), ".");
 	}
 };
 
@@ -222,7 +222,7 @@ void describe_result(const auto &p_visitor, MaybeConst<ReportConfiguration> auto
 
 void describe(const auto &p_visitor, MaybeConst<ReportConfiguration> auto &r_configuration) {
 	describe_fields(p_visitor, "id", r_configuration.id, "group", r_configuration.group);
-	if (p_visitor.has("sweep", true)) { // absent in older reports
+	if (p_visitor.has("sweep", /*p_is_set=*/true)) { // absent in older reports
 		p_visitor("sweep", r_configuration.sweep);
 	}
 	describe_fields(p_visitor, "value", r_configuration.value, "scene", r_configuration.scene,
@@ -252,7 +252,7 @@ void describe(const auto &p_visitor, MaybeConst<Report> auto &r_report) {
 			"precision_percent", r_report.precision_percent, "program", r_report.program);
 	p_visitor.add_computed("failed_count", r_report.count(ReportStatus::FAILED));
 	p_visitor.add_computed("missing_count", r_report.count(ReportStatus::MISSING));
-	if (p_visitor.has("scene_images", true)) { // absent in version 1
+	if (p_visitor.has("scene_images", /*p_is_set=*/true)) { // absent in version 1
 		p_visitor("scene_images", r_report.scene_images);
 	}
 	describe_fields(p_visitor, "machines", r_report.machines, "techniques", r_report.techniques,
@@ -292,7 +292,7 @@ void upgrade(Json &r_json) {
 Report read_report(Json p_json) {
 	const int version = p_json.value("version", 0);
 	if (p_json.value("format", "") != REPORT_FORMAT || version < 1 || version > REPORT_VERSION) {
-		fail("its format is not ", REPORT_FORMAT, " of version 1..", REPORT_VERSION);
+		fail("its format is not ", REPORT_FORMAT, " of version 1..", REPORT_VERSION, ".");
 	}
 	upgrade(p_json);
 	Report report;
@@ -301,9 +301,9 @@ Report read_report(Json p_json) {
 		const ReportCell &cell = report.cells[index];
 		const bool has_machine = !cell.is_ok() || cell.machine_index < report.machines.size();
 		if (cell.configuration_index >= report.configurations.size() || !has_machine) {
-			fail("cell ", index, " names configuration ", cell.configuration_index, " of ",
+			fail("cell ", index, " has configuration ", cell.configuration_index, " of ",
 					report.configurations.size(), " and machine ", cell.machine_index, " of ",
-					report.machines.size());
+					report.machines.size(), "; the indices must be below these counts.");
 		}
 	}
 	return report;
@@ -318,7 +318,7 @@ template <typename Owner> void read_result(Json p_json, Owner &r_owner) {
 		describe_result(Reader{ p_json }, owner);
 		r_owner = std::move(owner);
 	} catch (const Json::exception &error) {
-		fail("Record \"", r_owner.record, "\" has another form: ", error.what());
+		fail("Record \"", r_owner.record, "\" has another form: ", error.what(), ".");
 	}
 }
 
@@ -341,7 +341,7 @@ ReportMachine read_cell_machine(const Json &p_json) {
 		Reader{ p_json }("machine", machine);
 		return machine;
 	} catch (const Json::exception &error) {
-		fail("A record has another form: ", error.what());
+		fail("A record has another form: ", error.what(), ".");
 	}
 }
 
@@ -403,9 +403,9 @@ Report load_report(const std::filesystem::path &p_path) {
 		return read_report(Json::parse(load_text_file(p_path)));
 	} catch (const Json::exception &error) {
 		fail("Report ", p_path, " cannot be read: ", error.what(),
-				". It must be a report.json or plan.json of this version of `gnomon report`.");
+				". It must be a report.json or plan.json that `gnomon report` wrote.");
 	} catch (const Error &error) {
-		fail("Report ", p_path, " cannot be read: ", error.what(), ".");
+		fail("Report ", p_path, " cannot be read: ", error.what());
 	}
 }
 

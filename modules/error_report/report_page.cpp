@@ -116,8 +116,8 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 			add_image(configuration.at("reference_mask"), p_store, images);
 		}
 	}
-	for (const Json &shown : p_report.at("scene_images")) {
-		add_image(shown, p_store, images);
+	for (const Json &scene_image : p_report.at("scene_images")) {
+		add_image(scene_image, p_store, images);
 	}
 	data["images"] = std::move(images);
 	Json colors = Json::array();

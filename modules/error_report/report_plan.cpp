@@ -59,8 +59,8 @@ uint64_t hash_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
 	return compute_value_hash(p_instance.material->is_double_sided, p_hash);
 }
 
-/// Hashes what only a lit image depends on: colours of lights and materials. The images of textures
-/// are not hashed.
+/// Hashes what only a lit image depends on: colours and intensities of lights, and parameters of
+/// materials. The images of textures are not hashed.
 uint64_t hash_appearance(const SceneSnapshot &p_scene, uint64_t p_hash) {
 	for (const LightSnapshot &light : p_scene.lights) {
 		p_hash = compute_value_hash(light.color, p_hash);
@@ -83,10 +83,10 @@ uint64_t hash_appearance(const SceneSnapshot &p_scene, uint64_t p_hash) {
 /// scattering and transmission of materials, the camera, the scene size S, the light with all its
 /// properties, mask filters and the size of the image; if next_scene is set also the meshes, lights
 /// and camera one frame later. If the task names no light, its result (a lit image, or a run time)
-/// depends on all lights; the colours, which a lit image depends on, are then hashed too.
+/// depends on all lights; see also hash_appearance.
 uint64_t compute_task_hash(const MaskTask &p_task) {
 	const SceneSnapshot &scene = *p_task.scene;
-	uint64_t hash = scene.camera.compute_hash(1);
+	uint64_t hash = scene.camera.compute_hash(/*p_seed=*/1);
 	hash = compute_value_hash(scene.scene_size_m, hash);
 	for (const InstanceSnapshot &instance : scene.instances) {
 		hash = hash_instance(instance, hash);
@@ -185,8 +185,8 @@ private:
 		const ReportView view = find_report_view(p_scene);
 		const auto snapshot = build_snapshot(*p_scene.scene, *view.camera);
 		const double scene_size_m = snapshot->scene_size_m;
-		add_scene_image(p_scene.name, snapshot, true);
-		add_scene_image(p_scene.name, snapshot, false);
+		add_scene_image(p_scene.name, snapshot, /*p_has_shadows=*/true);
+		add_scene_image(p_scene.name, snapshot, /*p_has_shadows=*/false);
 		std::vector<double> sizes_m = options.sizes_m;
 		if (sizes_m.empty()) {
 			for (const double size : DEFAULT_SIZES) {
@@ -274,15 +274,15 @@ private:
 		configuration.scene = SCALING_SCENE_NAME;
 		configuration.light_count = description.light_count;
 		configuration.size_px = size_px;
-		const bool has_many = description.light_count > 1;
-		configuration.light = has_many ? "" : "Light 1";
+		const bool has_many_lights = description.light_count > 1;
+		configuration.light = has_many_lights ? "" : "Light 1";
 		add_configuration(
 				configuration,
 				[=](const PropertyValues &) {
 					const auto scene = p_cache->get(
 							description, [&] { return make_scaling_scene(description); });
 					return MaskTask{ build_snapshot(*scene, *scene->find_nodes<Camera3D>().front()),
-						has_many ? "" : "Light 1", size_px };
+						has_many_lights ? "" : "Light 1", size_px };
 				},
 				ExpensiveSettings::SKIPPED);
 	}
@@ -304,6 +304,7 @@ private:
 		if (light.type == LightType::DIRECTIONAL) {
 			p_configuration.light_angular_distance_deg = light.light_angular_distance_deg;
 		} else {
+			// Where it is known, the exact size: the snapshot rounds it to float32.
 			p_configuration.light_size_m =
 					p_configuration.group == LIGHT_SIZE_GROUP || p_configuration.is_matrix()
 					? p_configuration.value
@@ -358,7 +359,8 @@ private:
 	void add_cell(size_t p_configuration, const std::string &p_technique,
 			const QualitySetting &p_setting) {
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
-		// Stability scenes set the penumbra widths themselves (sweep "fin_width").
+		// Only tasks of the matrix use these. Stability scenes set the penumbra widths themselves
+		// (sweep "fin_width").
 		PropertyValues properties =
 				configuration.is_stability() ? PropertyValues() : make_derived_widths();
 		ReportCell cell;

@@ -34,8 +34,9 @@ ReportView find_report_view(const ReportScene &p_scene);
 /// Selects what a report measures.
 struct ReportOptions {
 	std::string project;			   // name
-	std::string program;			   // version and hash; records of other programs are not reused
-	std::vector<double> sizes_m;	   // light radii R in metres; empty: 0.02, 0.1 and 0.3 S
+	std::string program;			   // see Report; records of other programs are not reused
+	std::vector<double> sizes_m;	   // light radii R in metres; empty: 0.02, 0.1 and 0.3
+									   // times the scene size S
 	bool has_own_sizes = false;		   // true: each light's own size, instead of sizes_m
 	bool has_default_settings = false; // true: only the default quality of each technique
 	/// The first shadow-casting light of each scene is measured once with each of these types.
@@ -72,8 +73,8 @@ struct ReportPlan {
 };
 
 /// Plans all measurements in a fixed order: the matrix (scenes, lights, sizes, techniques,
-/// settings), the scaling curves and the report parts. A record's name contains a hash of
-/// everything that its result depends on, so that a resumed run finds it. Scenes that cannot be
+/// settings), the scaling curves and the report parts (ReportPart). A record's name contains a hash
+/// of everything that its result depends on, so that a resumed run finds it. Scenes that cannot be
 /// measured become configurations with the status FAILED.
 ReportPlan make_report_plan(const ReportOptions &p_options,
 		const std::vector<ReportScene> &p_scenes,

@@ -25,7 +25,7 @@ bool is_in_matrix(const Report &p_report, const ReportCell &p_cell) {
 	return p_report.configurations[p_cell.configuration_index].is_matrix();
 }
 
-double get_mae(const ReportCell &p_cell) {
+double get_penumbra_mae(const ReportCell &p_cell) {
 	return p_cell.error->all.penumbra.mae;
 }
 
@@ -111,7 +111,7 @@ std::vector<RankingRow> rank_best_settings(const Report &p_report) {
 		}
 		const auto [entry, is_new] =
 				best.insert({ { cell.technique, cell.configuration_index }, index });
-		if (!is_new && get_mae(cell) < get_mae(p_report.cells[entry->second])) {
+		if (!is_new && get_penumbra_mae(cell) < get_penumbra_mae(p_report.cells[entry->second])) {
 			entry->second = index;
 		}
 	}
@@ -127,12 +127,13 @@ std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configura
 	std::erase_if(cells, [&](size_t p_index) { return !is_comparable(p_report.cells[p_index]); });
 	std::ranges::sort(cells, {}, [&](size_t p_index) {
 		const ReportCell &cell = p_report.cells[p_index];
-		return std::tuple(cell.time.cost_ms, get_mae(cell), p_index);
+		return std::tuple(cell.time.cost_ms, get_penumbra_mae(cell), p_index);
 	});
 	std::vector<size_t> front;
 	for (const size_t index : cells) {
 		if (front.empty() ||
-				get_mae(p_report.cells[index]) < get_mae(p_report.cells[front.back()])) {
+				get_penumbra_mae(p_report.cells[index]) <
+						get_penumbra_mae(p_report.cells[front.back()])) {
 			front.push_back(index);
 		}
 	}
@@ -179,12 +180,13 @@ Json scaling_to_json(const Report &p_report) {
 	for (const auto &[name, unit] : groups) {
 		Json series = Json::array();
 		for (const ReportTechnique &technique : p_report.techniques) {
-			std::multimap<double, size_t> cells; // by value
+			std::multimap<double, size_t> cells; // by the configuration's value
 			for (size_t index = 0; index < p_report.cells.size(); ++index) {
 				const ReportCell &cell = p_report.cells[index];
-				const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
-				if (at.group == name && cell.technique == technique.id && cell.is_ok()) {
-					cells.insert({ at.value, index });
+				const ReportConfiguration &configuration =
+						p_report.configurations[cell.configuration_index];
+				if (configuration.group == name && cell.technique == technique.id && cell.is_ok()) {
+					cells.insert({ configuration.value, index });
 				}
 			}
 			Json points = Json::array();

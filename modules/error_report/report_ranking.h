@@ -23,8 +23,9 @@ struct RankingRow {
 	/// Means of ErrorMetrics::wrong; unset if a cell has no such value (from an older report).
 	std::optional<double> penumbra_wrong;
 	std::optional<double> receiver_wrong;
-	double umbra_over = 0;							// see MaskMetrics
-	std::optional<double> whole_light_penumbra_mae; // unset if there are no such pixels
+	double umbra_over = 0; // see MaskMetrics
+	/// Over the pixels of ReportError::whole_light; unset if there are none in the penumbra.
+	std::optional<double> whole_light_penumbra_mae;
 	double cost_ms = 0;
 	std::optional<double> time_ratio; // see Report::compute_time_ratio; unset without a baseline
 };
@@ -33,14 +34,14 @@ struct RankingRow {
 /// ascending penumbra_mae. Cells without an error or without penumbra pixels are ignored.
 std::vector<RankingRow> rank_settings(const Report &p_report);
 /// Returns one row per technique, sorted in the same way. In each configuration the setting with
-/// the lowest penumbra error is used.
+/// the lowest penumbra_mae is used.
 std::vector<RankingRow> rank_best_settings(const Report &p_report);
 
 /// Returns the Pareto front of a configuration as cell indices in ascending order of cost_ms: the
-/// cells for which no other cell is both cheaper and closer to the reference. Cells without an
-/// error or without penumbra pixels are ignored.
+/// cells with a lower penumbra MAE than every cell that costs less. Of cells with equal cost it
+/// contains at most one. Cells without an error or without penumbra pixels are ignored.
 std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configuration);
-/// Returns the cell with the lowest penumbra error among those with cost_ms <= p_budget_ms; nullopt
+/// Returns the cell with the lowest penumbra MAE among those with cost_ms <= p_budget_ms; nullopt
 /// if there is none.
 std::optional<size_t> find_within_budget(
 		const Report &p_report, size_t p_configuration, double p_budget_ms);

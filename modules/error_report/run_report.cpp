@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Masks of report parts (stability sweeps) with more pixels are not stored as images.
+/// Masks of report parts (ReportPart) with more pixels are not stored as images.
 const size_t MAX_SHOWN_PIXEL_COUNT = size_t(1) << 20;
 
 /// Returns the mask without the receivers whose p_is_included is 0.
@@ -43,7 +43,7 @@ std::vector<uint8_t> encode_reference_png(const MaskImage &p_mask) {
 		pixels.push_back(grey[index]);
 		pixels.push_back(p_mask.is_receiver(index) ? 255 : 0);
 	}
-	return encode_png(p_mask.size_px, 2, pixels);
+	return encode_png(p_mask.size_px, /*p_channel_count=*/2, pixels);
 }
 
 /// Calls p_work and returns the message of its exception, or nullopt on success. DeviceLost is
@@ -87,13 +87,14 @@ private:
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
 		if (configuration.is_stability()) {
 			// A shard gets whole curves, since points are compared with the centre of their curve.
+			// A curve is a sweep with one type of light.
 			const uint64_t hash = compute_text_hash(
-					configuration.light_type, compute_text_hash(configuration.sweep, 1));
+					configuration.light_type, compute_text_hash(configuration.sweep, /*p_seed=*/1));
 			return hash % options.shard_count == options.shard_index;
 		}
-		// In each block of shard_count configurations, the shards are rotated by one. The sizes of
-		// a light are adjacent in the plan, and only the middle one has expensive settings: with
-		// plain index modulo count, some shards might get all of these.
+		// From one block of shard_count configurations to the next, the shards rotate by one. The
+		// sizes of a light are adjacent in the plan, and only the middle one has expensive
+		// settings: with plain index modulo count, some shards might get all of these.
 		return (p_configuration + p_configuration / options.shard_count) % options.shard_count ==
 				options.shard_index;
 	}
@@ -162,8 +163,8 @@ private:
 			std::vector<uint8_t> image;
 			const glm::uvec2 size_px = find_scene_size(p_scene);
 			const std::optional<std::string> failure = try_run([&] {
-				image = encode_png(
-						size_px, 4, source.draw_scene(plan.shown_scenes[index], size_px));
+				image = encode_png(size_px, /*p_channel_count=*/4,
+						source.draw_scene(plan.shown_scenes[index], size_px));
 			});
 			shown.status = failure ? ReportStatus::FAILED : ReportStatus::OK;
 			shown.message = failure.value_or("");
@@ -186,6 +187,7 @@ private:
 		std::erase_if(missing, [&](size_t p_cell) {
 			return report.cells[p_cell].status != ReportStatus::MISSING;
 		});
+		// Without a record the scene or light could not be planned, so nothing can be traced.
 		const bool needs_reference = configuration.has_reference() &&
 				!configuration.record.empty() &&
 				(!missing.empty() || configuration.status == ReportStatus::MISSING);
@@ -272,7 +274,8 @@ private:
 		if (const ReportPart *part = ReportPartRegistry::find_part(configuration.group)) {
 			const MaskImage mask = part->run_cell(source, task, references, report, index);
 			if (mask.get_pixel_count() > 0 && mask.get_pixel_count() <= MAX_SHOWN_PIXEL_COUNT) {
-				r_image = encode_png(task.size_px, 1, compute_mask_pixels(mask));
+				r_image =
+						encode_png(task.size_px, /*p_channel_count=*/1, compute_mask_pixels(mask));
 				r_cell.image = r_cell.record + ".png";
 			}
 			return;
@@ -285,7 +288,8 @@ private:
 				compute_mask_metrics(restrict_mask(reference.mask, reference.sees_whole_light),
 						restrict_mask(measured_mask.mask, reference.sees_whole_light)),
 			};
-			r_image = encode_png(task.size_px, 1, compute_mask_pixels(measured_mask.mask));
+			r_image = encode_png(
+					task.size_px, /*p_channel_count=*/1, compute_mask_pixels(measured_mask.mask));
 			r_cell.image = r_cell.record + ".png";
 		}
 		r_cell.time = measured_mask.time;

@@ -21,14 +21,16 @@ const uint32_t GROUND_TRIANGLE_COUNT = 12;
 const glm::vec3 GROUND_HALF_SIZE_M(4.2f, 0.2f, 4.2f);
 const glm::dvec3 LIGHT_POSITION(1.8, 6.0, 1.2);
 const glm::dvec3 LIGHT_TARGET(0.0, 0.4, 0.0);
-const double LIGHT_CONE_TANGENT = 0.95;
+const double LIGHT_CONE_TANGENT = 0.95;	 // tangent of half the cone's angle
+const float TOTAL_INTENSITY_CD = 500.0f; // of all lights together
 const glm::dvec3 CAMERA_POSITION(-3.2, 4.6, 4.6);
 const glm::dvec3 CAMERA_TARGET(-0.3, 0.45, -0.2);
-const double CAMERA_FOV_RAD = 0.64350110879; // 36.87 degrees
+const double CAMERA_FOV_RAD = 0.64350110879; // vertical, 36.87 degrees
 
-/// Returns a point on the knot's centre line. p_revolutions: position along the line, period 1.
-glm::dvec3 compute_knot_point(double p_revolutions) {
-	const double t = p_revolutions * 2.0 * std::numbers::pi;
+/// Returns a point on the knot's centre line, a (2, 3) torus knot. p_fraction: position along the
+/// line, period 1.
+glm::dvec3 compute_knot_point(double p_fraction) {
+	const double t = p_fraction * 2.0 * std::numbers::pi;
 	const double ring = 2.0 + std::cos(3.0 * t);
 	return KNOT_CENTER +
 			KNOT_SCALE_M *
@@ -36,6 +38,7 @@ glm::dvec3 compute_knot_point(double p_revolutions) {
 }
 
 std::shared_ptr<const Mesh> make_knot(uint32_t p_triangle_count) {
+	// A quad has two triangles.
 	const double around = std::sqrt(p_triangle_count * 0.5 / ALONG_TO_AROUND_RATIO);
 	const uint32_t around_count = std::max(3u, static_cast<uint32_t>(std::lround(around)));
 	const uint32_t along_count =
@@ -43,10 +46,10 @@ std::shared_ptr<const Mesh> make_knot(uint32_t p_triangle_count) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
 	for (uint32_t along = 0; along < along_count; ++along) {
-		const double revolutions = double(along) / along_count;
-		const glm::dvec3 center = compute_knot_point(revolutions);
+		const double fraction = double(along) / along_count;
+		const glm::dvec3 center = compute_knot_point(fraction);
 		const glm::dvec3 forward = glm::normalize(
-				compute_knot_point(revolutions + 1e-4) - compute_knot_point(revolutions - 1e-4));
+				compute_knot_point(fraction + 1e-4) - compute_knot_point(fraction - 1e-4));
 		const glm::dvec3 side = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
 		const glm::dvec3 up = glm::cross(side, forward);
 		for (uint32_t step = 0; step < around_count; ++step) {
@@ -80,7 +83,7 @@ void add_lights(Node3D &r_root, const ScalingScene &p_description) {
 		auto light = std::make_unique<Light3D>();
 		light->name = text("Light ", index + 1);
 		light->type = LightType::SPOT;
-		light->intensity = 500.0f / float(p_description.light_count);
+		light->intensity = TOTAL_INTENSITY_CD / float(p_description.light_count);
 		light->outer_cone_rad = static_cast<float>(std::atan(LIGHT_CONE_TANGENT));
 		light->properties["light_size"] = p_description.light_size_m;
 		light->parent_from_node = look_at(position, LIGHT_TARGET);

@@ -16,11 +16,12 @@ enum class ReportExtent {
 	/// Scaling: three points per curve, cheap enough for a software device, without techniques that
 	/// have expensive settings. Stability: two or three values of each sweep, the centre among them
 	/// (all points of "guards" and "scenes"), at 64 x 64 pixels (but not "resolution") and with one
-	/// type of light ("light_size": with all). Animation: 4 moments of each scene's first one.
+	/// type of light ("light_size" and "scenes": with all). Animation: 4 moments of each scene's
+	/// first animation.
 	QUICK,
-	/// Scaling: 2000 to 1 million triangles, 1 to 64 lights, 128 to 2048 pixels. Stability: all
-	/// values of each sweep, at 128 x 128 pixels (but not "resolution"). Animation: 16 moments of
-	/// each scene's first one.
+	/// Scaling: 2000 to 1 million triangles, 1 to 64 lights, 128 to 2048 pixels, light radii of
+	/// 0.02 to 2.4 m. Stability: all values of each sweep, at 128 x 128 pixels (but not
+	/// "resolution"). Animation: 16 moments of each scene's first animation.
 	FULL,
 };
 

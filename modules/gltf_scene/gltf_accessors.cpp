@@ -42,7 +42,7 @@ std::string describe_types(int p_min_components, int p_max_components) {
 	const auto describe = [](int p_count) {
 		return describe_type(p_count == 1 ? TINYGLTF_TYPE_SCALAR
 						: p_count == 16	  ? TINYGLTF_TYPE_MAT4
-										  : p_count);
+										  : p_count); // TINYGLTF_TYPE_VEC2 is 2, and so on
 	};
 	return p_min_components == p_max_components
 			? describe(p_max_components)
@@ -60,6 +60,7 @@ template <typename T> T load(const uint8_t *p_bytes) {
 	return value;
 }
 
+/// Decodes normalized integers as glTF 2.0 defines: of signed bytes, both -127 and -128 become -1.
 template <typename T> float to_float(const uint8_t *p_bytes, bool p_is_normalized) {
 	const float value = static_cast<float>(load<T>(p_bytes));
 	if (!p_is_normalized) {
@@ -126,8 +127,9 @@ void GltfAccessors::locate_elements(
 				text("at least ", r_layout.element_bytes, ", the bytes of an element"));
 	}
 	r_layout.stride_bytes = stride_bytes > 0 ? stride_bytes : r_layout.element_bytes;
-	const uint64_t needed_bytes = (r_layout.count - 1) * r_layout.stride_bytes +
-			r_layout.element_bytes; // count is below 2^32
+	// check_accessor limits count to 1..GLTF_MAX_INDEX_COUNT, so that this cannot overflow.
+	const uint64_t needed_bytes =
+			(r_layout.count - 1) * r_layout.stride_bytes + r_layout.element_bytes;
 	if (p_offset > view_bytes.size() || needed_bytes > view_bytes.size() - p_offset) {
 		messages.fail(p_path + ".byteOffset",
 				text("is ", p_offset, ": ", r_layout.count, " elements need ", needed_bytes,
@@ -139,10 +141,10 @@ void GltfAccessors::locate_elements(
 }
 
 GltfAccessors::Layout GltfAccessors::read_layout(
-		size_t p_index, int p_min_components, int p_max_components, ComponentTypes p_components) {
+		size_t p_index, int p_min_components, int p_max_components, ComponentTypes p_types) {
 	const tinygltf::Accessor &accessor = model.accessors[p_index];
 	const std::string path = text("accessors[", p_index, "]");
-	const bool is_index = p_components == ComponentTypes::INDICES;
+	const bool is_index = p_types == ComponentTypes::INDICES;
 	const int component_count = accessor.type == TINYGLTF_TYPE_SCALAR ? 1
 			: accessor.type == TINYGLTF_TYPE_MAT4					  ? 16
 			: accessor.type <= TINYGLTF_TYPE_VEC4					  ? accessor.type
@@ -166,7 +168,7 @@ GltfAccessors::Layout GltfAccessors::read_layout(
 	if (decoded_count > MAX_DECODED_COUNT) {
 		messages.fail(path + ".count",
 				text("makes more than ", MAX_DECODED_COUNT,
-						" elements in all meshes. Split the scene."));
+						" elements in all accessors. Split the scene."));
 	}
 	if (accessor.bufferView >= 0) {
 		locate_elements(accessor.bufferView, accessor.byteOffset, path, layout);

@@ -42,7 +42,7 @@ private:
 	/// Reads and checks the layout of an accessor. p_min_components, p_max_components:
 	/// allowed numbers of components per element.
 	Layout read_layout(size_t p_index, int p_min_components, int p_max_components,
-			ComponentTypes p_components = ComponentTypes::NUMBERS);
+			ComponentTypes p_types = ComponentTypes::NUMBERS);
 	/// Locates the elements in a buffer view and stores their bytes and stride in r_layout. p_path:
 	/// JSON path of the object that holds the byte offset, for messages.
 	void locate_elements(int p_view, size_t p_offset, const std::string &p_path, Layout &r_layout);

@@ -13,6 +13,7 @@ namespace {
 
 const uint64_t MAX_KEY_VALUE_COUNT = uint64_t(1) << 26; // floats in all channels together; 0.3 GB
 
+/// Reads the animations of a model, see read_animations.
 class AnimationReader {
 public:
 	AnimationReader(
@@ -68,7 +69,7 @@ bool AnimationReader::read_channel(const tinygltf::Animation &p_animation, size_
 														  : AnimatedPath::WEIGHTS;
 	const tinygltf::AnimationSampler &source =
 			p_animation.samplers[static_cast<size_t>(channel.sampler)];
-	const std::string path = text(p_path, ".samplers[", channel.sampler, "]");
+	const std::string sampler_path = text(p_path, ".samplers[", channel.sampler, "]");
 	AnimationSampler &sampler = r_channel.sampler;
 	sampler.interpolation = source.interpolation == "STEP" ? Interpolation::STEP
 			: source.interpolation == "CUBICSPLINE"		   ? Interpolation::CUBIC_SPLINE
@@ -77,37 +78,39 @@ bool AnimationReader::read_channel(const tinygltf::Animation &p_animation, size_
 			count_components(r_channel.path, model.nodes[static_cast<size_t>(channel.target_node)]);
 	if (sampler.component_count == 0) {
 		return reject_channel(text(p_path, ".channels[", p_channel, "].target.path"),
-				text("is \"weights\", but the mesh of nodes[", channel.target_node,
-						"] has no morph targets"));
+				text("is \"weights\", but nodes[", channel.target_node,
+						"] has no mesh with morph targets"));
 	}
 	sampler.times_s = accessors.read_floats(static_cast<size_t>(source.input), 1);
+	// Weights are single numbers in the accessor, component_count of them per key.
 	const int accessor_components =
 			r_channel.path == AnimatedPath::WEIGHTS ? 1 : int(sampler.component_count);
 	sampler.values = accessors.read_floats(static_cast<size_t>(source.output), accessor_components);
 	value_count += sampler.times_s.size() + sampler.values.size();
 	if (value_count > MAX_KEY_VALUE_COUNT) {
-		messages.fail(path + ".output",
+		messages.fail(sampler_path + ".output",
 				text("makes more than ", MAX_KEY_VALUE_COUNT,
 						" values in all animations. Split the scene."));
 	}
 	for (size_t key = 0; key < sampler.times_s.size(); ++key) {
 		const float time_s = sampler.times_s[key];
 		if (!std::isfinite(time_s) || (key > 0 && time_s <= sampler.times_s[key - 1])) {
-			return reject_channel(path + ".input",
+			return reject_channel(sampler_path + ".input",
 					text("has ", time_s, " at ", key, ", must be finite times in s that ascend"));
 		}
 	}
+	// In-tangent, value and out-tangent, or only the value.
 	const size_t values_per_key = sampler.interpolation == Interpolation::CUBIC_SPLINE ? 3 : 1;
 	const size_t expected = sampler.times_s.size() * sampler.component_count * values_per_key;
 	if (sampler.values.size() != expected) {
-		return reject_channel(path + ".output",
+		return reject_channel(sampler_path + ".output",
 				text("has ", sampler.values.size(), " numbers, must be ", expected, ", for ",
 						sampler.times_s.size(), " times"));
 	}
 	const auto bad = std::find_if_not(sampler.values.begin(), sampler.values.end(),
 			[](float p_value) { return std::isfinite(p_value); });
 	if (bad != sampler.values.end()) {
-		return reject_channel(path + ".output",
+		return reject_channel(sampler_path + ".output",
 				text("has a number that is not finite at ", bad - sampler.values.begin()));
 	}
 	return true;
@@ -120,6 +123,7 @@ std::shared_ptr<const Animation> AnimationReader::read(size_t p_index, const std
 	std::set<int> animated_nodes;
 	for (size_t index = 0; index < source.channels.size(); ++index) {
 		AnimationChannel channel;
+		// check_animations gives a disabled channel the path "".
 		if (source.channels[index].target_path.empty() ||
 				!read_channel(source, index, text("animations[", p_index, "]"), channel)) {
 			continue;

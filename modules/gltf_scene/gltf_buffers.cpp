@@ -16,7 +16,7 @@ std::optional<int> parse_hex_digit(char p_digit) {
 	if (p_digit >= '0' && p_digit <= '9') {
 		return p_digit - '0';
 	}
-	const char lower = static_cast<char>(p_digit | 0x20);
+	const char lower = static_cast<char>(p_digit | 0x20); // ASCII: to lower case
 	if (lower >= 'a' && lower <= 'f') {
 		return lower - 'a' + 10;
 	}
@@ -71,7 +71,7 @@ fs::path resolve_uri(
 	const auto reject = [&](const char *p_problem) {
 		p_object.fail_at("uri",
 				text("is \"", to_one_line(p_uri), "\", ", p_problem,
-						". Put the file next to the scene and name it alone."));
+						". Put the file next to the scene and refer to it by its name alone."));
 	};
 	if (has_scheme(p_uri)) {
 		reject("must be a file's relative path");
@@ -184,7 +184,8 @@ std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_object, const std
 	if (comma == std::string::npos ||
 			!std::string_view(p_uri).substr(0, comma).ends_with(";base64") ||
 			!tinygltf::DecodeDataURI(&bytes, media_type,
-					"data:application/octet-stream;base64," + p_uri.substr(comma + 1), 0, false)) {
+					"data:application/octet-stream;base64," + p_uri.substr(comma + 1),
+					/*reqBytes=*/0, /*checkSize=*/false)) {
 		p_object.fail_at("uri", "is no base64 data. Export the file again.");
 	}
 	return bytes;

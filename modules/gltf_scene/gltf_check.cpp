@@ -18,7 +18,7 @@ namespace {
 
 const double MAX_NEAR_M = 1e9;
 const double MIN_NEAR_M = 1e-6;
-const double MAX_FOV_RAD = 3.14159;
+const double MAX_FOV_RAD = 3.14159;						 // must be below pi
 const double MIN_FOV_RAD = 1e-4;						 // a narrower view would show nothing
 const double DEFAULT_OUTER_CONE_RAD = 0.785398163397448; // KHR_lights_punctual: pi / 4
 const double MAX_CONE_RAD = 1.57079632679490 + 1e-6; // exporters round pi / 2 up as often as down
@@ -26,8 +26,9 @@ const double MAX_EMISSIVE_CD_M2 = 1e9;				 // about the luminance of the sun's d
 const double LAST_ROW_TOLERANCE = 1e-6;				 // for exporters that compute in float
 const uint64_t MAX_OFFSET_BYTES = INT32_MAX;		 // tinygltf's limit
 const uint64_t MAX_STRIDE_BYTES = 252;				 // limit of glTF 2.0
-const double MAX_UV_TRANSFORM =
-		1e6; // for texture coordinates; a float has no useful precision above
+// Offsets, scales and rotations of texture coordinates; a float has no useful precision above.
+const double MAX_UV_TRANSFORM = 1e6;
+const double MIN_QUATERNION_LENGTH = 1e-6; // longer ones are normalized, see read_node_transform
 const char NEXT_STEP[] = "Correct it or export the file again.";
 
 /// Returns whether a file may require the extension: it is supported, or (other KHR_materials_
@@ -107,6 +108,7 @@ void check_pair(const GltfObject &p_object, std::string_view p_key, const char *
 	}
 }
 
+/// Checks one document, see check_gltf.
 class GltfChecker {
 public:
 	explicit GltfChecker(const GltfObject &p_root) : root(p_root) {}
@@ -202,7 +204,7 @@ void GltfChecker::check_buffers_and_textures() const {
 		}
 		check_integer(p_view, "byteStride", 4, MAX_STRIDE_BYTES);
 	});
-	check_elements(root, "images", [](const GltfObject &) {});
+	check_elements(root, "images", [](const GltfObject &) {}); // they must be objects
 	check_elements(root, "samplers", [](const GltfObject &p_sampler) {
 		for (const char *key : { "wrapS", "wrapT" }) {
 			check_choice(p_sampler, key,
@@ -242,7 +244,7 @@ void GltfChecker::check_accessor(const GltfObject &p_accessor) const {
 	check_bool(p_accessor, "normalized");
 	const auto sparse = p_accessor.find_object("sparse");
 	if (!sparse) {
-		p_accessor.erase("sparse");
+		p_accessor.erase("sparse"); // it may be null
 		return;
 	}
 	require_integer(
@@ -375,7 +377,7 @@ void GltfChecker::check_transform(const GltfObject &p_node) {
 	if (p_node.find_numbers("rotation", quaternion)) {
 		const double length = std::hypot(
 				std::hypot(quaternion[0], quaternion[1]), std::hypot(quaternion[2], quaternion[3]));
-		if (!(length > 1e-6) || !std::isfinite(length)) {
+		if (!(length > MIN_QUATERNION_LENGTH) || !std::isfinite(length)) {
 			p_node.fail_value("rotation", "a unit quaternion");
 		}
 	}

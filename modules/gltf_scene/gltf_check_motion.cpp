@@ -81,7 +81,7 @@ void check_skins(const GltfObject &p_root) {
 		if (count == 0 || count > GLTF_MAX_JOINT_COUNT) {
 			p_skin.fail_at("joints",
 					text("has ", count, " elements, must be 1..", GLTF_MAX_JOINT_COUNT,
-							". Split the mesh, or export it with fewer joints."));
+							". Export the mesh with a number of joints in this range."));
 		}
 		check_indices(p_skin, "joints", p_root.get_count("nodes"));
 		check_index(p_skin, "skeleton", p_root.get_count("nodes"));

@@ -112,9 +112,10 @@ std::vector<uint8_t> build_glb(const GltfContainer &p_container, const GltfMessa
 	append_u32(bytes, GLB_VERSION);
 	append_u32(bytes, 0); // the length, which is written below
 	append_chunk(bytes, CHUNK_JSON,
-			std::span(reinterpret_cast<const uint8_t *>(json.data()), json.size()), ' ');
+			std::span(reinterpret_cast<const uint8_t *>(json.data()), json.size()),
+			/*p_padding=*/' ');
 	if (p_container.bin_chunk) {
-		append_chunk(bytes, CHUNK_BIN, *p_container.bin_chunk, 0);
+		append_chunk(bytes, CHUNK_BIN, *p_container.bin_chunk, /*p_padding=*/0);
 	}
 	bytes.insert(bytes.end(), p_container.other_chunks.begin(), p_container.other_chunks.end());
 	if (bytes.size() > UINT32_MAX) {

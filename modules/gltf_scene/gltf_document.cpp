@@ -48,7 +48,7 @@ void prepare_for_tinygltf(Json &r_json) {
 	}
 	for (Json &image : r_json["images"]) {
 		image.erase("bufferView");
-		image["uri"] = "image";
+		image["uri"] = "image"; // never opened, see make_callbacks
 	}
 	for (Json &mesh : r_json["meshes"]) {
 		for (Json &primitive : mesh["primitives"]) {
@@ -101,7 +101,8 @@ Json write_model(const tinygltf::Model &p_model) {
 	writer.SetImageWriter(nullptr, nullptr);
 	std::ostringstream stream;
 	try {
-		writer.WriteGltfSceneToStream(&p_model, stream, false, false);
+		writer.WriteGltfSceneToStream(
+				&p_model, stream, /*prettyPrint=*/false, /*writeBinary=*/false);
 	} catch (const std::exception &error) {
 		fail("The scene cannot be saved: ", to_one_line(error.what()),
 				". Change the names of its nodes to plain text.");
@@ -145,6 +146,7 @@ Json merge(const Json &p_read, const Json &p_before, Json p_after) {
 		} else if (before.is_null()) { // tinygltf does not store it
 			merged[item.key()] = *item;
 		} else if (item->is_object()) {
+			// Removed, except for the members that tinygltf does not store.
 			Json rest = merge(*item, before, Json::object());
 			if (!rest.empty()) {
 				merged[item.key()] = std::move(rest);
@@ -169,8 +171,9 @@ tinygltf::Model parse_gltf_model(Json p_checked, const GltfMessages &p_messages)
 	tinygltf::Model model;
 	std::string problem;
 	std::string warning;
-	if (!parser.LoadASCIIFromString(
-				&model, &problem, &warning, json.data(), static_cast<unsigned>(json.size()), "")) {
+	if (!parser.LoadASCIIFromString(&model, &problem, &warning, json.data(),
+				static_cast<unsigned>(json.size()),
+				/*base_dir=*/"")) {
 		throw Error(p_messages.describe(
 				"JSON", text("is not valid: ", problem, " Correct it or export the file again.")));
 	}

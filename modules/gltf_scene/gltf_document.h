@@ -15,6 +15,7 @@
 
 namespace gnomon {
 
+// Names of glTF extensions.
 inline constexpr char GLTF_PUNCTUAL[] = "KHR_lights_punctual";
 inline constexpr char GLTF_AREA[] = "EXT_lights_area";
 inline constexpr char GLTF_TRANSMISSION[] = "KHR_materials_transmission";

@@ -13,8 +13,8 @@ namespace gnomon {
 namespace {
 
 const char NEXT_STEP[] = "Correct it or export the file again.";
-const size_t MAX_MESSAGE_LENGTH = 300;
-const size_t MAX_VALUE_LENGTH = 60;
+const size_t MAX_MESSAGE_LENGTH = 300; // bytes
+const size_t MAX_VALUE_LENGTH = 60;	   // bytes
 
 /// Returns a whole number of at least 0, which may be written as "3.0"; nothing for other values.
 std::optional<uint64_t> to_integer(const Json &p_value) {
@@ -88,7 +88,7 @@ std::string describe_json(const Json &p_value) {
 		return "an object";
 	}
 	if (p_value.is_string() && p_value.get_ref<const std::string &>().size() > MAX_VALUE_LENGTH) {
-		// Truncates first: many nodes may share a long value, which is then described repeatedly.
+		// Truncates before the conversion, which is slow if many nodes share one very long text.
 		return describe_json(p_value.get_ref<const std::string &>().substr(0, MAX_VALUE_LENGTH));
 	}
 	std::string description = p_value.dump(-1, ' ', false, Json::error_handler_t::replace);

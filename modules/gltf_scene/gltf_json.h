@@ -51,12 +51,12 @@ struct GltfMessages {
 			std::string_view p_path, std::string_view p_value, std::string_view p_range) const;
 };
 
-/// Removes line breaks and other control characters, and truncates long text.
+/// Replaces line breaks and other control characters by spaces, and truncates long text.
 std::string to_one_line(std::string_view p_text);
 /// Returns a name as one line, or the fallback if it is empty.
 std::string make_name(std::string_view p_name, const std::string &p_fallback);
-/// Describes a value for a message: numbers and short strings verbatim, otherwise "an array of 3"
-/// or "an object".
+/// Describes a value for a message: "an array of 3", "an object", or its JSON text, truncated if
+/// long.
 std::string describe_json(const Json &p_value);
 
 /// Parses a file's JSON. Throws an Error if the text is not a JSON object or exceeds the limits
@@ -64,7 +64,8 @@ std::string describe_json(const Json &p_value);
 Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages);
 
 /// Refers to a JSON object of a document, and knows its JSON path. Every access is checked. "Fails"
-/// below means: throws an Error with file, path, value and range.
+/// below means: throws an Error with file, path, value and range; "reported": logged as an error,
+/// after which loading continues.
 class GltfObject {
 public:
 	/// Both the JSON and the messages must outlive this object.
@@ -78,7 +79,7 @@ public:
 	/// Returns the path of a member, such as "nodes[3].mesh".
 	std::string get_member_path(std::string_view p_key) const;
 
-	/// Sets or removes a member of the JSON object.
+	/// Sets or removes a member of the JSON object to which this refers.
 	void set(std::string_view p_key, Json p_value) const {
 		(*json)[std::string(p_key)] = std::move(p_value);
 	}
@@ -97,7 +98,7 @@ public:
 	/// Returns an array's element; fails unless it is an object. p_index is below get_count.
 	GltfObject get_element(std::string_view p_key, size_t p_index) const;
 
-	/// Returns a whole number of at least 0; nothing if absent or of another type.
+	/// Returns a whole number of at least 0; nothing if absent or any other value.
 	std::optional<uint64_t> find_whole_number(std::string_view p_key) const;
 	/// Returns a whole number in p_minimum..p_maximum; fails on any other value. If it is absent,
 	/// find_ returns nothing and require_ fails.
@@ -121,8 +122,8 @@ public:
 	/// returned.
 	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
 			std::string_view p_unit = "") const;
-	/// Reads the first three of 3 or 4 numbers, in 0..p_maximum. Any other value is reported; then,
-	/// or if absent, r_color is unchanged and the result is false.
+	/// Reads the first three of 3 or 4 numbers, in 0..p_maximum. Any other value is reported. If it
+	/// is absent or reported, leaves r_color unchanged and returns false.
 	bool read_color(std::string_view p_key, double p_maximum, std::span<float, 3> r_color) const;
 	/// Reads true, false, 1 or 0 (Blender writes flags as numbers); any other value is reported and
 	/// the default returned.

@@ -9,8 +9,9 @@ namespace {
 
 const char NEXT_STEP[] = "Correct it or export the file again.";
 
-/// Throws an Error if the parsed text would have too many levels, keys or values. Only brackets and
-/// commas outside of quotes are counted, so the text need not be valid JSON.
+/// Throws an Error if the parsed text would have too many levels, keys or values, before parsing
+/// uses memory for them. Only brackets and commas outside of quotes are counted, so the text need
+/// not be valid JSON.
 void check_json_limits(std::string_view p_text, const GltfMessages &p_messages) {
 	std::vector<uint64_t> comma_counts; // of the arrays and objects not closed yet
 	std::vector<char> brackets;

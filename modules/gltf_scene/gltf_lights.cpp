@@ -77,7 +77,7 @@ void read_property(const GltfObject &p_extras, std::string_view p_key, const Pro
 	r_properties[p_info.name] = convert_property(p_info, *value);
 }
 
-/// Reads a property from the first object that has it, under its own name or an alias.
+/// Reads a property of Light3D from the first object that has it, under its own name or an alias.
 void read_declared_property(const PropertyInfo &p_info, const std::vector<GltfObject> &p_extras,
 		PropertyValues &r_properties) {
 	for (const GltfObject &extras : p_extras) {
@@ -94,6 +94,7 @@ void read_declared_property(const PropertyInfo &p_info, const std::vector<GltfOb
 	}
 }
 
+/// Returns whether a key of the extras has another meaning than a property of a technique.
 bool is_reserved(std::string_view p_key) {
 	if (Light3D::get_property_list().find(p_key)) {
 		return true;
@@ -141,7 +142,8 @@ bool read_area_size(const GltfObject &p_area, PropertyValues &r_properties) {
 	// Absent: the extension's default, 1 m. Not a number: NAN, which check_property refuses.
 	const double diameter_m = !size ? 1.0 : size->is_number() ? size->get<double>() : NAN;
 	if (!check_property(info, diameter_m / 2).empty()) {
-		p_area.report_value("size", "twice " + describe_range(info), "the default of light_size");
+		p_area.report_value("size", "a diameter whose half is in " + describe_range(info),
+				"the default of light_size");
 		return true;
 	}
 	r_properties["light_size"] = diameter_m / 2;
@@ -164,6 +166,7 @@ void check_finite(const Light3D &p_light, const char *p_quantity, double p_value
 }
 
 void check_light(const Light3D &p_light) {
+	// A sum is finite only if all its terms are.
 	check_finite(p_light, "color", p_light.color.x + p_light.color.y + p_light.color.z);
 	check_finite(p_light, "intensity", p_light.intensity);
 	check_finite(p_light, "range", p_light.range_m);
@@ -191,6 +194,7 @@ void write_punctual(
 		r_light.intensity = to_shortest_decimal(p_light.intensity);
 	}
 	if (!p_before || p_light.range_m != p_before->range_m) {
+		// 0: unlimited; tinygltf then writes no range.
 		r_light.range = p_light.range_m > 0 ? to_shortest_decimal(p_light.range_m) : 0.0;
 	}
 	const bool has_same_cones = p_before && p_light.type == p_before->type &&

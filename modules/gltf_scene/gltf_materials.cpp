@@ -82,7 +82,8 @@ float derive_scatter_distance(const Material &p_material) {
 }
 
 void read_extras(const GltfObject &p_extras, Material &r_material) {
-	r_material.scatter = static_cast<float>(p_extras.read_number("scatter", 0, 0, 1));
+	r_material.scatter = static_cast<float>(
+			p_extras.read_number("scatter", /*p_default=*/0, /*p_minimum=*/0, /*p_maximum=*/1));
 	r_material.scatter_distance_m = static_cast<float>(p_extras.read_number(
 			"scatter_distance", derive_scatter_distance(r_material), 0, MAX_LENGTH_M, "m"));
 	if (p_extras.find("shading_model")) {
@@ -104,13 +105,13 @@ void write_number(float p_value, float p_before, const char *p_key, Value::Objec
 	}
 }
 
-void write_surface(const Material &p_material, const Material &p_before, bool p_is_new,
 const char *get_alpha_mode_name(AlphaMode p_mode) {
 	return p_mode == AlphaMode::MASK ? "MASK" : p_mode == AlphaMode::BLEND ? "BLEND" : "OPAQUE";
 }
 
 /// Writes what differs from p_before. A new material always states its base colour, metallic and
 /// roughness, because glTF's defaults (white and metallic) differ from those of Material.
+void write_surface(const Material &p_material, const Material &p_before, bool p_is_new,
 		tinygltf::Model &r_model, tinygltf::Material &r_target) {
 	tinygltf::PbrMetallicRoughness &surface = r_target.pbrMetallicRoughness;
 	if (p_is_new || p_material.base_color != p_before.base_color) {
@@ -118,7 +119,6 @@ const char *get_alpha_mode_name(AlphaMode p_mode) {
 		surface.baseColorFactor = to_numbers(p_material.base_color);
 		surface.baseColorFactor.push_back(alpha);
 	}
-	if (p_is_new || p_material.metallic != p_before.metallic) {
 	if (p_material.alpha != p_before.alpha) {
 		surface.baseColorFactor[3] = to_shortest_decimal(p_material.alpha);
 	}
@@ -129,6 +129,7 @@ const char *get_alpha_mode_name(AlphaMode p_mode) {
 			p_material.alpha_cutoff != p_before.alpha_cutoff) {
 		r_target.alphaCutoff = to_shortest_decimal(p_material.alpha_cutoff);
 	}
+	if (p_is_new || p_material.metallic != p_before.metallic) {
 		surface.metallicFactor = to_shortest_decimal(p_material.metallic);
 	}
 	if (p_is_new || p_material.roughness != p_before.roughness) {
@@ -189,8 +190,8 @@ Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextu
 	read_transmission(source, material);
 	if (material.alpha_mode == AlphaMode::BLEND && material.is_cut_out()) {
 		r_messages.warn("blend", path,
-				"has alphaMode BLEND: it is drawn and casts like MASK, where alpha is at least "
-				"0.5. Light goes through with KHR_materials_transmission.");
+				"has alphaMode BLEND: it is drawn and casts shadows like MASK, where alpha is at "
+				"least 0.5. Use KHR_materials_transmission to let light through.");
 	}
 	if (material.is_cut_out() && material.alpha < material.alpha_cutoff) {
 		r_messages.warn("invisible", path,
@@ -212,10 +213,10 @@ void write_material(const Material &p_material, const Material *p_before, tinygl
 	if (!p_before && !p_material.name.empty()) {
 		r_target.name = p_material.name;
 	}
-	write_surface(p_material, before, p_before == nullptr, r_model, r_target);
+	write_surface(p_material, before, /*p_is_new=*/p_before == nullptr, r_model, r_target);
 	write_transmission(p_material, before, r_model, r_target);
 	// Without scatter_distance in the file, loading derives it from the attenuation distance, which
-	// may have changed. It is stored if that would give another value.
+	// may have changed. It is written if the derived value would differ.
 	const bool has_distance = r_target.extras.Has("scatter_distance");
 	const bool must_write_distance = has_distance
 			? p_material.scatter_distance_m != before.scatter_distance_m

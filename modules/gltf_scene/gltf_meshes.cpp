@@ -38,8 +38,9 @@ std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, int p_mode
 const size_t TABLE_VERTICES_PER_INDEX = 16;
 
 /// Returns the vertices that triangles use, in order, and renumbers the triangles' indices to
-/// match. The cost depends on the indices alone, because many primitives may share a large array.
-/// Not called for a primitive with at least as many indices as vertices, see load_primitive.
+/// match. The number of indices bounds the cost, because many primitives may share a large array of
+/// vertices. Not called for a primitive with at least as many indices as vertices, see
+/// load_primitive.
 std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint32_t> &r_indices) {
 	std::vector<uint32_t> used;
 	if (r_indices.size() * TABLE_VERTICES_PER_INDEX < p_vertex_count) {
@@ -55,7 +56,7 @@ std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint
 	const uint32_t UNUSED = UINT32_MAX;
 	std::vector<uint32_t> new_index(p_vertex_count, UNUSED);
 	for (const uint32_t index : r_indices) {
-		new_index[index] = 0;
+		new_index[index] = 0; // used; numbered below
 	}
 	for (uint32_t old = 0; old < new_index.size(); ++old) {
 		if (new_index[old] != UNUSED) {
@@ -181,8 +182,8 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 	std::vector<glm::vec3> positions;
 	std::vector<glm::vec3> normals;
 	if (indices.size() >= all_positions->size()) {
-		// Without a search for unused vertices: the mesh may contain some, and they count for its
-		// bounds, which enclose all vertices.
+		// Unused vertices are not searched for: the mesh may contain some, and its bounds enclose
+		// them too.
 		positions = *all_positions;
 		normals = all_normals ? *all_normals : normals;
 	} else {
@@ -214,12 +215,12 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 
 void GltfMeshes::check_target_limit(const MeshRig &p_rig, const std::string &p_path) {
 	for (const MorphTarget &target : p_rig.targets) {
-		target_value_count +=
+		target_vector_count +=
 				target.positions.size() + target.normals.size() + target.tangents.size();
 	}
-	if (target_value_count > GLTF_MAX_VERTEX_COUNT) {
+	if (target_vector_count > GLTF_MAX_VERTEX_COUNT) {
 		messages.fail(p_path + ".targets",
-				text("make ", target_value_count, " vectors in all meshes, must be at most ",
+				text("make ", target_vector_count, " vectors in all meshes, must be at most ",
 						GLTF_MAX_VERTEX_COUNT, ". Split the scene."));
 	}
 }

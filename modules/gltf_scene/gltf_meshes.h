@@ -14,7 +14,7 @@
 namespace gnomon {
 
 /// Reads meshes and their materials, each once. Strips and fans are converted to triangles. Points
-/// and lines cast no shadow here and are skipped with one warning.
+/// and lines are not drawn: they are skipped with one warning.
 class GltfMeshes {
 public:
 	/// The arguments must outlive this object.
@@ -34,17 +34,18 @@ public:
 	}
 
 private:
-	/// p_path: JSON path of the primitive.
+	/// Returns null if the primitive has no triangles. p_path: its JSON path.
 	std::shared_ptr<const Mesh> load_primitive(const tinygltf::Primitive &p_primitive,
 			const std::string &p_path, const Material &p_material, std::string p_name,
 			bool p_has_skin);
 	/// Throws an Error if a position is not finite. Each accessor is checked only once.
 	void check_finite(size_t p_accessor_index, const std::vector<glm::vec3> &p_positions,
 			const std::string &p_path, const std::string &p_name);
-	/// Reads the vertex attributes that the material uses. p_count: number of vertices.
+	/// Reads the vertex colours, and the texture coordinates and tangents that the material uses.
+	/// Values that are not finite become 0. p_count: number of vertices.
 	MeshAttributes read_attributes(const tinygltf::Primitive &p_primitive,
 			const std::string &p_path, const Material &p_material, size_t p_count);
-	/// Adds the size of the rig's morph targets to target_value_count. Throws an Error if that
+	/// Adds the size of the rig's morph targets to target_vector_count. Throws an Error if that
 	/// exceeds GLTF_MAX_VERTEX_COUNT.
 	void check_target_limit(const MeshRig &p_rig, const std::string &p_path);
 	std::shared_ptr<const Material> load_material(const tinygltf::Primitive &p_primitive);
@@ -60,8 +61,8 @@ private:
 	std::set<size_t> finite_accessors; // accessors whose positions have been checked
 	uint64_t vertex_count = 0;		   // of all meshes so far
 	uint64_t index_count = 0;		   // of all meshes so far
-	uint64_t target_value_count = 0;   // vectors in the morph targets of all meshes so far
-	std::set<int> skinned_meshes;	   // meshes of nodes that have a skin
+	uint64_t target_vector_count = 0;  // in the morph targets of all meshes so far
+	std::set<int> skinned_meshes;	   // indices of the meshes of nodes that have a skin
 };
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-// Writes what is attached to a node: its mesh, light and camera.
+// The part of GltfNodeWriter that writes what is attached to a node: its mesh, light and camera.
 #include "modules/core/error.h"
 #include "modules/gltf_scene/gltf_lights.h"
 #include "modules/gltf_scene/gltf_node_writer.h"
@@ -126,16 +126,15 @@ tinygltf::Value *GltfNodeWriter::copy_area_light(tinygltf::Node &r_node) {
 	if (reference == r_node.extensions.end()) {
 		return nullptr;
 	}
-	auto &lights_before =
+	auto &area_lights =
 			require_object(model.extensions.at(GLTF_AREA))["lights"].Get<Value::Array>();
-	Value copy =
-			lights_before[static_cast<size_t>(reference->second.Get("light").GetNumberAsInt())];
+	Value copy = area_lights[static_cast<size_t>(reference->second.Get("light").GetNumberAsInt())];
 	if (!copy.Has("type") || !copy.Get("type").IsString() ||
 			copy.Get("type").Get<std::string>() != "disk") {
 		return nullptr;
 	}
-	require_object(reference->second)["light"] = Value(static_cast<int>(lights_before.size()));
-	return &lights_before.emplace_back(std::move(copy));
+	require_object(reference->second)["light"] = Value(static_cast<int>(area_lights.size()));
+	return &area_lights.emplace_back(std::move(copy));
 }
 
 void GltfNodeWriter::write_node_light(const Entry &p_entry, const Light3D &p_light) {
@@ -145,7 +144,7 @@ void GltfNodeWriter::write_node_light(const Entry &p_entry, const Light3D &p_lig
 	tinygltf::Node &target = get_node(p_entry);
 	tinygltf::Light definition;
 	std::optional<size_t> old_index;
-	std::vector<tinygltf::Node *> owners;
+	std::vector<tinygltf::Node *> owners; // nodes whose extras may hold the light's properties
 	tinygltf::Value *area = nullptr;
 	if (before) {
 		old_index = static_cast<size_t>(
@@ -174,7 +173,6 @@ void GltfNodeWriter::write_node_light(const Entry &p_entry, const Light3D &p_lig
 void GltfNodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera) {
 	camera_nodes.insert(p_entry.index);
 	const bool had_camera = !p_entry.is_new && document->cameras.contains(p_entry.index);
-	const std::pair<float, float> values = { p_camera.vertical_fov_rad, p_camera.near_m };
 	tinygltf::Camera definition;
 	definition.type = "perspective";
 	std::optional<size_t> old_index;
@@ -182,11 +180,12 @@ void GltfNodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera
 		old_index = static_cast<size_t>(get_node(p_entry).camera);
 		definition = document->model.cameras[*old_index];
 	}
-	if (!had_camera || document->cameras.at(p_entry.index).first != values.first) {
-		definition.perspective.yfov = to_shortest_decimal(values.first);
+	// document->cameras: pairs of field of view and near plane.
+	if (!had_camera || document->cameras.at(p_entry.index).first != p_camera.vertical_fov_rad) {
+		definition.perspective.yfov = to_shortest_decimal(p_camera.vertical_fov_rad);
 	}
-	if (!had_camera || document->cameras.at(p_entry.index).second != values.second) {
-		definition.perspective.znear = to_shortest_decimal(values.second);
+	if (!had_camera || document->cameras.at(p_entry.index).second != p_camera.near_m) {
+		definition.perspective.znear = to_shortest_decimal(p_camera.near_m);
 	}
 	const size_t index = store_definition(model.cameras, cameras, old_index, std::move(definition));
 	get_node(p_entry).camera = static_cast<int>(index);

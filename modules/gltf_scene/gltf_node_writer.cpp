@@ -13,7 +13,8 @@ namespace gnomon {
 
 namespace {
 
-/// Returns whether a node is saved: all nodes are, except staged ones without saved descendants.
+/// Returns whether a node is saved: all nodes are, except staged ones (Node3D::is_staged) without
+/// saved descendants.
 bool is_saved(const Node3D &p_node) {
 	return !p_node.is_staged ||
 			std::any_of(p_node.children.begin(), p_node.children.end(),
@@ -114,8 +115,9 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 	}
 }
 
-/// Writes a changed name. A light that has a parent in blender_owners, which find_blender_owner
-/// recognizes by the names, always gets the parent's name with the suffix BLENDER_ORIENTATION.
+/// Writes a changed name. The node of a light from an older Blender exporter (blender_owners)
+/// always gets its parent's name with the suffix BLENDER_ORIENTATION, by which find_blender_owner
+/// recognizes it.
 void GltfNodeWriter::write_name(
 		const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const {
 	if (p_entry.node->name != p_before) {

@@ -36,7 +36,7 @@ private:
 		bool is_attachment = false;
 		std::vector<size_t> children;
 	};
-	/// The existing light or camera definitions written so far, by index in the file.
+	/// What was written over existing light or camera definitions so far, by index in the file.
 	template <typename T> using DefinitionMap = std::map<size_t, T>;
 
 	/// Returns the entry's node in the document.
@@ -64,6 +64,7 @@ private:
 	const GltfDocument *document;
 	tinygltf::Model &model;
 	GltfMeshWriter &meshes;
+	/// Indices of the file's meshes, by their surfaces.
 	std::map<GltfDocument::SurfaceKey, size_t> mesh_indices;
 	std::vector<std::unique_ptr<Entry>> entries; // parents before their children
 	std::set<size_t> used_nodes;				 // indices of the file's nodes that the scene uses

@@ -35,14 +35,15 @@ private:
 	std::unordered_map<std::string, unsigned> counts;
 };
 
+/// Builds the scene from a parsed document, and records in the document what saving needs.
 class GltfReader {
 public:
 	GltfReader(
 			GltfDocument &r_document, GltfMessages &r_messages, const GltfLoadOptions &p_options) :
 			document(r_document),
 			model(r_document.model), options(p_options), messages(r_messages),
-			buffers(GltfObject(r_document.container.json, "", r_messages), r_document.location,
-					get_bin_chunk()),
+			buffers(GltfObject(r_document.container.json, /*p_path=*/"", r_messages),
+					r_document.location, get_bin_chunk()),
 			accessors(model, buffers, messages), textures(buffers.get_root(), model, buffers),
 			meshes(model, accessors, textures, messages) {}
 
@@ -106,6 +107,8 @@ void GltfReader::read(Scene &r_scene) {
 	r_scene.side_files = buffers.get_files();
 }
 
+/// Chooses the default scene, else the first. Reads its size, and returns its root nodes. A file
+/// without scenes has all nodes without a parent as roots.
 std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_scene) {
 	if (model.scenes.empty()) {
 		return p_tree.roots;
@@ -132,13 +135,16 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 		const size_t index = static_cast<size_t>(scene.nodes[i]);
 		if (p_tree.parents[index] != GltfTree::NONE || !seen.insert(index).second) {
 			messages.fail(text(path, ".nodes[", i, "]"),
-					text("is ", index, ", which already has another parent. Export it again."));
+					text("is ", index,
+							", must be a node without a parent that is listed once. Export the "
+							"file again."));
 		}
 		roots.push_back(index);
 	}
 	return roots;
 }
 
+/// Adds a node of the file to r_parent, without the node's children, and returns it.
 Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_parent) {
 	const tinygltf::Node &node = model.nodes[p_index];
 	// A node of the file may have a mesh, a light and a camera at once. The first of them becomes
@@ -253,6 +259,8 @@ std::optional<GltfObject> GltfReader::find_area_light(const tinygltf::Node &p_no
 			text("extensions.", GLTF_AREA, ".lights[", index, "]"), messages);
 }
 
+/// Returns null if the node has no light that can be read. r_name: receives the name of the light's
+/// definition. read_camera_node does the same for a camera.
 std::unique_ptr<Light3D> GltfReader::read_light_node(
 		size_t p_index, const GltfTree &p_tree, std::string &r_name) {
 	const tinygltf::Node &node = model.nodes[p_index];
@@ -276,7 +284,7 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 	if (!read_light(model, sources, options, messages, *light)) {
 		return nullptr;
 	}
-	for (const auto &[name, value] : light->properties) {
+	for (const auto &[name, value] : light->properties) { // see GLTF_MAX_LIGHT_VALUE_COUNT
 		const std::string *string_value = std::get_if<std::string>(&value);
 		light_value_count += 1 + (name.size() + (string_value ? string_value->size() : 0)) / 64;
 	}
@@ -315,7 +323,7 @@ void GltfReader::record_node_state(size_t p_index, const Node3D &p_node) {
 		state.is_planar_receiver = instance->is_planar_receiver;
 		document.node_surfaces[p_index] = GltfDocument::make_key(instance->surfaces);
 	} else if (const auto *light = dynamic_cast<const Light3D *>(&p_node)) {
-		document.lights.emplace(p_index, *light);
+		document.lights.emplace(p_index, *light); // only its LightSettings
 	} else if (const auto *camera = dynamic_cast<const Camera3D *>(&p_node)) {
 		document.cameras[p_index] = { camera->vertical_fov_rad, camera->near_m };
 	}

@@ -10,7 +10,8 @@ namespace gnomon {
 
 namespace {
 
-const int MAX_JOINT_SETS = 2; // a set has four joints per vertex
+const int JOINTS_PER_SET = 4; // JOINTS_n and WEIGHTS_n are VEC4
+const int MAX_JOINT_SETS = 2;
 const char NEXT_STEP[] = "Export the file again.";
 
 void check_count(const GltfMessages &p_messages, const std::string &p_path, size_t p_count,
@@ -43,8 +44,10 @@ void read_joints(const tinygltf::Primitive &p_primitive, const std::string &p_pa
 		if (joint == attributes.end() || weight == attributes.end()) {
 			break;
 		}
-		joints.push_back(p_accessors.read_attribute(static_cast<size_t>(joint->second), 4, 4));
-		weights.push_back(p_accessors.read_attribute(static_cast<size_t>(weight->second), 4, 4));
+		joints.push_back(p_accessors.read_attribute(
+				static_cast<size_t>(joint->second), JOINTS_PER_SET, JOINTS_PER_SET));
+		weights.push_back(p_accessors.read_attribute(
+				static_cast<size_t>(weight->second), JOINTS_PER_SET, JOINTS_PER_SET));
 		check_count(r_messages, text(p_path, ".attributes.JOINTS_", set), joints.back().size(),
 				p_vertex_count);
 		check_count(r_messages, text(p_path, ".attributes.WEIGHTS_", set), weights.back().size(),
@@ -55,10 +58,10 @@ void read_joints(const tinygltf::Primitive &p_primitive, const std::string &p_pa
 				"has more than 8 joints a vertex; the first 8 are used. Limit them in the "
 				"exporter.");
 	}
-	r_rig.influence_count = static_cast<uint32_t>(4 * joints.size());
+	r_rig.influence_count = static_cast<uint32_t>(JOINTS_PER_SET * joints.size());
 	for (size_t vertex = 0; !joints.empty() && vertex < p_vertex_count; ++vertex) {
 		for (size_t set = 0; set < joints.size(); ++set) {
-			for (int i = 0; i < 4; ++i) {
+			for (int i = 0; i < JOINTS_PER_SET; ++i) {
 				r_rig.joints.push_back(to_joint(joints[set][vertex][i], r_messages,
 						text(p_path, ".attributes.JOINTS_", set)));
 				r_rig.weights.push_back(weights[set][vertex][i]);
@@ -172,6 +175,7 @@ std::shared_ptr<const Skin> read_skin(const tinygltf::Model &p_model, size_t p_i
 				p_messages.fail(text(path, ".inverseBindMatrices[", i / 16, "]"),
 						text("is not finite. Correct it or export the file again."));
 			}
+			// The last row is taken as 0, 0, 0, 1, which glTF requires.
 			const int element = static_cast<int>(i % 16);
 			const bool is_last_row = element % 4 == 3;
 			skin->joint_from_mesh[i / 16][element / 4][element % 4] =

@@ -18,8 +18,8 @@ MeshRig read_rig(const tinygltf::Primitive &p_primitive, const std::string &p_pa
 /// Extracts the rig of a subset of the vertices.
 MeshRig gather_rig(const MeshRig &p_rig, const std::vector<uint32_t> &p_vertices);
 
-/// Reads a skin. Without inverse bind matrices they are the identity. Throws an Error if there are
-/// too few of them or if one is not finite.
+/// Reads a skin. If it has no inverse bind matrices, all are the identity. Throws an Error if there
+/// are fewer than joints or if one is not finite.
 std::shared_ptr<const Skin> read_skin(const tinygltf::Model &p_model, size_t p_index,
 		const GltfTree &p_tree, GltfAccessors &p_accessors, const GltfMessages &p_messages);
 

@@ -13,7 +13,7 @@
 namespace gnomon {
 
 struct GltfLoadOptions {
-	/// Files outside this folder are rejected, also if a URI or a symbolic link leads to them.
+	/// Files outside this folder are rejected, even if a URI or a symbolic link leads to them.
 	/// Empty: the scene's folder.
 	std::filesystem::path project_folder;
 	/// Finds a technique's property by its full name ("<id>_<name>"), or returns null. Properties
@@ -36,9 +36,9 @@ std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 
 /// Writes the scene, in binary form if the name ends in .glb and as text if it ends in .gltf. If
 /// the scene was loaded from a file, only changes are rewritten, and data unknown to the program is
-/// preserved, except extra chunks of a .glb in a .gltf. The file is replaced atomically, after the
-/// files that it references. Throws an Error if a value is not finite or if a file cannot be
-/// written.
+/// preserved, except chunks of a .glb other than JSON and BIN, which a .gltf cannot hold. The file
+/// is replaced atomically, after the files that it references. Throws an Error if a value is not
+/// finite or if a file cannot be written.
 ///
 /// If the scene is saved in another folder, the buffer and image files are copied next to the new
 /// file. A copy gets a number if its name belongs to a file with other content. Meshes that were

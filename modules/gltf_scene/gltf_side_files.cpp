@@ -47,7 +47,7 @@ bool GltfSideFiles::is_name_taken(
 	}
 	std::error_code code;
 	const fs::path path = folder / p_name;
-	if (!fs::exists(fs::symlink_status(path, code))) {
+	if (!fs::exists(fs::symlink_status(path, code))) { // a broken symbolic link exists too
 		return false;
 	}
 	return fs::file_size(path, code) != p_bytes.size() || code ||
@@ -88,7 +88,7 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 		const GltfObject buffer = root.get_element("buffers", index);
 		Json &json = r_container.json["buffers"][index];
 		if (index == 0 && p_format == GltfFormat::BINARY && !bin_chunk && buffer.find("uri")) {
-			GltfBuffers buffers(root, p_document.location, nullptr);
+			GltfBuffers buffers(root, p_document.location, /*p_bin_chunk=*/nullptr);
 			const auto bytes = buffers.load_buffer(index);
 			r_container.bin_chunk.emplace(bytes.begin(), bytes.end());
 			json.erase("uri");
@@ -96,7 +96,7 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 			const std::string name = p_target.stem().string() + ".bin";
 			json["uri"] = encode_uri(r_files.add(name, *bin_chunk));
 		} else if (is_moved) {
-			copy_uri_file(buffer, p_document.location, true, json, r_files);
+			copy_uri_file(buffer, p_document.location, /*p_is_required=*/true, json, r_files);
 		}
 	}
 	if (p_format == GltfFormat::TEXT) {
@@ -105,8 +105,8 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 	}
 	const size_t image_count = is_moved ? root.get_count("images") : 0;
 	for (size_t index = 0; index < image_count; ++index) {
-		copy_uri_file(root.get_element("images", index), p_document.location, false,
-				r_container.json["images"][index], r_files);
+		copy_uri_file(root.get_element("images", index), p_document.location,
+				/*p_is_required=*/false, r_container.json["images"][index], r_files);
 	}
 }
 

@@ -38,19 +38,21 @@ tinygltf::Model make_empty_model() {
 /// Where the bytes of new meshes are stored: after the existing bytes of the BIN chunk, or in a new
 /// buffer.
 struct NewBuffer {
-	size_t index = 0;
-	size_t first_byte = 0;	  // offset in the buffer
-	bool is_in_chunk = false; // the BIN chunk
+	size_t index = 0;		  // of the buffer
+	size_t first_byte = 0;	  // offset in the buffer, a multiple of 4
+	bool is_in_chunk = false; // whether the buffer is the BIN chunk
 };
 
 NewBuffer choose_buffer(const GltfContainer &p_container, GltfFormat p_format) {
 	const auto buffers = p_container.json.find("buffers");
 	const size_t count = buffers == p_container.json.end() ? 0 : buffers->size();
-	NewBuffer chosen{ count, 0, false };
+	NewBuffer chosen{ .index = count, .first_byte = 0, .is_in_chunk = false };
 	if (p_format == GltfFormat::BINARY && p_container.bin_chunk && count > 0) {
-		chosen = { 0, (p_container.bin_chunk->size() + 3) / 4 * 4, true };
+		chosen = { .index = 0,
+			.first_byte = (p_container.bin_chunk->size() + 3) / 4 * 4,
+			.is_in_chunk = true };
 	} else if (p_format == GltfFormat::BINARY && count == 0) {
-		chosen = { 0, 0, true };
+		chosen = { .index = 0, .first_byte = 0, .is_in_chunk = true };
 	}
 	return chosen;
 }
@@ -58,7 +60,7 @@ NewBuffer choose_buffer(const GltfContainer &p_container, GltfFormat p_format) {
 /// Returns the buffer file that an earlier save of a generated scene wrote next to p_path; an empty
 /// path if there is none.
 fs::path find_previous_buffer(const fs::path &p_path) {
-	const size_t MAX_NAME_COUNT = 100;
+	const size_t MAX_NAME_COUNT = 100; // a buffer file with a higher number is left in the folder
 	std::error_code code;
 	if (!fs::is_regular_file(p_path, code)) {
 		return {};
@@ -84,6 +86,7 @@ fs::path find_previous_buffer(const fs::path &p_path) {
 	return {};
 }
 
+/// Stores the bytes of new meshes in p_buffer: in the BIN chunk, or in a file added to r_files.
 void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 		const fs::path &p_path, GltfContainer &r_container, GltfSideFiles &r_files) {
 	if (p_bytes.empty()) {
@@ -102,8 +105,8 @@ void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 		chunk.insert(chunk.end(), p_bytes.begin(), p_bytes.end());
 		return;
 	}
-	// The name differs from that of the old buffer, which the old scene file needs until it is
-	// replaced.
+	// If the bytes differ, so does the name from that of the old buffer, which the old scene file
+	// needs until it is replaced.
 	buffer["uri"] = encode_uri(r_files.add(p_path.stem().string() + ".bin", p_bytes));
 }
 
@@ -120,16 +123,16 @@ std::set<const Material *> find_materials(const Scene &p_scene) {
 } // namespace
 
 void save_gltf(const Scene &p_scene, const fs::path &p_path) {
-	const GltfFormat form = choose_format(p_path);
+	const GltfFormat format = choose_format(p_path);
 	const auto *document = dynamic_cast<const GltfDocument *>(p_scene.document.get());
 	const GltfMessages messages{ p_path.string(), {} };
 	GltfSideFiles files(fs::absolute(p_path).parent_path());
 	GltfContainer container;
 	if (document) {
 		container = document->container;
-		relocate_container(*document, p_path, form, container, files);
+		relocate_container(*document, p_path, format, container, files);
 	}
-	const NewBuffer buffer = choose_buffer(container, form);
+	const NewBuffer buffer = choose_buffer(container, format);
 	tinygltf::Model model = document ? document->model : make_empty_model();
 	GltfMeshWriter meshes(
 			model, buffer.index, buffer.first_byte, document, find_materials(p_scene));
@@ -137,16 +140,16 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 	container.json = write_gltf_model(
 			model, document ? &container.json : nullptr, document ? &document->model : nullptr);
 	store_bytes(buffer, meshes.get_bytes(), p_path, container, files);
-	const fs::path before = document ? fs::path() : find_previous_buffer(p_path);
+	const fs::path old_buffer = document ? fs::path() : find_previous_buffer(p_path);
 	files.save();
-	if (form == GltfFormat::BINARY) {
+	if (format == GltfFormat::BINARY) {
 		save_file_atomically(p_path, build_glb(container, messages));
 	} else {
 		save_file_atomically(p_path, build_gltf_text(container.json));
 	}
-	if (!before.empty() && !files.contains(before.filename().string())) {
+	if (!old_buffer.empty() && !files.contains(old_buffer.filename().string())) {
 		std::error_code code;
-		fs::remove(before, code); // no longer needed
+		fs::remove(old_buffer, code); // no longer needed
 	}
 }
 

@@ -73,7 +73,9 @@ struct PngReader {
 		}
 		// check_size checks the size later, with a message that gives the limits.
 		png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-		png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, ANIMATION_CHUNK, 1);
+		// libpng does not know the chunk and would drop it; is_animated looks for it.
+		png_set_keep_unknown_chunks(
+				png, PNG_HANDLE_CHUNK_ALWAYS, ANIMATION_CHUNK, /*num_chunks=*/1);
 		png_read_info(png, info);
 		return true;
 	}
@@ -163,8 +165,9 @@ std::shared_ptr<const Image> decode_jpeg(
 	check_size(uint64_t(width_px), uint64_t(height_px));
 	const glm::uvec2 size_px(width_px, height_px);
 	std::vector<uint8_t> texels(size_t(size_px.x) * size_px.y * 4);
-	if (tjDecompress2(decoder.handle, p_bytes.data(), p_bytes.size(), texels.data(), width_px, 0,
-				height_px, TJPF_RGBA, TJFLAG_LIMITSCANS) != 0) {
+	// TJFLAG_LIMITSCANS rejects progressive files with very many scans, which would be slow.
+	if (tjDecompress2(decoder.handle, p_bytes.data(), p_bytes.size(), texels.data(), width_px,
+				/*pitch=*/0, height_px, TJPF_RGBA, TJFLAG_LIMITSCANS) != 0) {
 		if (tjGetErrorCode(decoder.handle) != TJERR_WARNING) {
 			reject();
 		}

@@ -22,9 +22,11 @@ void log_to_godot(LogLevel p_level, const std::string &p_line) {
 	const std::string line = "Gnomon: " + p_line;
 	const godot::Interface &interface = godot::get_interface();
 	if (p_level == LogLevel::ERROR) {
-		interface.print_error(line.c_str(), "", "gnomon", 0, false);
+		interface.print_error(line.c_str(), /*p_function=*/"", /*p_file=*/"gnomon", /*p_line=*/0,
+				/*p_editor_notify=*/false);
 	} else if (p_level == LogLevel::WARNING) {
-		interface.print_warning(line.c_str(), "", "gnomon", 0, false);
+		interface.print_warning(line.c_str(), /*p_function=*/"", /*p_file=*/"gnomon", /*p_line=*/0,
+				/*p_editor_notify=*/false);
 	}
 }
 

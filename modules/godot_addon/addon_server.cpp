@@ -45,7 +45,7 @@ AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
 			log_error(describe_failure(failure));
 		}
 	});
-	server.connect(FRAME_SIGNAL, on_frame, 0);
+	server.connect(FRAME_SIGNAL, on_frame, /*flags=*/0);
 	is_connected = true;
 }
 

@@ -10,7 +10,7 @@ namespace gnomon {
 struct AddonSettings {
 	bool is_enabled = true;			 // false: all lights have Godot's shadows
 	size_t most_lights = 16;		 // max. lights with masks in each world
-	std::string default_technique;	 // for nodes that are set to DEFAULT_TECHNIQUE
+	std::string default_technique;	 // for nodes whose technique is "default"
 	float mask_resolution_scale = 1; // mask width / view width, 0.25 to 1
 };
 AddonSettings read_addon_settings();

@@ -26,7 +26,7 @@ std::shared_ptr<const Image> decode(const godot::Texture2D &p_texture) {
 		return nullptr;
 	}
 	// Convert a copy, because some textures return their own image.
-	const godot::Ref<godot::Resource> copy = shown.duplicate(false);
+	const godot::Ref<godot::Resource> copy = shown.duplicate(/*deep=*/false);
 	const auto image = godot::cast<godot::Image>(copy);
 	const int64_t width = image.get_width();
 	const int64_t height = image.get_height();

@@ -44,6 +44,7 @@ std::shared_ptr<const Mesh> choose_detail_level(const InstanceDetail &p_detail,
 	const glm::dvec3 corner =
 			glm::mix(bounds.minimum, bounds.maximum, glm::greaterThanEqual(back, glm::dvec3(0.0)));
 	const double distance_m = glm::distance(camera, corner);
+	// Image width, in metres, at a distance of 1 m.
 	const double width_per_m = 2.0 * std::tan(0.5 * p_camera.vertical_fov_rad) * p_aspect;
 	std::shared_ptr<const Mesh> chosen;
 	for (const DetailLevel &level : *p_detail.levels) {

@@ -4,7 +4,7 @@ namespace gnomon {
 
 std::span<const float> get_directional_albedo() {
 	// Found from images of a white metal sphere (F0 = 1). Godot 4.6.3 multiplies specular light by
-	// 1 + F0 (1 / E - 1), here by 1 / E.
+	// 1 + F0 (1 / E - 1), here by 1 / E. Three lines of text are one row of the table.
 	// clang-format off
 	static const float albedo[ALBEDO_SIZE * ALBEDO_SIZE] = {
 		0.7689f, 0.6795f, 0.8238f, 0.9642f, 0.9790f, 0.9915f, 0.9945f, 0.9964f, 0.9973f, 0.9978f, 0.9982f,

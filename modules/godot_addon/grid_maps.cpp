@@ -20,9 +20,10 @@ GridMaps::GridMaps(const godot::SceneTree &p_tree) :
 				ids->insert(godot::get_instance_id(added.get_object()));
 			}
 		}) {
-	p_tree.connect(NODE_SIGNAL, on_node_added, 0);
+	p_tree.connect(NODE_SIGNAL, on_node_added, /*flags=*/0);
 	const godot::Node root(p_tree.get_root().get_object());
-	const godot::Array found = root.find_children("*", "GridMap", true, false);
+	const godot::Array found =
+			root.find_children("*", "GridMap", /*recursive=*/true, /*owned=*/false);
 	for (int64_t index = 0; index < found.get_size(); ++index) {
 		ids->insert(godot::get_instance_id(to_grid_map(found.get_value(index)).get_object()));
 	}

@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t MAX_UNUSED_FRAMES = 600;
+const uint64_t MAX_UNUSED_FRAMES = 600; // 10 s at 60 frames per second
 
 /// Returns the primitive type of a surface. ArrayMesh and PrimitiveMesh need no copy from the GPU
 /// for it.
@@ -76,7 +76,7 @@ std::shared_ptr<const DetailLevels> read_levels(
 }
 
 ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
-	ReadSurface surface = { nullptr, p_surface, nullptr };
+	ReadSurface surface = { /*mesh=*/nullptr, p_surface, /*levels=*/nullptr };
 	const int64_t primitive = find_primitive(p_mesh, p_surface);
 	const bool is_strip = primitive == godot::Mesh::PRIMITIVE_TRIANGLE_STRIP;
 	if (primitive != godot::Mesh::PRIMITIVE_TRIANGLES && !is_strip) {
@@ -132,7 +132,7 @@ const std::vector<ReadSurface> &MeshReader::read(
 	entry.surface_count = surface_count;
 	entry.surfaces.clear();
 	for (int64_t index = 0; index < surface_count; ++index) {
-		ReadSurface surface = { nullptr, index, nullptr };
+		ReadSurface surface = { /*mesh=*/nullptr, index, /*levels=*/nullptr };
 		try {
 			surface = read_surface(p_mesh, index, p_name);
 		} catch (const Error &error) {

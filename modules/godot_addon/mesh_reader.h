@@ -31,8 +31,8 @@ public:
 	/// False while the worker thread computes the surface's edges. Until then it cannot cast a
 	/// shadow.
 	bool is_ready(const ReadSurface &p_surface) { return worker.is_ready(p_surface.mesh); }
-	/// The same for p_cut, the mesh that the alpha test leaves of a surface. The first call starts
-	/// the worker.
+	/// The same for p_cut, the mesh that the alpha test leaves of a surface. The first call passes
+	/// it to the worker.
 	bool is_cut_ready(const std::shared_ptr<const Mesh> &p_cut);
 	/// Removes meshes that were freed or not read for 600 frames. Call once per frame.
 	void forget_unused();

@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t MAX_UNUSED_FRAMES = 600;
+const uint64_t MAX_UNUSED_FRAMES = 600; // 10 s at 60 frames per second
 
 std::vector<float> read_weights(const godot::MeshInstance3D &p_node) {
 	std::vector<float> weights(size_t(p_node.get_blend_shape_count()));

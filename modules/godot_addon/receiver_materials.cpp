@@ -9,7 +9,8 @@ namespace {
 
 const char VIEWER_GROUP[] = "_native_shader_source_visualizer";
 
-// Godot returns all shaders after one frame. A warning is logged after so many incomplete frames.
+// Usually Godot returns all shaders after one frame. A warning is logged after this many
+// consecutive frames without some of them.
 const int MAX_INCOMPLETE_FRAMES = 60;
 
 // Looks as Godot's surfaces without a material. The values were measured.
@@ -57,7 +58,7 @@ void ReceiverMaterials::copy_code(godot::RID p_original, Copy &r_copy) const {
 	for (int64_t index = 0; index < parameters.get_size(); ++index) {
 		const std::string name = parameters.get_value(index).get_keyed("name").to_utf8();
 		const godot::RID texture =
-				server.shader_get_default_texture_parameter(p_original, name.c_str(), 0);
+				server.shader_get_default_texture_parameter(p_original, name.c_str(), /*index=*/0);
 		if (texture.id) {
 			server.shader_set_default_texture_parameter(r_copy.shader, name.c_str(), texture, 0);
 		}
@@ -78,7 +79,7 @@ ReceiverMaterials::Copy &ReceiverMaterials::find_copy(
 		if (p_state.is_generated) {
 			// The duplicate has the same features, so it shares the generated shader and keeps it
 			// alive.
-			copy.holder = p_material.duplicate(false);
+			copy.holder = p_material.duplicate(/*deep=*/false);
 		} else {
 			const godot::Ref<godot::Shader> shader =
 					godot::cast<godot::ShaderMaterial>(p_material).get_shader();
@@ -117,6 +118,7 @@ ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const god
 		}
 	}
 	if (const godot::Ref<godot::Material> next = p_material.get_next_pass()) {
+		// One GODOT pass makes the whole material GODOT. UNLIT passes do not count.
 		const ReceiverKind of_next = use(next, p_owner);
 		kind = of_next == ReceiverKind::GODOT || kind == ReceiverKind::UNLIT ? of_next : kind;
 	}
@@ -198,7 +200,7 @@ void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneT
 		}
 	};
 	for_each_viewer([](const godot::Node &p_viewer) { p_viewer.remove_from_group(VIEWER_GROUP); });
-	p_node.add_to_group(VIEWER_GROUP, false);
+	p_node.add_to_group(VIEWER_GROUP, /*persistent=*/false);
 	for (auto &[id, state] : materials) {
 		if (state.is_used && state.is_generated) {
 			godot::Material(godot::get_instance(id)).inspect_native_shader_code();
@@ -210,8 +212,9 @@ void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneT
 		state.is_used = false;
 	}
 	p_node.remove_from_group(VIEWER_GROUP);
-	for_each_viewer(
-			[](const godot::Node &p_viewer) { p_viewer.add_to_group(VIEWER_GROUP, false); });
+	for_each_viewer([](const godot::Node &p_viewer) {
+		p_viewer.add_to_group(VIEWER_GROUP, /*persistent=*/false);
+	});
 }
 
 void ReceiverMaterials::begin_frame() {

@@ -39,10 +39,10 @@ public:
 private:
 	/// A material in use.
 	struct MaterialState {
-		godot::RID original; // its own shader; empty: not known yet
-		godot::RID applied;	 // original of the copy that is set; empty: no copy is set
-		bool is_generated = false;
-		bool is_used = false;
+		godot::RID original;	   // its own shader; empty: not known yet
+		godot::RID applied;		   // original of the copy that is set; empty: no copy is set
+		bool is_generated = false; // a BaseMaterial3D, whose shader Godot generates
+		bool is_used = false;	   // in this frame
 		bool is_warned = false;
 	};
 	/// The copy of a shader.

@@ -1,7 +1,7 @@
 """Writes the add-on's shader code as C++ strings, which are inserted into shaders at run time.
 
-Godot's RenderingServer has no preprocessor, so macros are expanded here. The code is split into declarations and functions,
-which are inserted before a shader's first function, light(), which is appended, and code for the end of fragment().
+Godot's RenderingServer has no preprocessor, so macros are expanded here. The code is split into four parts: declarations and
+functions, which are inserted before a shader's first function; light(), which is appended; and code for the end of fragment().
 """
 
 import re

@@ -17,6 +17,7 @@ const char ALBEDO_GLOBAL[] = "gnomon_albedo";
 const uint32_t MIN_LAYER_COUNT = 2; // Godot makes no arrays of one layer
 const uint32_t SIZE_STEP_PX = 64;	// no new array for each pixel of a window resize
 
+/// Returns the row that gnomon_is_masked_view() compares with the view that is drawn.
 ReceiverRow make_view_row(const GodotView &p_view) {
 	const glm::mat4 world_from_camera(p_view.camera_transform.to_matrix());
 	return { glm::vec4(glm::vec3(world_from_camera[3]), p_view.horizontal_scale),
@@ -41,7 +42,7 @@ ReceiverGlobals::ReceiverGlobals() : server(godot::find_singleton("RenderingServ
 	const godot::PackedByteArray bytes(
 			std::span(reinterpret_cast<const uint8_t *>(values.data()), values.size_bytes()));
 	const auto image = godot::Image::create_from_data(
-			ALBEDO_SIZE, ALBEDO_SIZE, false, godot::Image::FORMAT_RF, bytes);
+			ALBEDO_SIZE, ALBEDO_SIZE, /*use_mipmaps=*/false, godot::Image::FORMAT_RF, bytes);
 	albedo = server.texture_2d_create(image);
 	server.global_shader_parameter_add(
 			MASKS_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2DARRAY, {});
@@ -101,7 +102,7 @@ void ReceiverTextures::reserve(glm::uvec2 p_size_px, uint32_t p_layer_count) {
 	OwnedTexture larger(device,
 			device.create_texture({ "Gnomon's masks", Format::R16_SFLOAT, size_px, layer_count,
 					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
-					true }));
+					/*is_array=*/true }));
 	published_masks.publish(server, MASKS_GLOBAL, device.get_rid(larger.get()));
 	masks = std::move(larger);
 }
@@ -125,7 +126,7 @@ void ReceiverTextures::forget_view() {
 
 void ReceiverTextures::write(const Table &p_table) {
 	std::memcpy(device.get_mapped(rows.get()), p_table.data(), sizeof(p_table));
-	device.begin_commands().copy_buffer_to_texture(rows.get(), lights.get(), 0, 0);
+	device.begin_commands().copy_buffer_to_texture(rows.get(), lights.get());
 	device.submit_commands(RenderingDevice::SubmitMode::QUEUE);
 }
 

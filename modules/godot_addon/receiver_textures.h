@@ -9,6 +9,7 @@
 
 namespace gnomon {
 
+/// A row of the table of lights; gnomon.gdshaderinc describes its columns.
 using ReceiverRow = std::array<glm::vec4, RECEIVER_COLUMN_COUNT>;
 
 /// Owns the global shader parameters that gnomon.gdshaderinc and receiver_light.gdshaderinc
@@ -23,7 +24,7 @@ public:
 
 private:
 	godot::RenderingServer server;
-	godot::RID albedo;
+	godot::RID albedo; // texture of get_directional_albedo()
 };
 
 /// The textures of the global parameters that change with each view: its masks and its table of

@@ -1,3 +1,5 @@
+// RenderSide, which view_shadows.h declares.
+
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/godot_addon/view_shadows.h"
@@ -79,7 +81,7 @@ void RenderSide::forget_view() {
 void RenderSide::record_failure(const std::exception &p_failure) {
 	has_failed = true;
 	const std::string description = describe_failure(p_failure);
-	if (logged.insert(description).second) {
+	if (logged_failures.insert(description).second) {
 		log_error(description);
 	}
 }

@@ -59,6 +59,7 @@ godot::RID ScenarioEffect::create_effect(int64_t p_stage, int64_t p_flag,
 			godot::Callable(
 					[=, side = render_side, frames = slot](std::span<const Variant> p_arguments) {
 						const std::shared_ptr<const ScenarioFrame> frame = frames->get();
+						// Godot passes the effect's callback type and a RenderData.
 						if (frame && p_arguments.size() == 2) {
 							((*side).*p_run)(*frame, p_arguments[1]);
 						}

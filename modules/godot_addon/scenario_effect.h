@@ -27,6 +27,7 @@ public:
 private:
 	godot::RID create_effect(int64_t p_stage, int64_t p_flag,
 			void (RenderSide::*p_run)(const ScenarioFrame &, const godot::Variant &));
+	/// Called in every frame, because a change by the user replaces the compositor's effects.
 	void add_to(const godot::Compositor &p_compositor);
 
 	godot::RenderingServer server;

@@ -15,7 +15,7 @@ namespace gnomon {
 /// A row of the table of lights that materials read, see gnomon.gdshaderinc.
 struct ReceiverLight {
 	uint32_t row = 0;	// 1 to RECEIVER_ROW_COUNT - 1
-	float specular = 0; // of the stand-in; its last bits are the row
+	float specular = 0; // of the light's StandInLight; its last bits are the row
 	int32_t mask = -1;	// layer of its mask; -1: none
 	float mask_opacity = 1;
 	float size_m = 0; // 0 for directional lights

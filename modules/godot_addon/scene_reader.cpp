@@ -12,8 +12,8 @@ namespace {
 
 using godot::GeometryInstance3D;
 
-const float MAX_COORDINATE_M = 1e8f;
-const double MIN_SCENE_SIZE_M = 1e-9;
+const float MAX_COORDINATE_M = 1e8f;  // nodes beyond are not found
+const double MIN_SCENE_SIZE_M = 1e-9; // it is a divisor, also in a world without casters
 // In a MultiMesh's buffer: floats of an instance's colour, and of its custom data.
 const size_t COLOR_FLOATS = 4;
 
@@ -114,7 +114,8 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 			++pending_count;
 		}
 		if (surface.levels) {
-			details.push_back({ r_scene.instances.size(), surface.levels, {}, 1 });
+			details.push_back({ r_scene.instances.size(), surface.levels, /*bounds_world=*/{},
+					/*scale=*/1 }); // finish_details sets both
 		}
 		r_scene.instances.push_back(std::move(instance));
 	}
@@ -184,6 +185,7 @@ void SceneReader::read_multi_mesh(
 	server.multimesh_instance_get_transform(p_multi_mesh.get_rid(), 0);
 	const godot::PackedFloat32Array buffer = server.multimesh_get_buffer(p_multi_mesh.get_rid());
 	const bool is_3d = p_multi_mesh.get_transform_format() == godot::MultiMesh::TRANSFORM_3D;
+	// Floats per instance: 3 or 2 rows of the transform, colour, custom data.
 	const size_t stride = (is_3d ? 12 : 8) + (p_multi_mesh.is_using_colors() ? COLOR_FLOATS : 0) +
 			(p_multi_mesh.is_using_custom_data() ? COLOR_FLOATS : 0);
 	const glm::dmat4 world_from_node = get_drawn_transform(p_body.node).to_matrix();
@@ -196,7 +198,8 @@ void SceneReader::read_multi_mesh(
 
 void SceneReader::read_box(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
 		SceneSnapshot &r_scene) {
-	static const std::shared_ptr<const Mesh> box = make_box_mesh("box", glm::vec3(0.5f));
+	static const std::shared_ptr<const Mesh> box =
+			make_box_mesh("box", /*p_half_size_m=*/glm::vec3(0.5f));
 	const godot::AABB bounds = p_instance.get_aabb();
 	if (glm::any(glm::lessThanEqual(bounds.size, glm::vec3(0.0f)))) {
 		return;

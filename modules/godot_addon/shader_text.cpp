@@ -55,6 +55,7 @@ ShaderFunction read_function(std::string_view p_text, size_t p_statement, size_t
 	if (parenthesis == std::string_view::npos || head[last] != ')') {
 		return function; // a structure or a list of values
 	}
+	// The last word before the parenthesis is the name.
 	for_each_word(
 			head.substr(0, parenthesis), [&](std::string_view p_word) { function.name = p_word; });
 	function.begin = p_statement + head.find_first_not_of(" \t\r\n");

@@ -15,7 +15,8 @@ struct ShaderFunction {
 	size_t body_end = 0;   // its closing brace
 };
 
-/// Finds identifiers and functions in the code of a Godot shader without preprocessor lines.
+/// Finds identifiers and functions in the code of a Godot shader. It does not run the preprocessor,
+/// so code from an #include is not found.
 class ShaderText {
 public:
 	explicit ShaderText(std::string p_code);

@@ -44,9 +44,10 @@ ShadowSurface ShadowMaterials::read(const godot::Material &p_material) {
 	}
 	if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
 		const godot::Ref<godot::Shader> shader = custom.get_shader();
-		return { shader ? read_shader(shader) : ShadowKind::OPAQUE, nullptr };
+		// The alpha that a shader computes cannot be read.
+		return { shader ? read_shader(shader) : ShadowKind::OPAQUE, /*cut_out=*/nullptr };
 	}
-	return {};
+	return {}; // opaque
 }
 
 ShadowKind ShadowMaterials::read_shader(const godot::Shader &p_shader) {

@@ -13,7 +13,7 @@ namespace gnomon {
 enum class ShadowKind {
 	OPAQUE,
 	CUT_OUT, // by alpha scissor, alpha hash or depth prepass
-	NONE,	 // casts nothing: blended, or drawn without depth
+	NONE,	 // casts nothing: blended, or drawn without depth test or depth writes
 };
 
 /// How a surface casts, with its alpha mask.

@@ -38,7 +38,7 @@ const std::string &ShadowNode::get_technique() const {
 }
 
 bool ShadowNode::shows_mask() const {
-	return values.contains(SHOW_MASK_PROPERTY);
+	return values.contains(SHOW_MASK_PROPERTY); // only if it differs from the default, false
 }
 
 PropertyValue ShadowNode::get_value(size_t p_property) const {
@@ -88,7 +88,7 @@ std::vector<std::string> ShadowNode::find_warnings() const {
 	std::vector<std::string> warnings;
 	const godot::Light3D light = find_light();
 	if (!light) {
-		warnings.push_back("It shadows nothing: its parent is no light. Make it a child of an "
+		warnings.push_back("It shadows nothing: its parent is not a light. Make it a child of an "
 						   "OmniLight3D, a SpotLight3D or a DirectionalLight3D.");
 		return warnings;
 	}
@@ -102,7 +102,7 @@ std::vector<std::string> ShadowNode::find_warnings() const {
 	}
 	for (const ShadowNode *other : get_shadow_nodes()) {
 		if (other == this) {
-			break;
+			break; // of several nodes the first counts
 		}
 		if (other->find_light().get_object() == light.get_object() &&
 				other->node.is_visible_in_tree()) {
@@ -145,8 +145,8 @@ void ShadowNode::call_back() {
 		const std::span<const float> texels(mask.visibility);
 		const godot::PackedByteArray bytes(
 				std::span(reinterpret_cast<const uint8_t *>(texels.data()), texels.size_bytes()));
-		const auto image = godot::Image::create_from_data(
-				mask.size_px.x, mask.size_px.y, false, godot::Image::FORMAT_RF, bytes);
+		const auto image = godot::Image::create_from_data(mask.size_px.x, mask.size_px.y,
+				/*use_mipmaps=*/false, godot::Image::FORMAT_RF, bytes);
 		for (const godot::Variant &callback : called) {
 			const godot::Variant arguments[] = { godot::Variant::of_object(image.get_object()),
 				godot::Variant(mask.camera) };

@@ -22,8 +22,8 @@ struct ReadMask {
 
 /// A request to read back the masks of one light. Filled on the render thread.
 struct MaskRequest {
-	std::string light;
-	std::mutex mutex; // guards masks
+	std::string light; // name in the frame's SceneSnapshot
+	std::mutex mutex;  // guards masks
 	std::vector<ReadMask> masks;
 };
 
@@ -58,7 +58,7 @@ public:
 	/// Calls p_callback with the mask (an Image) and the camera's Transform3D for each view of the
 	/// next frame.
 	void read_masks(const godot::Variant &p_callback);
-	/// Returns the request to the frame about to be drawn; null: there is none.
+	/// Returns the request that read_masks() made for the next frame; null: there is none.
 	std::shared_ptr<MaskRequest> get_request() const { return request; }
 	/// Calls the callbacks of read_masks if their masks were read back meanwhile.
 	void call_back();
@@ -84,7 +84,8 @@ void unregister_shadow_node_class();
 /// is already there. Empty: no function.
 void set_shadow_node_listener(std::function<void()> p_listener);
 /// Sets a function that gets the shader of each material whose inspect_native_shader_code() was
-/// called while a GnomonShadow3D was in the group of shader viewers. Empty: no function.
+/// called while a GnomonShadow3D was in the group of Godot's native shader viewer (see
+/// ReceiverMaterials). Empty: no function.
 void set_shader_listener(std::function<void(godot::RID)> p_listener);
 /// Returns all GnomonShadow3D nodes in the scene tree.
 const std::vector<ShadowNode *> &get_shadow_nodes();

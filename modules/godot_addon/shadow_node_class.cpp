@@ -34,7 +34,7 @@ const int32_t NOTIFICATION_POSTINITIALIZE = 0;
 const int32_t NOTIFICATION_ENTER_TREE = 10;
 const int32_t NOTIFICATION_EXIT_TREE = 11;
 
-std::vector<ShadowNode *> nodes;
+std::vector<ShadowNode *> nodes; // those in the scene tree
 std::function<void()> listener;
 std::function<void(godot::RID)> shader_listener;
 
@@ -99,7 +99,7 @@ BuiltInType to_godot_type(PropertyType p_type) {
 	}
 }
 
-/// Returns a hint such as "-1,100,0.001,suffix:m". Its range includes the special value.
+/// Returns a hint such as "-1,100,0.001,suffix:m". Its range includes PropertyInfo::special.
 std::string make_range_hint(const PropertyInfo &p_info) {
 	PropertyRange range = get_range(p_info);
 	if (!p_info.special.empty()) {
@@ -118,7 +118,7 @@ void *create_instance(void *, GDExtensionBool p_notifies) {
 	ShadowNode *node = new ShadowNode(object);
 	get_interface().object_set_instance(object, name.get(), node);
 	if (p_notifies) {
-		godot::Object(object).notification(NOTIFICATION_POSTINITIALIZE, false);
+		godot::Object(object).notification(NOTIFICATION_POSTINITIALIZE, /*reversed=*/false);
 	}
 	return object;
 }
@@ -145,7 +145,7 @@ GDExtensionBool validate_property(void *p_instance, GDExtensionPropertyInfo *r_p
 	const std::vector<ShadowProperty> &properties = get_shadow_properties();
 	for (size_t index = 0; index < properties.size(); ++index) {
 		if (properties[index].info.name == name && to_node(p_instance).is_hidden(index)) {
-			r_property->usage = USAGE_STORAGE; // other techniques keep their values
+			r_property->usage = USAGE_STORAGE; // not shown, but saved with the scene
 		}
 	}
 	return true;
@@ -157,6 +157,7 @@ void call_get_warnings(void *p_instance, const GDExtensionConstTypePtr *, void *
 		for (const std::string &warning : to_node(p_instance).find_warnings()) {
 			warnings.append(warning);
 		}
+		// r_result is an array that Godot has constructed.
 		godot::destroy_built_in(BuiltInType::PACKED_STRING_ARRAY, r_result);
 		godot::copy_built_in(BuiltInType::PACKED_STRING_ARRAY, r_result, warnings.get());
 	});
@@ -219,7 +220,7 @@ struct MethodEntry {
 	const char *name;
 	Method method;
 	std::vector<Argument> arguments;
-	std::optional<BuiltInType> result;
+	std::optional<BuiltInType> result; // empty: it returns nothing
 };
 
 const std::vector<MethodEntry> &get_methods() {

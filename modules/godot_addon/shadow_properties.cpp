@@ -83,6 +83,7 @@ std::string write_member(const ShadowProperty &p_property) {
 		description += text("[br][b]", choices[index], "[/b]: ", info.choice_tooltips[index]);
 	}
 	if (info.type != PropertyType::BOOL && choices.empty()) {
+		// The range of a number already ends with its unit.
 		description += text(" Allowed: ", describe_range(info),
 				info.unit.empty() || describe_range(info).ends_with(info.unit) ? "" : " ",
 				describe_range(info).ends_with(info.unit) ? "" : info.unit, ".");
@@ -101,7 +102,7 @@ std::vector<ShadowProperty> make_properties() {
 	properties.push_back({ make_technique_property(), "" });
 	for (const char *name : { "penumbra_outer_width", "penumbra_inner_width" }) {
 		properties.push_back({ *Light3D::get_property_list().find(name), "" });
-		properties.back().info.group.clear();
+		properties.back().info.group.clear(); // shown above all groups
 	}
 	for (const ShadowTechniqueInfo *technique : find_offered()) {
 		for (const PropertyInfo &info :
@@ -162,7 +163,7 @@ std::string write_class_documentation() {
 			"\n\t\t\t</description>\n\t\t</method>\n"
 			"\t\t<method name=\"count_pending_casters\">\n\t\t\t<return type=\"int\" />\n"
 			"\t\t\t<description>\n\t\t\t\tHow many casters of this node's world have a mesh whose "
-			"edges are still being found, in the last frame drawn. They cast no shadow until then."
+			"edges are not computed yet, in the last frame drawn. They cast no shadow until then."
 			"\n\t\t\t</description>\n\t\t</method>\n"
 			"\t\t<method name=\"makes_mask\">\n\t\t\t<return type=\"bool\" />\n"
 			"\t\t\t<description>\n\t\t\t\tWhether the last frame made this light's mask. It makes "

@@ -28,6 +28,7 @@ void set_own_visible(
 	p_server.instance_set_visible(p_node.get_instance(), p_is_visible);
 }
 
+// The transfer functions of sRGB (IEC 61966-2-1).
 glm::vec4 to_linear(const glm::vec4 &p_color) {
 	const glm::vec4 curved = glm::pow((p_color + 0.055f) / 1.055f, glm::vec4(2.4f));
 	return glm::mix(curved, p_color / 12.92f, glm::lessThan(p_color, glm::vec4(0.04045f)));
@@ -184,11 +185,13 @@ void StandInLight::update(uint32_t p_row, bool p_has_godot_shadow) {
 		is_applied = true;
 	}
 	server.instance_set_transform(instance, get_drawn_transform(node));
-	set_own_visible(server, node, false); // again, as the node may have shown it
+	set_own_visible(server, node, /*p_is_visible=*/false); // again, as the node may have shown it
 }
 
 std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
 		std::span<const NeededStandIn> p_needed, const std::set<float> &p_others) {
+	// Stand-ins keep their rows. One that changed worlds, or whose specular amount another light
+	// has, is replaced.
 	std::set<uint32_t> taken;
 	for (const NeededStandIn &needed : p_needed) {
 		const auto found = lights.find(godot::get_instance_id(needed.node.get_object()));
@@ -214,7 +217,7 @@ std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
 				lights.erase(godot::get_instance_id(needed.node.get_object()));
 				if (!std::exchange(has_warned, true)) {
 					log_warning("A world has more than ", taken.size(), " lights with shadows of ",
-							"Gnomon or a light_size. The rest of them stay as Godot has them.");
+							"Gnomon or a light_size. The rest of them keep Godot's shadows.");
 				}
 				continue;
 			}

@@ -10,8 +10,8 @@ namespace gnomon {
 
 /// A light of the RenderingServer that replaces that of a Light3D. Two of its values differ: the
 /// last bits of its specular amount are its row in the table of lights, by which materials identify
-/// it, and its shadow is replaced by Gnomon's. The node, its properties and the saved scene do not
-/// change. Main thread only.
+/// it, and it has no Godot shadow where Gnomon's mask suffices. The node, its properties and the
+/// saved scene do not change. Main thread only.
 class StandInLight {
 public:
 	StandInLight(const godot::Light3D &p_node, godot::RID p_scenario);
@@ -65,13 +65,15 @@ private:
 	bool is_applied = false;
 };
 
-/// Returns the specular amount with p_row in its last bits, below RECEIVER_ROW_COUNT.
+/// Returns the specular amount with its last bits replaced by p_row, which is below
+/// RECEIVER_ROW_COUNT.
 float tag_specular(float p_specular, uint32_t p_row);
 
 /// A light that needs a stand-in in a frame.
 struct NeededStandIn {
 	godot::Light3D node;
 	int32_t mask = -1; // layer of its mask; -1: it has none
+	/// True: surfaces or effects that do not read the mask need Godot's shadow.
 	bool needs_godot_shadow = true;
 };
 

@@ -56,7 +56,7 @@ void TopologyWorker::run() {
 		try {
 			get_topology(mesh);
 		} catch (const std::exception &failure) { // out of memory
-			log_error("\"", mesh->name, "\": ", describe_failure(failure));
+			log_error("Edges of mesh \"", mesh->name, "\": ", describe_failure(failure));
 		}
 		lock.lock();
 		pending.erase(mesh->id);

@@ -27,7 +27,7 @@ public:
 
 	/// Starts to build the topology of a large mesh.
 	void prepare(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Whether the worker has built the topology of the mesh, or need not. True for null.
+	/// True if the topology of the mesh is built, if the mesh is small, and for null.
 	bool is_ready(const std::shared_ptr<const Mesh> &p_mesh);
 	/// Removes freed meshes.
 	void forget_unused();

@@ -73,14 +73,15 @@ std::string find_unsupported_reason(
 	if (p_projection[3][3] != 0.0f) {
 		return "has an orthogonal projection";
 	}
-	// Temporal antialiasing shifts the projection by less than a pixel.
+	// Temporal antialiasing shifts the projection by less than a pixel, which is 2 / size in clip
+	// space.
 	if (std::abs(p_projection[2][0]) * float(p_size_px.x) > 2.0f ||
 			std::abs(p_projection[2][1]) * float(p_size_px.y) > 2.0f) {
 		return "has a projection that is not centred";
 	}
 	const float aspect = float(p_size_px.x) / float(p_size_px.y);
 	const float ratio = std::abs(p_projection[1][1] / p_projection[0][0]) / aspect;
-	if (!(std::abs(ratio - 1.0f) < 0.01f)) {
+	if (!(std::abs(ratio - 1.0f) < 0.01f)) { // more than 1 % apart, or NaN
 		return "has pixels that are not square";
 	}
 	return {};
@@ -92,8 +93,8 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 	const godot::RenderSceneData data = p_data.get_render_scene_data();
 	GodotView view;
 	view.size_px = glm::uvec2(p_buffers.get_internal_size());
-	view.depth = p_buffers.get_depth_texture(false);
-	view.color = p_buffers.get_color_texture(false);
+	view.depth = p_buffers.get_depth_texture(/*msaa=*/false);
+	view.color = p_buffers.get_color_texture(/*msaa=*/false);
 	view.camera_transform = data.get_cam_transform();
 	const glm::mat4 projection = data.get_cam_projection();
 	view.unsupported_reason =
@@ -108,7 +109,8 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 				static_cast<float>(2.0 * std::atan(1.0 / std::abs(double(projection[1][1]))));
 		view.horizontal_scale = projection[0][0];
 		view.depth_offset = projection[2][2];
-		view.camera.shift = glm::vec2(projection[2][0], -projection[2][1]); // its y points down
+		view.camera.shift = glm::vec2(projection[2][0], -projection[2][1]); // clip y is down
+		// Where the depth P[3][2] / z - P[2][2] is 1.
 		view.camera.near_m = projection[3][2] / (1.0f + projection[2][2]);
 	}
 	return view;
@@ -128,6 +130,7 @@ ReducedInstances find_reduced_instances(
 	const float width_px = float(p_view.size_px.x) / detail.resolution_scale;
 	const glm::mat4 shift(compute_shift(p_scene.camera));
 	ReducedInstances reduced;
+	// 2 * half_extent.x / width_px is the size of a pixel at distance 1.
 	reduced.lod_tolerance =
 			MAX_DEVIATION_FACTOR * detail.threshold_px * 2.0f * view.half_extent.x / width_px;
 	for (const InstanceDetail &candidate : p_frame.details) {

@@ -30,7 +30,8 @@ struct ReducedInstance {
 };
 struct ReducedInstances {
 	std::vector<ReducedInstance> list;
-	/// Largest deviation of a reduced mesh from its full mesh, as a fraction of the distance.
+	/// Largest deviation from its full mesh that a reduced mesh may have, as a fraction of the
+	/// distance.
 	float lod_tolerance = 0;
 };
 /// Returns the reduced instances that may be visible. p_scene must have the view's camera.

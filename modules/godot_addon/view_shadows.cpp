@@ -63,8 +63,9 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 		return;
 	}
 	if (glm::any(glm::greaterThan(p_view.size_px, receivers.get_size_px()))) {
-		fail("A view has ", p_view.size_px.x, "x", p_view.size_px.y, " pixels, which were not ",
-				"expected. It has no shadow masks in this frame.");
+		fail("A view has ", p_view.size_px.x, "x", p_view.size_px.y, " pixels, but the masks ",
+				"were allocated for at most ", receivers.get_size_px().x, "x",
+				receivers.get_size_px().y, ". It has no shadow masks in this frame.");
 	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_frame.scene);
 	scene->camera = p_view.camera;

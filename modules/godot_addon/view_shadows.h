@@ -75,7 +75,7 @@ private:
 	std::shared_ptr<MeshStore> meshes;
 	std::unique_ptr<ReceiverTextures> receivers;
 	std::map<uint64_t, std::unique_ptr<ViewShadows>> views; // by the id of Godot's buffers
-	std::set<std::string> logged;
+	std::set<std::string> logged_failures;
 	std::atomic<bool> has_failed = false;
 };
 

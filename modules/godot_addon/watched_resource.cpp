@@ -5,7 +5,7 @@ namespace gnomon {
 WatchedResource::WatchedResource(const godot::Resource &p_resource) :
 		id(godot::get_instance_id(p_resource.get_object())),
 		on_changed([has_changed = has_changed](auto) { *has_changed = true; }) {
-	p_resource.connect("changed", on_changed, 0);
+	p_resource.connect("changed", on_changed, /*flags=*/0);
 }
 
 WatchedResource::~WatchedResource() {

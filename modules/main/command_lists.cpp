@@ -22,6 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char *get_type_name(PropertyType p_type) {
+	// In the order of PropertyType.
 	static const char *const NAMES[] = { "bool", "int", "float", "enum", "string", "vector3" };
 	return NAMES[static_cast<int>(p_type)];
 }
@@ -37,6 +38,7 @@ Json describe_properties(const PropertyList &p_list) {
 	return properties;
 }
 
+/// Returns the list without the settings that only tests and comparisons use.
 PropertyList omit_test_settings(const PropertyList &p_list) {
 	PropertyList list;
 	for (const PropertyInfo &info : p_list.get_properties()) {
@@ -172,7 +174,7 @@ void add_list_command(const ListCommand &p_list, CLI::App &r_app, CommonOptions 
 } // namespace
 
 void register_list_commands() {
-	int help_order = 0;
+	int help_order = 0; // that of `run`; these commands follow it
 	for (const ListCommand &list : LIST_COMMANDS) {
 		CommandRegistry::add({ list.id,
 				[&list](CLI::App &r_app, CommonOptions &r_common) {

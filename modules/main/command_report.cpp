@@ -45,7 +45,7 @@ bool add_budget_and_comparison(const Report &p_report, const ReportArguments &p_
 		for (size_t index = 0; index < p_report.configurations.size(); ++index) {
 			const ReportConfiguration &configuration = p_report.configurations[index];
 			if (!configuration.is_matrix()) {
-				continue;
+				continue; // of a scaling curve, animation or sweep
 			}
 			Json choice = { { "configuration", index } };
 			const auto best = find_within_budget(p_report, index, *p_arguments.budget_ms);
@@ -116,12 +116,11 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	if (failed_count > 0) {
 		fail(failed_count,
 				" references, cells or scene images failed; the page lists which and why. Fix "
-				"that, then go on with --resume.");
+				"that, then repeat the `gnomon report` that measured them, with --resume.");
 	}
 	if (missing_count > 0 && p_missing == MissingCells::REFUSED) {
-		fail(missing_count,
-				" references or cells are missing. Run the other shards, or go on with ",
-				"--resume.");
+		fail(missing_count, " references or cells are missing. Run the other shards, or repeat ",
+				"`gnomon report` with --resume.");
 	}
 	if (!passes_comparison) {
 		fail("Errors grew against ", p_arguments.against,
@@ -155,7 +154,7 @@ std::vector<ReportScene> load_scenes(
 		const NamedFiles &p_files, const CommonOptions &p_common, glm::uvec2 p_size_px) {
 	std::vector<ReportScene> scenes;
 	for (const auto &[name, path] : p_files) {
-		ReportScene scene = { name, nullptr, {} };
+		ReportScene scene = { name, /*scene=*/nullptr, /*failure=*/{} };
 		try {
 			scene.scene = load_scene(path, p_common, p_size_px);
 		} catch (const Error &error) {

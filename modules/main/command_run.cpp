@@ -18,8 +18,8 @@ namespace gnomon {
 namespace {
 
 RunOptions options;
-std::string reference_path;
-double speed = 1;
+std::string reference_path; // --reference
+double speed = 1;			// --speed
 
 const double HEADLESS_FRAMES_PER_S = 60;
 
@@ -50,7 +50,7 @@ AnimationPlayback choose_playback(const Scene &p_scene, const CommonOptions &p_c
 /// Writes the files of --capture and --dot and prints the plan of --plan, as requested.
 void write_outputs(const RenderResult &p_result, glm::uvec2 p_size_px) {
 	if (!options.capture.empty()) {
-		save_png(options.capture, p_size_px, 4, p_result.image);
+		save_png(options.capture, p_size_px, /*p_channel_count=*/4, p_result.image);
 	}
 	if (!options.dot.empty()) {
 		save_file_atomically(options.dot, p_result.dot);
@@ -105,7 +105,7 @@ void run(const CommonOptions &p_common) {
 			check_writable(path);
 		}
 	}
-	if (!reference_path.empty()) {
+	if (!reference_path.empty()) { // then MASKS_PART exists, see add_run_command
 		options.reference = RunPartRegistry::find(MASKS_PART)->load_reference(reference_path);
 	}
 	const std::unique_ptr<Scene> scene = load_scene(options.scene, p_common, size_px);

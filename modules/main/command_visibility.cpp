@@ -145,7 +145,8 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 				measure_time(renderer, request,
 						is_reference ? 0
 									 : std::min(WARM_UP_FRAME_COUNT, p_options.timed_frame_count),
-						is_reference ? 1 : p_options.timed_frame_count, {}));
+						is_reference ? 1 : p_options.timed_frame_count,
+						/*p_build_snapshot=*/{}));
 	}
 }
 

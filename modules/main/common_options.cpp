@@ -1,3 +1,5 @@
+// Functions of commands.h that several commands use: options, the scene, its settings, the device.
+
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/limits.h"
@@ -176,7 +178,7 @@ void pose_as_requested(Scene &r_scene, const CommonOptions &p_common) {
 	}
 	const std::shared_ptr<const Animation> animation = find_animation(r_scene, p_common.animation);
 	if (!animation) {
-		fail("Scene ", r_scene.path, " has no animation. Leave --at out, or export it with one.");
+		fail("Scene ", r_scene.path, " has no animation. Omit --at, or export it with one.");
 	}
 	pose_scene(r_scene, animation.get(), animation->wrap_time(at_s));
 }
@@ -248,7 +250,8 @@ void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_
 		p_light = &p_scene.find_node<Light3D>(setting.light_name, "Light");
 	}
 	if (!p_light) {
-		throw UsageError(text("--set is \"", p_setting, "\", must be light.NAME.property=value."));
+		throw UsageError(text("--set is \"", p_setting,
+				"\", must be light.NAME.property=value or technique.ID.NAME=value."));
 	}
 	const PropertyInfo *info = find_property(setting.property);
 	if (!info) {

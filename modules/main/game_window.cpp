@@ -157,7 +157,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	uint32_t drawn_count = 0;
 	const bool has_files = !p_options.capture.empty() || !p_options.dot.empty();
 	bool has_drawn_last = false;
-	// Also for a window that is closed before its first frame.
+	// So that --capture and --dot also work if the window is closed before its first frame.
 	fly_camera.apply(camera);
 	state.playback.advance(r_scene, 0.0);
 	request.scene = build_snapshot(r_scene, camera);
@@ -202,8 +202,8 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		}
 	}
 	if (has_files && !has_drawn_last) {
-		// The window was closed. That its last frame was the last is known only now: it is drawn
-		// again for the files.
+		// The window was closed after a frame that was drawn without the image and the graph, so
+		// it is drawn again for the files.
 		request.size_px = r_size_px;
 		request.acquire_window_image = nullptr;
 		request.wants_image = !p_options.capture.empty();

@@ -42,7 +42,7 @@ void check_command(const CLI::App &p_app, const std::string &p_command) {
 		}
 	}
 	std::string names;
-	for (const CLI::App *command : p_app.get_subcommands({})) {
+	for (const CLI::App *command : p_app.get_subcommands(/*filter=*/{})) { // all
 		if (command->get_name() == p_command) {
 			return;
 		}
@@ -82,11 +82,12 @@ int run_program(int p_argument_count, char **p_arguments) {
 		}
 		const std::string problem = error.what();
 		log_error(problem, problem.ends_with('.') ? "" : ".",
-				" `gnomon --help` and `gnomon COMMAND --help` list what there is.");
+				" `gnomon --help` and `gnomon COMMAND --help` list commands and options.");
 		return 2;
 	}
 	if (common.validation && get_validation_message_count() > 0) {
-		log_error(get_validation_message_count(), " validation messages.");
+		log_error("The validation layers reported ", get_validation_message_count(),
+				" errors or warnings; the lines above list them.");
 		return 1;
 	}
 	return 0;

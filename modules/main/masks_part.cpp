@@ -23,7 +23,7 @@ std::shared_ptr<const ReferenceMask> load_reference(const std::string &p_path) {
 
 void initialize_masks_part() {
 	CommandRegistry::add({ COMMAND, &add_visibility_command });
-	RunPartRegistry::add({ MASKS_PART, nullptr, &load_reference, &measure_time });
+	RunPartRegistry::add({ MASKS_PART, /*run_in_window=*/nullptr, &load_reference, &measure_time });
 }
 
 void uninitialize_masks_part() {

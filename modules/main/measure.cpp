@@ -35,7 +35,7 @@ std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRe
 				continue;
 			}
 			has_deform = has_deform || is_deform;
-			// With all lights, the light's name keeps their passes apart.
+			// With all lights, the light's name distinguishes their passes.
 			const std::string name = p_request.mask_light.empty() && !is_deform
 					? light.name + ": " + timing.name
 					: timing.name;
@@ -77,14 +77,14 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 		uint32_t p_count, const RunPart::SnapshotBuilder &p_build_snapshot) {
 	Progress progress("Measuring");
 	const MaskTiming timing =
-			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count, 0, 0 },
+			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count },
 					[&](double p_fraction) { progress.update(p_fraction * 0.5); });
 	p_request.wants_mask = false;
 	p_request.wants_surfaces = false;
 	p_request.mode = RenderGraph::Mode::WAIT;
 	std::vector<double> gpu_ms;
 	std::vector<double> wall_ms;
-	std::vector<double> call_ms;
+	std::vector<double> call_ms; // with p_build_snapshot and all CPU work of render()
 	RenderResult result;
 	for (uint32_t index = 0; index < p_count; ++index) {
 		progress.update(0.5 + 0.5 * double(index) / p_count);

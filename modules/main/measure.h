@@ -28,7 +28,7 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		const MeasureLimits &p_limits, const std::function<void(double)> &p_progress);
 
 /// Measures the shadow passes like measure_mask_timing, then p_count whole frames. Returns the JSON
-/// of `visibility --time` (doc/command_line.md). p_build_snapshot: rebuilds the snapshot from the
+/// of `--time` (doc/command_line.md). p_build_snapshot: rebuilds the snapshot from the
 /// node tree before each whole frame, as a game does; empty: the request's scene is reused.
 std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count,
 		uint32_t p_count, const RunPart::SnapshotBuilder &p_build_snapshot);

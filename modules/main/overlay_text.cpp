@@ -38,8 +38,8 @@ void add_quad(std::vector<OverlayVertex> &r_vertices, const glm::vec2 (&p_corner
 std::vector<OverlayVertex> make_overlay_text(
 		const std::vector<std::string> &p_lines, float p_scale) {
 	std::vector<OverlayVertex> text_vertices;
-	float width = 0;
-	float y = 0;
+	float width = 0; // of the longest line, in font pixels
+	float y = 0;	 // top of the line, in font pixels
 	for (const std::string &line : p_lines) {
 		std::string ascii;
 		std::copy_if(line.begin(), line.end(), std::back_inserter(ascii),

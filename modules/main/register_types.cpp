@@ -7,7 +7,7 @@ namespace gnomon {
 
 void initialize_main_module(ModuleLevel p_level) {
 	if (p_level == ModuleLevel::FEATURES) {
-		CommandRegistry::add({ "run", &add_run_command, 0 });
+		CommandRegistry::add({ "run", &add_run_command, /*help_order=*/0 });
 		register_list_commands();
 		initialize_optional_parts();
 	}

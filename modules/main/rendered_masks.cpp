@@ -20,7 +20,9 @@ namespace {
 // Limits for the timing of a report cell: at most 20 frames by default, or 3 s, but at least 5
 // frames. No warm-up frames, because rendering the mask first has created the pipelines. measure()
 // adds one warm-up frame if it renders no mask.
-const MeasureLimits CELL_LIMITS = { 0, 20, 5, 3.0, 0 };
+const MeasureLimits CELL_LIMITS = {
+	.warm_up_count = 0, .frame_count = 20, .min_frame_count = 5, .seconds = 3.0, .median_error = 0
+};
 /// The light property <technique id>_samples is the reference's number of rays per pixel.
 const char *const SAMPLES_SUFFIX = "_samples";
 
@@ -129,7 +131,7 @@ std::vector<uint8_t> RenderedMaskSource::draw_scene(
 	RenderRequest request;
 	request.scene = p_scene;
 	request.size_px = p_size_px;
-	request.antialiasing = 2;
+	request.antialiasing = 2; // the default of `gnomon run`
 	request.wants_image = true;
 	return Renderer(device).render(request).image;
 }
@@ -195,7 +197,7 @@ MeasurableTechnique make_measurable_technique(const ShadowTechniqueInfo &p_info)
 
 MeasurableTechnique make_measurable_technique(const MaskFilterInfo &p_info) {
 	MeasurableTechnique source;
-	source.info = { p_info.id, p_info.name, p_info.source, p_info.color, false };
+	source.info = { p_info.id, p_info.name, p_info.source, p_info.color, /*is_baseline=*/false };
 	const std::shared_ptr<const MaskFilter> filter = p_info.make();
 	source.get_settings = [filter](const LightSnapshot & /*p_light*/) {
 		std::vector<QualitySetting> settings;
@@ -223,7 +225,7 @@ std::vector<MeasurableTechnique> RenderedMaskSource::find_techniques(
 		if (!p_ids.empty() && contains(p_ids, info.id) &&
 				ShadowRegistry::find_default() == nullptr) {
 			fail("Mask filter \"", info.id,
-					"\" has no technique to follow: none is a default one. ",
+					"\" has no technique to follow: this build has no default technique. ",
 					"Enable the module of one; `gnomon modules` lists them.");
 		}
 		if (ShadowRegistry::find_default() != nullptr &&

@@ -28,7 +28,7 @@ LightType parse_light_type(const std::string &p_name) {
 		}
 	}
 	throw UsageError(text("--light-types: \"", p_name,
-			"\" must be own, or of spot, omni and directional, comma separated."));
+			"\" must be own, or some of spot, omni and directional, separated by commas."));
 }
 
 ReportExtent parse_extent(const std::string &p_name) {
@@ -81,7 +81,7 @@ void check_names(const char *p_option, const std::vector<std::string> &p_request
 	for (const std::string &name : p_requested) {
 		if (std::ranges::find(p_valid_names, name) == p_valid_names.end()) {
 			throw UsageError(
-					text(p_option, ": there is no \"", name, "\", must be of ", names, "."));
+					text(p_option, ": there is no \"", name, "\", must be one of ", names, "."));
 		}
 	}
 }
@@ -174,7 +174,7 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 		names.push_back(name);
 		const bool is_skipped =
 				std::ranges::any_of(p_arguments.skipped_scenes, [&](const std::string &p_pattern) {
-					return fnmatch(p_pattern.c_str(), name.c_str(), 0) == 0;
+					return fnmatch(p_pattern.c_str(), name.c_str(), /*flags=*/0) == 0;
 				});
 		if (!is_skipped &&
 				(requested.empty() ||
@@ -186,7 +186,7 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 	if (selected.scenes.empty()) {
 		fail("Project ", selected.folder,
 				all.empty() ? " names no scene that exists. Set scenes in its project.cfg."
-							: " has no scene that --skip leaves. Skip fewer.");
+							: ": --skip excludes every selected scene. Skip fewer.");
 	}
 	return selected;
 }

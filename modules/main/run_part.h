@@ -9,13 +9,13 @@
 
 namespace gnomon {
 
-/// Features of `gnomon run` that an optional module provides; a member is null if the module does
-/// not provide it.
+/// Features of `gnomon run` that exist only if the build contains an optional module. A null member
+/// is not among that module's features.
 struct RunPart {
 	/// Builds a snapshot of the scene's current state.
 	using SnapshotBuilder = std::function<std::shared_ptr<const SceneSnapshot>()>;
 
-	std::string id; // name of the module
+	std::string id; // name of the optional module
 	/// Shows the scene in a window, see run_in_window in game_window.h.
 	RenderResult (*run_in_window)(Scene &r_scene, glm::uvec2 &r_size_px,
 			const RunOptions &p_options, const CommonOptions &p_common) = nullptr;
@@ -26,7 +26,7 @@ struct RunPart {
 			uint32_t p_warm_up_count, uint32_t p_count,
 			const SnapshotBuilder &p_build_snapshot) = nullptr;
 };
-/// The RunParts of this build. Modules add theirs at ModuleLevel::FEATURES.
+/// The RunParts of this build. initialize_desktop_part() and initialize_masks_part() add them.
 class RunPartRegistry : public ExtensionRegistry<RunPart> {};
 
 // Values of RunPart::id.

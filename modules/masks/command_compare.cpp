@@ -24,9 +24,10 @@ struct CompareOptions {
 } // namespace
 
 void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
-	static CompareOptions options;
+	static CompareOptions options; // static: filled when the command line is parsed, later
 	CLI::App *command = r_app.add_subcommand("compare", "Measures the error of a mask");
-	command->add_option("reference_mask", options.reference, "EXR of the exact mask")->required();
+	command->add_option("reference_mask", options.reference, "EXR of the reference mask")
+			->required();
 	command->add_option("result", options.result, "EXR to measure")->required();
 	command->add_option("--heatmap", options.heatmap,
 			"Also writes a PNG of the signed error: blue too dark, red too light");

@@ -12,11 +12,11 @@ namespace {
 
 constexpr uint8_t MAGIC[] = { 0x76, 0x2f, 0x31, 0x01 };
 constexpr size_t FIRST_ATTRIBUTE_OFFSET = 8;	   // after magic, version and flags
-constexpr uint8_t DEEP_OR_MULTI_PART_FLAGS = 0x18; // flags in the second byte of the version
-constexpr size_t CHANNEL_BYTES = 16;			   // of its description, after its name
+constexpr uint8_t DEEP_OR_MULTI_PART_FLAGS = 0x18; // 0x08 deep, 0x10 multi-part
+constexpr size_t CHANNEL_BYTES = 16;			   // type, flags and sampling, after the name
 constexpr int64_t MAX_LINES_IN_BLOCK = 256;		   // DWAB, the maximum of all compressions
 constexpr int64_t BYTES_PER_VALUE = 4;			   // maximum of half, float and uint
-constexpr int64_t MAX_BLOCK_BYTES = 1 << 28;	   // lines or a tile, decompressed together
+constexpr int64_t MAX_BLOCK_BYTES = 1 << 28;	   // decompressed together: lines or a tile
 constexpr int64_t OFFSET_BYTES = sizeof(int64_t);  // per tile, in a table after the header
 
 /// An attribute that OpenEXR reads by its type, whatever length the file states.
@@ -48,8 +48,10 @@ public:
 					bytes.begin() + std::ptrdiff_t(std::min(bytes.size(), std::size(MAGIC))))) {
 			fail("Mask ", name, ": not an OpenEXR file. Name one that `gnomon visibility` wrote.");
 		}
+		// Byte 5 is the second byte of the version, which has the flags.
 		if (bytes.size() > FIRST_ATTRIBUTE_OFFSET && (bytes[5] & DEEP_OR_MULTI_PART_FLAGS) != 0) {
-			fail("Mask ", name, ": has several parts or deep pixels; a mask has one flat part.");
+			fail("Mask ", name, ": has several parts or deep pixels; a mask has one flat part. ",
+					"Write it with `gnomon visibility`.");
 		}
 		position = FIRST_ATTRIBUTE_OFFSET;
 		while (read_byte() != 0) {
@@ -59,7 +61,7 @@ public:
 		check_memory();
 		std::vector<uint8_t> header(bytes.begin(), bytes.begin() + std::ptrdiff_t(position));
 		for (const size_t type : unneeded_types) {
-			header[type] = '?';
+			header[type] = '?'; // a type that OpenEXR does not know
 		}
 		return header;
 	}
@@ -107,9 +109,9 @@ private:
 				unneeded_types.push_back(type_position);
 			}
 		} else if (type != known->type || (known->size_bytes != 0 && length != known->size_bytes)) {
-			fail("Mask ", name, ": attribute ", attribute, " has ", length,
-					" bytes of another type than ", known->type,
-					" or of another size. Write it again.");
+			fail("Mask ", name, ": attribute ", attribute, " (", length,
+					" bytes) must be of the type ", known->type,
+					" and of that type's size. The file is damaged: write it again.");
 		} else {
 			read_known(attribute, end);
 		}

@@ -24,8 +24,10 @@ constexpr const char *VISIBILITY_CHANNEL = "Y";
 constexpr const char *RECEIVER_CHANNEL = "receiver";
 /// A header that claims more pixels than this per byte of the file is damaged, which is detected
 /// before memory is allocated: Deflate compresses at most 1032 to 1, and a pixel has at least 4
-/// bytes (two half floats), so that a byte holds at most 258 pixels.
+/// bytes (two half floats), so that a byte holds at most 258 pixels. The limit is the next power of
+/// two.
 constexpr uint64_t MAX_PIXELS_PER_BYTE = 512;
+/// Twice the largest mask of save_mask_exr without compression: 16384 x 16384 pixels of 8 bytes.
 constexpr uint64_t FILE_LIMIT_BYTES = uint64_t(1) << 32;
 
 /// A stream that reads bytes in memory, the first of them from a replacement: the checked header.
@@ -92,7 +94,7 @@ void check_size(int64_t p_width, int64_t p_height, const std::string &p_name) {
 
 MaskImage decode(std::span<const uint8_t> p_bytes, const std::string &p_name) {
 	MemoryInput stream(p_bytes, make_safe_exr_header(p_bytes, p_name));
-	Imf::InputFile file(stream, 0); // 0: OpenEXR starts no threads
+	Imf::InputFile file(stream, /*numThreads=*/0);
 	check_channel(file.header().channels(), VISIBILITY_CHANNEL, p_name);
 	check_channel(file.header().channels(), RECEIVER_CHANNEL, p_name);
 	const Imath::Box2i window = file.header().dataWindow();
@@ -140,7 +142,7 @@ std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string
 		buffer.insert(RECEIVER_CHANNEL,
 				make_slice(
 						const_cast<float *>(p_image.receiver.data()), { 0, 0 }, p_image.size_px.x));
-		Imf::OutputFile file(stream, header, 0);
+		Imf::OutputFile file(stream, header, /*numThreads=*/0);
 		file.setFrameBuffer(buffer);
 		file.writePixels(height);
 	} catch (const std::exception &exception) {

@@ -17,7 +17,7 @@ constexpr float PENUMBRA_MAX = 0.998f;
 constexpr float UMBRA_OVER_REFERENCE = 0.05f; // visibly lit in the reference ...
 constexpr float UMBRA_OVER_RESULT = 0.01f;	  // ... and black in the result
 constexpr double PERCENTILE = 0.99;
-constexpr float WRONG_ERROR = 0.2f; // float as masks are, so that an error of 0.2f is not above
+constexpr float WRONG_ERROR = 0.2f; // float, like the masks: an error of 0.2f is not above it
 
 /// Throws if a pixel is not finite.
 void check_finite(const MaskImage &p_image, const std::string &p_name) {
@@ -152,7 +152,7 @@ TemporalMetrics compute_temporal_metrics(
 		if (p_reference[frame].size_px != p_reference[0].size_px) {
 			fail("Sequence: frame ", frame, " is ", p_reference[frame].size_px.x, " x ",
 					p_reference[frame].size_px.y, ", frame 0 is ", p_reference[0].size_px.x, " x ",
-					p_reference[0].size_px.y, "; all must be equal.");
+					p_reference[0].size_px.y, ". Render all frames with the same --size.");
 		}
 	}
 	TemporalMetrics metrics;

@@ -60,12 +60,13 @@ std::vector<glm::u8vec3> compute_heat_map_colors(uint32_t p_count) {
 }
 
 void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image) {
-	save_png(p_path, p_image.size_px, 1, compute_mask_pixels(p_image));
+	save_png(p_path, p_image.size_px, /*p_channel_count=*/1, compute_mask_pixels(p_image));
 }
 
 void save_error_png(const std::filesystem::path &p_path, const MaskImage &p_reference,
 		const MaskImage &p_result) {
-	save_png(p_path, p_reference.size_px, 3, compute_error_pixels(p_reference, p_result));
+	save_png(p_path, p_reference.size_px, /*p_channel_count=*/3,
+			compute_error_pixels(p_reference, p_result));
 }
 
 } // namespace gnomon

@@ -12,7 +12,7 @@ namespace gnomon {
 struct PassCost {
 	std::string name;
 	double gpu_ms = 0;
-	double wall_ms = 0;
+	double wall_ms = 0;		 // from the start of recording to the end of the pass
 	bool is_on_host = false; // it runs on the CPU: gpu_ms is 0
 };
 
@@ -35,7 +35,7 @@ struct PassMedians {
 struct MaskTiming {
 	uint32_t frame_count = 0;
 	std::vector<PassMedians> passes; // in execution order
-	FrameCost total;				 // sums over the passes of a frame
+	FrameCost total;				 // of the frames' sums over their passes
 	/// The time for comparing techniques, in ms: the median over the frames of the sum of each
 	/// pass's GPU time, or of its wall time if it runs on the CPU.
 	double cost_ms = 0;
@@ -65,9 +65,9 @@ private:
 		std::vector<double> wall_ms = {};
 		bool is_on_host = false;
 	};
-	std::vector<Values> passes; // in execution order
-	Values totals;
-	std::vector<double> costs_ms;
+	std::vector<Values> passes;	  // in execution order
+	Values totals;				  // sums over the passes of each frame
+	std::vector<double> costs_ms; // one per frame, see MaskTiming::cost_ms
 };
 
 /// Computes the medians and 90th percentiles of times in milliseconds.

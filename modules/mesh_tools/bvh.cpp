@@ -10,10 +10,10 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t LEAF_SIZE = 4; // maximum number of items
-constexpr int BIN_COUNT = 16;
+constexpr int BIN_COUNT = 16;	  // of split_by_area
 /// Nodes at this depth or deeper are split in halves instead of by the surface area heuristic. That
-/// bounds the depth and so the stack of a traversal: the heuristic may split off a single box at
-/// each level, for example if their sizes double.
+/// bounds the depth, and so the stack of a traversal, to 64: halving 2^32 boxes takes 32 levels.
+/// The heuristic may split off a single box at each level, for example if their sizes double.
 constexpr int MAX_SAH_DEPTH = 32;
 
 double get_half_area(const Bounds &p_bounds) {
@@ -30,7 +30,8 @@ bool is_valid(const Bounds &p_box) {
 			p_box.minimum.z <= p_box.maximum.z;
 }
 
-/// Returns the centre. Infinite boxes are clamped, so that it is finite.
+/// Returns the centre. Boxes are clamped far beyond any scene, so that it is finite for infinite
+/// ones too.
 glm::dvec3 get_centre(const Bounds &p_box) {
 	const glm::dvec3 limit(1e150);
 	return 0.5 * glm::clamp(p_box.minimum, -limit, limit) +

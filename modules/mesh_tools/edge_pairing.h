@@ -14,7 +14,7 @@ struct EdgeFace {
 	bool runs_along = false;				  // the face's winding follows the edge's direction
 };
 
-/// Indices into the faces at an edge; second is NO_FACE for an unpaired face.
+/// Indices into the faces at an edge; second is NO_FACE (topology.h) for an unpaired face.
 struct FacePair {
 	uint32_t first = 0;
 	uint32_t second = 0;

@@ -21,6 +21,7 @@ struct SilhouetteEdge {
 	uint32_t weight = 0;
 };
 
+/// The silhouette of a mesh as seen from one light, see build_silhouette.
 struct Silhouette {
 	std::vector<uint8_t> is_facing;	   // one per face: 1 when the light is strictly in front of it
 	std::vector<SilhouetteEdge> edges; // in the order of MeshTopology::edges

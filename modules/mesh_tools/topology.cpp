@@ -63,7 +63,7 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 	// hash of their joints, weights and morph targets.
 	using Bits = std::array<uint32_t, 5>;
 	const MeshRig *rig = p_mesh.attributes.rig.get();
-	const auto hash = [](const Bits &p_bits) { return compute_value_hash(p_bits, 1); };
+	const auto hash = [](const Bits &p_bits) { return compute_value_hash(p_bits, /*p_seed=*/1); };
 	std::unordered_map<Bits, uint32_t, decltype(hash)> vertices(position_count, hash);
 	for (const uint32_t index : p_mesh.indices) {
 		uint32_t &welded = r_topology.welded_from_position[index];
@@ -124,6 +124,7 @@ std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topo
 	std::vector<double> areas(vertex_count, 0.0);
 	std::vector<bool> is_used(vertex_count, false); // by a face, not only by a degenerate triangle
 	r_topology.planes.resize(face_count);
+	// Null unless the mesh was cut out of another one, which still exists (MeshSource).
 	const std::shared_ptr<const Mesh> source = p_mesh.source.mesh.lock();
 	// Relative to a point of the mesh: far from the origin, the volume's terms would lose precision
 	// by cancellation.
@@ -215,7 +216,7 @@ uint32_t count_duplicates(
 }
 
 bool are_coplanar(const glm::dvec3 &p_normal_0, const glm::dvec3 &p_normal_1) {
-	return glm::dot(p_normal_0, p_normal_1) > 0.5 &&
+	return glm::dot(p_normal_0, p_normal_1) > 0.5 && // not folded back
 			glm::length(glm::cross(p_normal_0, p_normal_1)) <= COPLANAR_SINE;
 }
 
@@ -323,7 +324,8 @@ uint32_t MeshTopology::find_opposite_vertex(uint32_t p_face, uint32_t p_a, uint3
 
 MeshTopology build_topology(const Mesh &p_mesh) {
 	GNOMON_ASSERT(p_mesh.indices.size() % 3 == 0 && p_mesh.indices.size() < NO_HALF_EDGE / 4,
-			"mesh ", p_mesh.name, ": ", p_mesh.indices.size(), " indices");
+			"mesh ", p_mesh.name, ": ", p_mesh.indices.size(),
+			" indices, must be a multiple of 3 below ", NO_HALF_EDGE / 4);
 	MeshTopology topology;
 	topology.is_deformable = p_mesh.is_deformable();
 	weld(p_mesh, topology);
@@ -332,7 +334,7 @@ MeshTopology build_topology(const Mesh &p_mesh) {
 
 	std::vector<uint32_t> first_of_vertex;
 	const std::vector<SortedHalfEdge> sorted = sort_half_edges(topology, first_of_vertex);
-	topology.edges.reserve(sorted.size() / 2 + 16);
+	topology.edges.reserve(sorted.size() / 2 + 16); // enough if at most 32 edges are boundaries
 	EdgeBuilder builder(p_mesh, topology, unit_normals);
 	for (uint32_t vertex = 0; vertex + 1 < first_of_vertex.size(); ++vertex) {
 		uint32_t begin = first_of_vertex[vertex];

@@ -1,3 +1,5 @@
+// The cache of topologies by mesh id: get_topology and the functions after it in topology.h.
+
 #include "modules/mesh_tools/topology.h"
 
 #include <map>

@@ -7,7 +7,7 @@ namespace gnomon {
 
 namespace {
 
-const double MAX_FLOAT = 3e38; // close to FLT_MAX
+const double MAX_FLOAT = 3e38; // just below FLT_MAX, so that the conversion to float is finite
 
 double compute_segment_distance(
 		const glm::dvec3 &p_point, const glm::dvec3 &p_a, const glm::dvec3 &p_b) {
@@ -26,15 +26,16 @@ double compute_triangle_distance(const glm::dvec3 &p_point, const glm::dvec3 &p_
 			compute_segment_distance(p_point, p_b, p_c),
 			compute_segment_distance(p_point, p_c, p_a) });
 	const glm::dvec3 normal = glm::cross(p_b - p_a, p_c - p_a);
-	const double area = glm::length(normal);
-	if (area == 0.0) {
+	const double normal_length = glm::length(normal); // twice the area
+	if (normal_length == 0.0) {
 		return edge_distance;
 	}
 	// The point projects into the triangle if it is on the inner side of all three edges.
 	const bool projects_inside = glm::dot(glm::cross(p_b - p_a, p_point - p_a), normal) >= 0 &&
 			glm::dot(glm::cross(p_c - p_b, p_point - p_b), normal) >= 0 &&
 			glm::dot(glm::cross(p_a - p_c, p_point - p_c), normal) >= 0;
-	return projects_inside ? std::abs(glm::dot(p_point - p_a, normal)) / area : edge_distance;
+	return projects_inside ? std::abs(glm::dot(p_point - p_a, normal)) / normal_length
+						   : edge_distance;
 }
 
 bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node,

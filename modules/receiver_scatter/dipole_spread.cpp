@@ -9,7 +9,9 @@ namespace gnomon {
 
 namespace {
 
-constexpr double REDUCED_ALBEDO = 0.98;		// of red light in skin; Jensen et al. 2001, figure 5
+// Of skin in red light. The coefficients in figure 5 of Jensen et al. 2001 give 0.96 for skin1 and
+// 0.99 for skin2.
+constexpr double REDUCED_ALBEDO = 0.98;
 constexpr double REFRACTIVE_INDEX = 1.3;	// of skin; same figure
 constexpr double FRACTION_IN_RADIUS = 0.95; // fraction of the light that defines the radius
 constexpr uint32_t TABLE_SIZE = 4096;		// linear interpolation: fraction errs by below 1e-4
@@ -24,6 +26,7 @@ struct Dipole {
 
 	Dipole() {
 		const double index = REFRACTIVE_INDEX;
+		// Diffuse Fresnel reflectance, fitted: Jensen et al. 2001, section 2.1.
 		const double diffuse_fresnel =
 				-1.440 / (index * index) + 0.710 / index + 0.668 + 0.0636 * index;
 		const double boundary = (1.0 + diffuse_fresnel) / (1.0 - diffuse_fresnel); // A in the paper
@@ -33,9 +36,8 @@ struct Dipole {
 
 	/// Returns the fraction of the light that entered within p_r. Eq. 4 sums
 	/// z (1 + k d) exp(-k d) / d^3 over both sources, with k = `transport`, the source's depth or
-	/// height z, and d^2 = r^2 + z^2. As r dr = d dd, its
-	/// integral over a disc is that of z (1 + k d) exp(-k d) / d^2 over d, whose antiderivative is
-	/// -z exp(-k d) / d.
+	/// height z, and d^2 = r^2 + z^2. As r dr = d dd, its integral over a disc is that of
+	/// z (1 + k d) exp(-k d) / d^2 over d, whose antiderivative is -z exp(-k d) / d.
 	double compute_fraction(double p_r) const {
 		const auto outside = [&](double p_z) {
 			const double d = std::sqrt(p_r * p_r + p_z * p_z);
@@ -51,7 +53,7 @@ struct Dipole {
 		while (compute_fraction(high) < p_fraction) {
 			high *= 2.0;
 		}
-		for (int step = 0; step < 60; ++step) {
+		for (int step = 0; step < 60; ++step) { // more than the 53 bits of a double
 			const double middle = 0.5 * (low + high);
 			(compute_fraction(middle) < p_fraction ? low : high) = middle;
 		}
@@ -60,7 +62,7 @@ struct Dipole {
 };
 
 const Dipole dipole;
-const double radius = dipole.find_distance(FRACTION_IN_RADIUS);
+const double radius = dipole.find_distance(FRACTION_IN_RADIUS); // in mean free paths
 
 } // namespace
 

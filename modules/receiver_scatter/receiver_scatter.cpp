@@ -78,8 +78,8 @@ void ReceiverScatter::get_light_properties(PropertyList &r_list) const {
 			"pixels = 16 times scatter, auto = metres where there is a scatter_distance.",
 			"", GROUP });
 	r_list.add({ SAMPLES, PropertyType::INT, int64_t(48), "8,1024,8",
-			"Samples per pixel; with the method pixels at scatter 0.5, and twice as many at 1. "
-			"Few make noise, many cost time.",
+			"Samples per pixel. The method pixels takes this number at scatter 0.5 and twice as "
+			"many at 1. Few make noise, many cost time.",
 			"", GROUP });
 	r_list.add({ REFUSAL, PropertyType::ENUM, std::string("auto"), "auto,on,off",
 			"Whether samples on other surfaces are skipped, so that light does not leak between "

@@ -23,8 +23,8 @@ public:
 
 private:
 	const DipoleSpread spread;
-	std::vector<glm::vec2> sample_offsets; // in radii, see make_scatter_samples
-	uint32_t samples_per_set = 0;		   // in `sample_offsets`
+	std::vector<glm::vec2> sample_offsets; // several sets, in radii; see make_scatter_samples
+	uint32_t samples_per_set = 0;		   // for which sample_offsets were made
 	bool needs_average = true; // whether the light that plan() saw last needs the averaging pass
 };
 

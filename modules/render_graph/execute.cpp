@@ -30,6 +30,7 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 				resource.last_access = use.access;
 				continue; // the device orders submissions, see submit_commands()
 			}
+			// Imported textures are in SHADER_READ_COMPUTE between frames, see transition_imported.
 			barrier.before = resource.is_imported && resource.has_content && use.needs_content
 					? Access::SHADER_READ_COMPUTE
 					: Access::NONE;
@@ -53,7 +54,7 @@ void RenderGraph::transition_imported(std::vector<Barrier> &r_barriers) {
 		}
 		const Access rest = Access::SHADER_READ_COMPUTE;
 		if (resource.last_access != rest) {
-			r_barriers.push_back({ {}, resource.texture, resource.last_access, rest });
+			r_barriers.push_back({ /*buffer=*/{}, resource.texture, resource.last_access, rest });
 			resource.last_access = rest;
 		}
 	}
@@ -94,7 +95,7 @@ void RenderGraph::record_pass(Pass &p_pass, CommandList &p_commands) {
 
 void RenderGraph::collect_spans() {
 	for (const GpuSpan &span : device.get_gpu_spans()) {
-		timings.push_back({ span.name, span.gpu_ms, 0 });
+		timings.push_back({ span.name, span.gpu_ms, /*wall_ms=*/0 });
 	}
 }
 
@@ -130,12 +131,13 @@ void RenderGraph::run_passes(Mode p_mode) {
 			}
 			barriers.clear();
 			collect_barriers(index, barriers);
-			GNOMON_ASSERT(
-					barriers.empty(), "host pass ", pass.name, " uses more than host buffers");
+			GNOMON_ASSERT(barriers.empty(), "host pass ", pass.name,
+					" has a use other than HOST_READ and HOST_WRITE");
 			const Clock::time_point host_start = Clock::now();
 			HostContext context(*this);
 			pass.run_on_host(context);
-			timings.push_back({ pass.name, 0, compute_milliseconds_since(host_start), true });
+			timings.push_back({ pass.name, /*gpu_ms=*/0, compute_milliseconds_since(host_start),
+					/*is_on_host=*/true });
 			continue;
 		}
 		if (!commands) {
@@ -158,8 +160,9 @@ void RenderGraph::run_passes(Mode p_mode) {
 		}
 		record_pass(pass, *commands);
 		if (window_image) {
-			const Barrier barrier = { {}, window_image->texture, window_image->last_access,
-				Access::PRESENT };
+			const Barrier barrier = { .texture = window_image->texture,
+				.before = window_image->last_access,
+				.after = Access::PRESENT };
 			commands->barriers({ &barrier, 1 });
 		}
 		commands->end_span();

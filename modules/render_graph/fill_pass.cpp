@@ -13,7 +13,7 @@ void add_fill_pass(RenderGraph &r_graph, RenderingDevice &p_device, const std::s
 			p_device.get_compute_pipeline({ "fill", "render_graph/fill.comp", {} });
 	const uint32_t word_count =
 			static_cast<uint32_t>(r_graph.get_desc(p_buffer).size_bytes / sizeof(uint32_t));
-	const shader::FillPush push = { p_value, word_count, 0, 0 };
+	const shader::FillPush push = { p_value, word_count, /*padding0=*/0, /*padding1=*/0 };
 	add_compute_pass(r_graph, p_name, pipeline,
 			{ PassBinding::write(FILL_BINDING_WORDS, p_buffer) }, glm::uvec3(word_count, 1, 1),
 			bytes_of(std::span(&push, 1)));

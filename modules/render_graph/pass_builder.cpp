@@ -23,12 +23,14 @@ uint8_t *HostContext::get_mapped(RGBuffer p_buffer) const {
 }
 
 PassBuilder &PassBuilder::reads(RGResource p_resource, Access p_access) {
-	graph.add_use(pass_index, { p_resource.index, p_access, false, true });
+	graph.add_use(pass_index,
+			{ p_resource.index, p_access, /*is_written=*/false, /*needs_content=*/true });
 	return *this;
 }
 
 PassBuilder &PassBuilder::writes(RGResource p_resource, Access p_access, Content p_content) {
-	graph.add_use(pass_index, { p_resource.index, p_access, true, p_content == Content::UPDATE });
+	graph.add_use(pass_index,
+			{ p_resource.index, p_access, /*is_written=*/true, p_content == Content::UPDATE });
 	return *this;
 }
 
@@ -37,8 +39,10 @@ PassBuilder &PassBuilder::color(
 	// Other layers of an array keep their content, whatever this one's load operation does.
 	const bool is_array = graph.get_desc(p_texture).layer_count > 1;
 	graph.add_use(pass_index,
-			{ p_texture.index, Access::COLOR_WRITE, true, is_array || p_load == LoadOp::KEEP });
-	graph.passes[pass_index].colors.push_back({ p_texture, { {}, p_load, p_clear, p_layer } });
+			{ p_texture.index, Access::COLOR_WRITE, /*is_written=*/true,
+					is_array || p_load == LoadOp::KEEP });
+	graph.passes[pass_index].colors.push_back(
+			{ p_texture, { /*texture=*/{}, p_load, p_clear, p_layer } });
 	return *this;
 }
 
@@ -46,8 +50,9 @@ PassBuilder &PassBuilder::depth(
 		RGTexture p_texture, LoadOp p_load, float p_clear, uint32_t p_layer) {
 	const bool is_array = graph.get_desc(p_texture).layer_count > 1; // as in color()
 	graph.add_use(pass_index,
-			{ p_texture.index, Access::DEPTH_WRITE, true, is_array || p_load == LoadOp::KEEP });
-	graph.passes[pass_index].depth = { p_texture, { {}, p_load, p_clear, p_layer } };
+			{ p_texture.index, Access::DEPTH_WRITE, /*is_written=*/true,
+					is_array || p_load == LoadOp::KEEP });
+	graph.passes[pass_index].depth = { p_texture, { /*texture=*/{}, p_load, p_clear, p_layer } };
 	return *this;
 }
 

@@ -1,3 +1,4 @@
 #pragma once
 
-// Nothing to register: callers create graphs directly.
+// The build requires this file in every module. Nothing to register: callers create graphs
+// directly.

@@ -181,8 +181,10 @@ private:
 	void collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &r_barriers);
 	void run_passes(Mode p_mode);
 	void record_pass(Pass &p_pass, CommandList &p_commands);
+	/// Returns imported textures to the access that they have between frames.
 	void transition_imported(std::vector<Barrier> &r_barriers);
 	Resource *find_window_image(const Pass &p_pass);
+	/// Appends the GPU times of the newest finished submission to the timings.
 	void collect_spans();
 
 	RenderingDevice &device;

@@ -70,8 +70,7 @@ const ShadowTechnique::DebugView *choose_debug_view(
 	}
 	if (p_request.id == ERROR_VIEW && !p_request.has_reference) {
 		fail("Debug view \"error\": no reference is loaded. Make one with `gnomon visibility SCENE "
-			 "--out reference.exr` and the reference as its --technique, and give it with "
-			 "--reference "
+			 "--technique reference --out reference.exr`, and pass it with --reference "
 			 "reference.exr.");
 	}
 	fail("Debug view \"", p_request.id,

@@ -27,8 +27,9 @@ public:
 	PipelineRID get_textured(bool p_is_mirrored, bool p_is_double_sided,
 			const std::array<VertexStream, 4> &p_streams) {
 		RasterPipelineDesc desc = make_desc(p_is_mirrored, p_is_double_sided, ".textured");
-		const uint32_t component_counts[] = { 2, 2, 4, 4 };
+		const uint32_t component_counts[] = { 2, 2, 4, 4 }; // two uv sets, tangent, colour
 		for (uint32_t stream = 0; stream < p_streams.size(); ++stream) {
+			// Locations and buffers 0 and 1 are position and normal.
 			desc.attributes.push_back(
 					{ 2 + stream, 2 + stream, Format::R32_SFLOAT, component_counts[stream], 0 });
 			desc.vertex_strides_bytes.push_back(p_streams[stream].is_constant
@@ -39,7 +40,7 @@ public:
 	}
 
 private:
-	/// p_variant: variant of both shaders.
+	/// p_variant: ".textured", or "" for the variant without textures, of both shaders.
 	RasterPipelineDesc make_desc(
 			bool p_is_mirrored, bool p_is_double_sided, const std::string &p_variant) const {
 		RasterPipelineDesc desc;
@@ -50,6 +51,7 @@ private:
 				p_variant + ".frag";
 		desc.attributes = get_position_normal_attributes();
 		desc.vertex_strides_bytes = { sizeof(glm::vec3), sizeof(glm::vec3) };
+		// Base colour, shading normal, material, emissive, geometric normal; as in gbuffer.frag.
 		desc.color_formats = { Format::RGBA8_SRGB, Format::R32_UINT, Format::RGBA16_SFLOAT,
 			Format::RGBA16_SFLOAT };
 		if (has_geometric_normal) {

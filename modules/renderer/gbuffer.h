@@ -10,7 +10,7 @@ namespace gnomon {
 /// The geometry that the camera sees, one texel per pixel.
 struct GBuffer {
 	RGTexture depth;			// D32_SFLOAT, reversed: 0 is the background
-	RGTexture base_color;		// RGBA8_SRGB; alpha: ambient occlusion, 1 = open
+	RGTexture base_color;		// RGBA8_SRGB; alpha: ambient occlusion, 1 = unoccluded
 	RGTexture geometric_normal; // R32_UINT; empty without DeviceFeatures::geometry_shader
 	RGTexture shading_normal;	// R32_UINT; normals are packed, see normal_inc.glsl
 	RGTexture material;			// RGBA16_SFLOAT: scatter, scatter_distance_m, roughness

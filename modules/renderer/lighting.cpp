@@ -17,6 +17,8 @@ namespace {
 constexpr float EXPOSED_AMBIENT = 0.06f;
 constexpr float EXPOSED_WHITE = 0.8f;
 
+/// Illuminance of a surface that faces the light, in lx if the intensity is in cd or lx. The range
+/// and the cone are ignored.
 float compute_light_illuminance(const LightSnapshot &p_light, const glm::dvec3 &p_position_world) {
 	const float brightest = std::max({ p_light.color.x, p_light.color.y, p_light.color.z });
 	const float intensity = p_light.intensity * brightest;
@@ -24,6 +26,7 @@ float compute_light_illuminance(const LightSnapshot &p_light, const glm::dvec3 &
 		return intensity;
 	}
 	const glm::dvec3 to_light = p_light.position_world - p_position_world;
+	// At least (1 mm)^2, for a light at the position.
 	return static_cast<float>(intensity / std::max(glm::dot(to_light, to_light), 1e-6));
 }
 
@@ -45,6 +48,7 @@ float compute_exposure(const SceneSnapshot &p_scene) {
 			brightest = std::max(brightest, compute_light_illuminance(light, centre));
 		}
 	}
+	// A white Lambertian surface has the radiance illuminance / pi.
 	return brightest > 0 && std::isfinite(brightest) ? EXPOSED_WHITE * 3.14159265f / brightest
 													 : 1.0f;
 }
@@ -101,7 +105,7 @@ RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance) {
 					PassBinding::read(RENDERER_BINDING_RADIANCE, p_radiance),
 					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
 			},
-			size_px, shader::ToneMapPush{ p_image.antialiasing, 0, 0, 0 });
+			size_px, shader::ToneMapPush{ .antialiasing = p_image.antialiasing });
 	return output;
 }
 

@@ -44,6 +44,7 @@ std::vector<Taps> find_taps(uint32_t p_from, uint32_t p_to) {
 	return taps;
 }
 
+/// Appends the mip level of the size p_to_px, computed from the one before, to r_texels.
 void append_level(const uint8_t *p_from, glm::uvec2 p_from_px, glm::uvec2 p_to_px, bool p_is_srgb,
 		std::vector<uint8_t> &r_texels) {
 	static const std::array<float, 256> LINEAR = [] {
@@ -188,7 +189,7 @@ SamplerRID MaterialStore::get_sampler(const Texture &p_texture) {
 
 const GpuMaterial &MaterialStore::get(const std::shared_ptr<const Material> &p_material) {
 	GpuMaterial &made = materials[p_material.get()];
-	if (made.constants && !made.material.expired()) {
+	if (made.constants && !made.material.expired()) { // expired: a new material at an old address
 		return made;
 	}
 	const shader::MaterialConstants constants = make_constants(*p_material);
@@ -209,6 +210,7 @@ const GpuMaterial &MaterialStore::get(const std::shared_ptr<const Material> &p_m
 }
 
 BufferRID MaterialStore::get_constant_stream(size_t p_stream) {
+	// First and second uv, tangent, colour.
 	const glm::vec4 values[] = { glm::vec4(0.0f), glm::vec4(0.0f), glm::vec4(1, 0, 0, 1),
 		glm::vec4(1.0f) };
 	OwnedBuffer &buffer = constant_streams[p_stream];

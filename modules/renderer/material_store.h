@@ -67,7 +67,7 @@ private:
 	RenderingDevice &device;
 	std::map<const Material *, GpuMaterial> materials;
 	std::map<std::pair<uint64_t, bool>, GpuImage> images; // key: image id, is sRGB
-	std::map<std::array<int, 5>, OwnedSampler> samplers;
+	std::map<std::array<int, 5>, OwnedSampler> samplers;  // key: the enums of SamplerDesc
 	OwnedTexture white;
 	std::array<OwnedBuffer, 4> constant_streams;
 };

@@ -17,7 +17,7 @@ void add_present_pass(RenderGraph &r_graph, RGTexture p_image,
 				RenderingDevice &device = p_context.get_device();
 				const TextureDesc window = device.get_desc(p_context.get(shown));
 				RasterPipelineDesc desc = make_screen_desc("present", "renderer/present.frag");
-				desc.color_formats = { window.format }; // known since the image was acquired
+				desc.color_formats = { window.format }; // known only once it is acquired
 				desc.has_depth = desc.has_stencil = false;
 				shader::PresentPush push = {};
 				push.image_px_per_window_px = glm::vec2(image_size_px) / glm::vec2(window.size_px);

@@ -1,3 +1,4 @@
 #pragma once
 
-// Nothing to register: techniques and filters come from their own modules.
+// The build requires this file in every module. Nothing to register: techniques and filters come
+// from their own modules.

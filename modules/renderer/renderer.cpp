@@ -128,11 +128,12 @@ void Renderer::add_mask_only(Frame &r_frame) {
 				add_readback(r_frame.graph, surfaces.material, r_frame.material_texels);
 			}
 		} else {
+			// An empty pass whose read keeps the mask's passes from being culled.
 			r_frame.graph.add_pass("mask").reads(shadow.mask, Access::SHADER_READ_COMPUTE).keep();
 		}
 		return;
 	}
-	fail("Light \"", request.mask_light, "\" is not in the scene.");
+	fail("Light \"", request.mask_light, "\" is not in the scene. Choose one of its lights.");
 }
 
 void Renderer::add_image(Frame &r_frame) {
@@ -189,6 +190,7 @@ void Renderer::add_image(Frame &r_frame) {
 	if (request.wants_image) {
 		add_readback(graph, image, r_frame.result.image);
 	} else if (!request.acquire_window_image && !request.image_target) {
+		// Keeps the image's passes from being culled.
 		graph.add_pass("image").reads(image, Access::COPY_READ).keep();
 	}
 }
@@ -210,7 +212,7 @@ void Renderer::add_overlay(Frame &r_frame, RGTexture p_target) {
 	const RGBuffer buffer = r_frame.graph.upload("overlay vertices", BufferUsage::VERTEX,
 			{ reinterpret_cast<const uint8_t *>(vertices.data()),
 					vertices.size() * sizeof(OverlayVertex) });
-	const glm::vec2 scale = 2.0f / glm::vec2(r_frame.request.size_px);
+	const glm::vec2 scale = 2.0f / glm::vec2(r_frame.request.size_px); // clip space per pixel
 	const uint32_t vertex_count = static_cast<uint32_t>(vertices.size());
 	r_frame.graph.add_pass("overlay")
 			.reads(buffer, Access::VERTEX_READ)

@@ -37,8 +37,8 @@ struct RenderRequest {
 	/// The debug view to show instead of the lit image: the id of a technique's view, "mask", or
 	/// "error", which needs `reference`. Empty = the lit image.
 	std::string debug_view;
-	/// Name of the light of the debug view. If empty, or if that light casts no shadow: the first
-	/// light that does.
+	/// Name of the light of the debug view. If no light has this name, or if that light casts no
+	/// shadow: the first light that does.
 	std::string debug_light;
 	/// Reference mask of that light for the same camera, with the frame's size.
 	std::shared_ptr<const ReferenceMask> reference;

@@ -30,7 +30,8 @@ public:
 	/// textures.
 	virtual void begin_rendering_without_targets(glm::uvec2 p_size_px) = 0;
 	virtual void end_rendering() = 0;
-	/// Sets the viewport, and the scissor rectangle to the same area.
+	/// Sets the viewport, and the scissor rectangle to the same area. Not supported inside Godot,
+	/// which draws into whole targets.
 	virtual void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) = 0;
 	/// Restricts drawing to the rectangle. The next set_viewport resets it to the whole viewport.
 	virtual void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) = 0;

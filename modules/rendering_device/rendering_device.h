@@ -40,23 +40,24 @@ struct DeviceOptions {
 struct DeviceInfo {
 	uint32_t index = 0;
 	std::string name;
-	std::string driver;		   // name and version
-	std::string type;		   // "discrete GPU", "integrated GPU", "CPU", "virtual GPU", "other"
+	std::string driver; // name and version
+	/// "discrete GPU", "integrated GPU", "virtual GPU", "CPU" or "other"; inside Godot "of Godot".
+	std::string type;
 	std::string api_version;   // "1.3.230"
 	uint64_t memory_bytes = 0; // of the largest device-local heap
 	bool is_usable = false;
 	std::string refusal; // why it is unusable: "Vulkan 1.1, 1.3 is needed"
 };
 
-/// Optional features of a device. The minimum that Gnomon requires of every device is compute
 /// Shaders size their shared memory for subgroups that are at least this large.
 inline constexpr uint32_t MIN_SUBGROUP_SIZE = 4;
 
+/// Optional features of a device. The minimum that Gnomon requires of every device is compute
 /// shaders, 128 bytes of push constants, and 32-bit depth that shaders can read. Without geometry
 /// shaders, aliased memory, conditional rendering, depth bounds, storage_and_texel_buffers or
-/// copies to textures, frames are slower, but the same surface normals give the same masks.
-/// Without geometry shaders, the geometric normals are derived from the depth, which can change
-/// pixels at edges.
+/// copies to textures, frames are slower, and masks are the same with one exception: without
+/// geometry shaders, the geometric normals are derived from the depth, which can change pixels at
+/// edges.
 struct DeviceFeatures {
 	/// Geometry shaders, and gl_PrimitiveID in fragment shaders.
 	bool geometry_shader = false;
@@ -64,7 +65,7 @@ struct DeviceFeatures {
 	bool depth_clamp = false;
 	bool depth_bounds = false;
 	bool conditional_rendering = false;
-	bool fragment_stores = false;
+	bool fragment_stores = false; // fragment shaders may write storage buffers and textures
 	/// Buffers that are BufferUsage::STORAGE and TEXEL at once. Not Vulkan's storage texel buffers,
 	/// which no shader may use.
 	bool storage_and_texel_buffers = false;
@@ -106,8 +107,8 @@ struct GpuSpan {
 /// also the functions of modules/rendering_device/tests/testing.h for the tests. Not thread-safe:
 /// use it on one thread. Every failure is an Error that names the object, the value, the limit and
 /// the next step. If the device is lost, or makes no progress (see DeviceOptions::wait_limit_s),
-/// that call and all later ones throw DeviceLost with the same text, which names the last pass that
-/// had begun.
+/// the call that notices it and all later ones throw DeviceLost with the same text, which names the
+/// last pass that had begun.
 ///
 /// Resources are handles. free() may be called while the GPU still uses the resource: it is
 /// destroyed when the submission that was recorded last has finished. Resources that were not freed

@@ -11,9 +11,10 @@
 
 namespace gnomon {
 
-/// Table of resources by handle. A handle contains the slot's index and generation, so that the use
-/// of a freed resource is detected and reported by name, even if the slot has a new resource. The
-/// type Resource needs a member `desc.name`.
+/// Table of resources by handle. A handle contains the slot's generation (upper 32 bits) and its
+/// index + 1 (lower 32 bits; 0 would be the null handle), so that the use of a freed resource is
+/// detected and reported by name, even if the slot has a new resource. The type Resource needs a
+/// member `desc.name`.
 template <typename Handle, typename Resource> class SlotTable {
 public:
 	explicit SlotTable(const char *p_kind) : kind(p_kind) {}

@@ -18,6 +18,7 @@ constexpr uint32_t IMAGE_IS_STORAGE = 2; // operand "Sampled" of OpTypeImage
 
 using Instruction = std::span<const uint32_t>; // word 0: opcode and length in words
 
+/// Reads one SPIR-V module.
 class Reflector {
 public:
 	Reflector(std::string_view p_name, std::span<const SpecializationConstant> p_constants) :
@@ -215,11 +216,11 @@ private:
 
 	void set_kind(uint32_t p_type, uint32_t p_storage_class, ReflectedBinding &r_binding) const {
 		Instruction type = get_definition(p_type);
-		if (p_storage_class == spv::StorageClassStorageBuffer) {
 		if (get_op(type) == spv::OpTypeArray || get_op(type) == spv::OpTypeRuntimeArray) {
 			fail("Shader \"", name, "\": binding ", r_binding.binding,
 					" is an array of resources, which is not supported. Use one binding for each.");
 		}
+		if (p_storage_class == spv::StorageClassStorageBuffer) {
 			r_binding.kind = ResourceKind::STORAGE_BUFFER;
 			return;
 		}
@@ -241,6 +242,7 @@ private:
 			fail("Shader \"", name, "\": binding ", r_binding.binding,
 					" is neither a buffer nor a texture or sampler. Use one of these.");
 		}
+		// Operands of OpTypeImage: word 3 is Dim, 5 Arrayed, 7 Sampled.
 		const bool is_buffer = type[3] == spv::DimBuffer;
 		const bool is_storage = type[7] == IMAGE_IS_STORAGE;
 		r_binding.is_arrayed = type[5] == 1;
@@ -338,9 +340,10 @@ std::vector<ReflectedBinding> merge_bindings(
 			}
 			if (found->kind != binding.kind || found->is_arrayed != binding.is_arrayed) {
 				fail("Pipeline '", p_pipeline, "': binding ", binding.binding,
-						" is declared as two kinds of resource. Give one of them another number.");
+						" is declared as two kinds of resource, or as a texture and as an array. "
+						"Give one of them another number.");
 			}
-			if (binding.is_used) {
+			if (binding.is_used) { // stages that only declare it are dropped
 				found->stages = found->is_used ? found->stages | binding.stages : binding.stages;
 				found->is_used = true;
 			}

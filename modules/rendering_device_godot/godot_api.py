@@ -212,7 +212,10 @@ class Api:
         for item in items:
             if item["name"] == name:
                 return item
-        raise SystemExit("ERROR: %s has no %s.%s, which the add-on uses." % (self.version, owner, name))
+        raise SystemExit(
+            "ERROR: %s has no %s.%s, which the add-on uses. Set $GODOT to another version."
+            % (self.version, owner, name)
+        )
 
     def get_type(self, name, is_argument):
         """Returns the C++ type of a parameter or result."""
@@ -230,7 +233,10 @@ class Api:
             if is_argument:
                 return "const %s &" % base
             return "Ref<%s>" % base if is_counted else base
-        raise SystemExit("ERROR: no binding for values of the type %s." % name)
+        raise SystemExit(
+            "ERROR: no binding for values of the type %s. Add it to VALUES or OPAQUE in this script."
+            % name
+        )
 
     def is_counted(self, name):
         """Returns whether the class derives from RefCounted."""

@@ -1,3 +1,5 @@
+// The commands of GodotDevice.
+
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_device.h"
 #include "modules/rendering_device_godot/godot_formats.h"
@@ -52,7 +54,8 @@ void GodotDevice::barriers(std::span<const Barrier>) {
 }
 
 void GodotDevice::begin_compute_list() {
-	GNOMON_ASSERT(draw_list < 0, "a dispatch inside a rendering");
+	GNOMON_ASSERT(
+			draw_list < 0, "a compute pipeline is bound inside begin_rendering .. end_rendering");
 	if (compute_list < 0) {
 		flush_uploads();
 		compute_list = rd.compute_list_begin();
@@ -82,8 +85,9 @@ godot::RID GodotDevice::get_framebuffer(
 		for (const uint64_t id : key) {
 			attachments.append(Variant(godot::RID{ id }));
 		}
-		cached.rid = rd.framebuffer_create(attachments, -1, 1);
-		GNOMON_ASSERT(cached.rid, "Godot makes no framebuffer of ", key.size(), " textures");
+		cached.rid = rd.framebuffer_create(
+				attachments, /*p_validate_with_format=*/-1, /*p_view_count=*/1);
+		GNOMON_ASSERT(cached.rid, "Godot refuses a framebuffer of ", key.size(), " textures");
 	}
 	cached.last_use = submission;
 	return cached.rid;
@@ -95,8 +99,9 @@ void GodotDevice::begin_draw_list(godot::RID p_framebuffer, int64_t p_flags,
 	flush_uploads();
 	framebuffer_format = rd.framebuffer_get_format(p_framebuffer);
 	draw_list = rd.draw_list_begin(p_framebuffer, p_flags, PackedColorArray(p_clear_colors),
-			double(p_clear_depth), 0, {}, 0);
-	GNOMON_ASSERT(draw_list >= 0, "Godot begins no drawing");
+			double(p_clear_depth), /*p_clear_stencil_value=*/0, /*p_region=*/{},
+			/*p_breadcrumb=*/0);
+	GNOMON_ASSERT(draw_list >= 0, "Godot refuses to begin a draw list");
 }
 
 void GodotDevice::begin_rendering(
@@ -128,10 +133,11 @@ void GodotDevice::begin_rendering(
 void GodotDevice::begin_rendering_without_targets(glm::uvec2 p_size_px) {
 	Cached &cached = framebuffers[{ p_size_px.x, p_size_px.y }];
 	if (!cached.rid) {
-		cached.rid = rd.framebuffer_create_empty(glm::ivec2(p_size_px), 0, -1);
+		cached.rid = rd.framebuffer_create_empty(
+				glm::ivec2(p_size_px), /*p_samples=*/0, /*p_validate_with_format=*/-1);
 	}
 	cached.last_use = submission;
-	begin_draw_list(cached.rid, 0, {}, 0.0f);
+	begin_draw_list(cached.rid, /*p_flags=*/0, /*p_clear_colors=*/{}, /*p_clear_depth=*/0.0f);
 }
 
 void GodotDevice::end_rendering() {
@@ -143,7 +149,7 @@ void GodotDevice::end_rendering() {
 }
 
 void GodotDevice::set_viewport(glm::uvec2, glm::uvec2) {
-	GNOMON_ASSERT(false, "Godot draws into whole targets; set_scissor cuts");
+	GNOMON_ASSERT(false, "set_viewport: Godot draws into whole targets; use set_scissor");
 }
 
 void GodotDevice::set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
@@ -170,7 +176,8 @@ void GodotDevice::bind_pipeline(PipelineRID p_pipeline) {
 				compute_list, bound->by_framebuffer_format.begin()->second);
 		return;
 	}
-	GNOMON_ASSERT(draw_list >= 0, "pipeline '", bound->name, "' outside a rendering");
+	GNOMON_ASSERT(draw_list >= 0, "raster pipeline '", bound->name,
+			"' is bound outside begin_rendering .. end_rendering");
 	godot::RID &rid = pipelines[p_pipeline.id - 1].by_framebuffer_format[framebuffer_format];
 	if (!rid) {
 		rid = make_raster_pipeline(*bound, framebuffer_format);
@@ -293,7 +300,8 @@ void GodotDevice::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
 	++counts.draws;
 	const bool is_procedural = std::get<RasterPipelineDesc>(bound->desc).attributes.empty();
 	bind_vertex_array(p_vertex_count);
-	rd.draw_list_draw(draw_list, false, p_instance_count, is_procedural ? p_vertex_count : 0);
+	rd.draw_list_draw(draw_list, /*p_use_indices=*/false, p_instance_count,
+			is_procedural ? p_vertex_count : 0);
 }
 
 void GodotDevice::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
@@ -309,13 +317,14 @@ void GodotDevice::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
 	}
 	cached.last_use = submission;
 	rd.draw_list_bind_index_array(draw_list, cached.rid);
-	rd.draw_list_draw(draw_list, true, 1, 0);
+	rd.draw_list_draw(draw_list, /*p_use_indices=*/true, /*p_instances=*/1,
+			/*p_procedural_vertex_count=*/0);
 }
 
 void GodotDevice::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
 	++counts.draws;
-	rd.draw_list_draw_indirect(draw_list, false, buffers.get(p_arguments).rid,
-			static_cast<int64_t>(p_offset_bytes), 1, 0);
+	rd.draw_list_draw_indirect(draw_list, /*p_use_indices=*/false, buffers.get(p_arguments).rid,
+			static_cast<int64_t>(p_offset_bytes), /*p_draw_count=*/1, /*p_stride=*/0);
 }
 
 void GodotDevice::dispatch(glm::uvec3 p_group_count) {
@@ -350,6 +359,7 @@ void GodotDevice::copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p
 				static_cast<int64_t>(p_target_offset_bytes), static_cast<int64_t>(p_size_bytes));
 		return;
 	}
+	// Waits for the GPU.
 	const PackedByteArray read = rd.buffer_get_data(source,
 			static_cast<int64_t>(p_source_offset_bytes), static_cast<int64_t>(p_size_bytes));
 	std::memcpy(
@@ -361,7 +371,7 @@ void GodotDevice::copy_texture_to_buffer(
 	end_compute_list();
 	GodotBuffer &target = buffers.get(p_target);
 	GNOMON_ASSERT(target.desc.memory == MemoryKind::READBACK, "buffer '", target.desc.name,
-			"': Godot copies textures to the CPU alone");
+			"': Godot copies textures to READBACK buffers only");
 	const PackedByteArray read = rd.texture_get_data(textures.get(p_source).rid, p_layer);
 	const std::span<const uint8_t> bytes = read.get_values();
 	std::memcpy(target.bytes.data(), bytes.data(), std::min(bytes.size(), target.bytes.size()));
@@ -372,7 +382,7 @@ void GodotDevice::copy_buffer_to_texture(
 	const GodotBuffer &source = buffers.get(p_source);
 	const GodotTexture &target = textures.get(p_target);
 	GNOMON_ASSERT(source.desc.memory == MemoryKind::UPLOAD, "buffer '", source.desc.name,
-			"': Godot copies to textures from the CPU alone");
+			"': Godot copies to textures from UPLOAD buffers only");
 	end_compute_list();
 	const uint64_t size_bytes = uint64_t(target.desc.size_px.x) * target.desc.size_px.y *
 			get_texel_size_bytes(target.desc.format);
@@ -386,13 +396,14 @@ void GodotDevice::copy_texture(TextureRID p_source, TextureRID p_target) {
 	const GodotTexture &source = textures.get(p_source);
 	const glm::vec3 size(glm::vec2(source.desc.size_px), 1.0f);
 	rd.texture_copy(source.rid, textures.get(p_target).rid, glm::vec3(0.0f), glm::vec3(0.0f), size,
-			0, 0, 0, 0);
+			/*p_src_mipmap=*/0, /*p_dst_mipmap=*/0, /*p_src_layer=*/0, /*p_dst_layer=*/0);
 }
 
 void GodotDevice::clear_color(TextureRID p_texture, glm::vec4 p_value) {
 	end_compute_list();
 	const GodotTexture &texture = textures.get(p_texture);
-	rd.texture_clear(texture.rid, to_godot_clear_value(texture.desc.format, p_value), 0, 1, 0,
+	rd.texture_clear(texture.rid, to_godot_clear_value(texture.desc.format, p_value),
+			/*p_base_mipmap=*/0, /*p_mipmap_count=*/1, /*p_base_layer=*/0,
 			texture.desc.layer_count);
 }
 

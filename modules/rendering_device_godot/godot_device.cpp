@@ -1,3 +1,5 @@
+// Resources and submissions; see also godot_command_list.cpp and godot_pipelines.cpp.
+
 #include "modules/rendering_device_godot/godot_device.h"
 
 #include "modules/core/error.h"
@@ -127,17 +129,17 @@ godot::RID GodotDevice::create_godot_buffer(
 	}
 	if (has_usage(p_desc.usage, BufferUsage::INDEX)) {
 		return rd.index_buffer_create(size / int64_t(sizeof(uint32_t)),
-				RD::INDEX_BUFFER_FORMAT_UINT32, bytes, false, bits);
+				RD::INDEX_BUFFER_FORMAT_UINT32, bytes, /*p_use_restart_indices=*/false, bits);
 	}
-	if (has_usage(p_desc.usage, BufferUsage::UNIFORM) &&
-			!has_usage(p_desc.usage, BufferUsage::STORAGE)) { // Godot's buffers cannot be both
-		return rd.uniform_buffer_create(size, bytes, 0);
+	// Godot's buffers cannot be both; with both usages it becomes a storage buffer.
+	if (has_usage(p_desc.usage, BufferUsage::UNIFORM) && !is_storage) {
+		return rd.uniform_buffer_create(size, bytes, /*p_creation_bits=*/0);
 	}
 	return rd.storage_buffer_create(size, bytes,
 			has_usage(p_desc.usage, BufferUsage::INDIRECT)
 					? int64_t(RD::STORAGE_BUFFER_USAGE_DISPATCH_INDIRECT)
 					: 0,
-			0);
+			/*p_creation_bits=*/0);
 }
 
 BufferRID GodotDevice::create_buffer(const BufferDesc &p_desc) {
@@ -236,8 +238,9 @@ godot::RID GodotDevice::get_layer(GodotTexture &r_texture, uint32_t p_layer) {
 	godot::RID &view = r_texture.layers[p_layer];
 	if (!view) {
 		view = rd.texture_create_shared_from_slice(Ref<godot::RDTextureView>::create(),
-				r_texture.rid, p_layer, 0, 1, RD::TEXTURE_SLICE_2D);
-		GNOMON_ASSERT(view, "layer ", p_layer, " of texture '", r_texture.desc.name, "'");
+				r_texture.rid, p_layer, /*p_mipmap=*/0, /*p_mipmaps=*/1, RD::TEXTURE_SLICE_2D);
+		GNOMON_ASSERT(view, "Godot refuses a view of layer ", p_layer, " of texture '",
+				r_texture.desc.name, "'");
 	}
 	return view;
 }
@@ -337,8 +340,8 @@ void GodotDevice::flush_uploads() {
 godot::Callable GodotDevice::make_callable(ReadBackCallback p_callback) const {
 	return godot::Callable(
 			[callback = std::move(p_callback), is_alive = is_alive,
-					is_valid = is_submitted_or_recorded](std::span<const Variant> p_arguments) {
-				if (!*is_alive || !*is_valid || p_arguments.empty()) {
+					is_not_abandoned = is_not_abandoned](std::span<const Variant> p_arguments) {
+				if (!*is_alive || !*is_not_abandoned || p_arguments.empty()) {
 					return;
 				}
 				try {
@@ -405,7 +408,7 @@ CommandList &GodotDevice::begin_commands() {
 	is_recording = true;
 	++submission;
 	spans.clear();
-	is_submitted_or_recorded = std::make_shared<bool>(true);
+	is_not_abandoned = std::make_shared<bool>(true);
 	flush_uploads();
 	return *this;
 }
@@ -438,7 +441,7 @@ void GodotDevice::abandon_commands() {
 	if (draw_list >= 0) {
 		end_rendering();
 	}
-	*is_submitted_or_recorded = false;
+	*is_not_abandoned = false;
 	read_backs.clear();
 	submit_commands(SubmitMode::QUEUE);
 }

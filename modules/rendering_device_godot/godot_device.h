@@ -139,7 +139,7 @@ private:
 	void clear_color(TextureRID p_texture, glm::vec4 p_value) override;
 
 	/// Key of a Godot object that is made from several resources: their ids, and other numbers.
-	/// Ids are above 2^32, so that remove_dependents takes no other number for one.
+	/// Ids are above 2^32, so that remove_dependents cannot mistake another number for an id.
 	using Key = std::vector<uint64_t>;
 	struct Cached {
 		godot::RID rid;
@@ -149,6 +149,7 @@ private:
 
 	uint32_t measure_subgroup_size();
 	godot::RID create_godot_buffer(const BufferDesc &p_desc, std::span<const uint8_t> p_bytes);
+	/// Returns a view of the layer; the texture itself for ALL_LAYERS or if it is no array.
 	godot::RID get_layer(GodotTexture &r_texture, uint32_t p_layer);
 	PipelineRID add_pipeline(GodotPipeline &&p_pipeline, std::span<const std::string> p_shaders);
 	godot::RID get_shader(std::span<const std::string> p_names);
@@ -201,19 +202,19 @@ private:
 	std::vector<BufferRID> stale_uploads;
 	/// For a local device: data that was read back, and the callbacks to call.
 	std::deque<std::pair<std::vector<uint8_t>, ReadBackCallback>> read_backs;
-	/// Shared with the callbacks that Godot stores: the first is false once the recorded commands
-	/// are abandoned, the second once the device is destroyed.
-	std::shared_ptr<bool> is_submitted_or_recorded = std::make_shared<bool>(true);
-	std::shared_ptr<bool> is_alive = std::make_shared<bool>(true);
+	/// Shared with the callbacks that Godot stores, which do nothing if one of them is false.
+	std::shared_ptr<bool> is_not_abandoned = std::make_shared<bool>(true); // one per recording
+	std::shared_ptr<bool> is_alive = std::make_shared<bool>(true); // false: device destroyed
 
 	// State of the recording and of the last submission.
-	uint64_t submission = 0;
+	uint64_t submission = 0; // number of the newest one, the one being recorded included
 	bool is_recording = false;
 	bool is_submitted = false; // a local device's last submission has not been waited for
+	// Godot's ids of the open lists, and of the draw list's framebuffer format; -1: none.
 	int64_t compute_list = -1;
 	int64_t draw_list = -1;
 	int64_t framebuffer_format = -1;
-	const GodotPipeline *bound = nullptr;
+	const GodotPipeline *bound = nullptr; // the bound pipeline
 	std::vector<BufferRID> vertex_buffers;
 	BufferRID index_buffer;
 };

@@ -48,7 +48,8 @@ int64_t to_godot_format(Format p_format) {
 int64_t to_godot_vertex_format(uint32_t p_component_count) {
 	constexpr int64_t FORMATS[] = { RD::DATA_FORMAT_R32_SFLOAT, RD::DATA_FORMAT_R32G32_SFLOAT,
 		RD::DATA_FORMAT_R32G32B32_SFLOAT, RD::DATA_FORMAT_R32G32B32A32_SFLOAT };
-	GNOMON_ASSERT(p_component_count >= 1 && p_component_count <= 4, p_component_count);
+	GNOMON_ASSERT(p_component_count >= 1 && p_component_count <= 4, "a vertex attribute has ",
+			p_component_count, " components");
 	return FORMATS[p_component_count - 1];
 }
 
@@ -63,8 +64,8 @@ int64_t to_godot_usage(const TextureDesc &p_desc) {
 				RD::TEXTURE_USAGE_CAN_COPY_TO_BIT | RD::TEXTURE_USAGE_CAN_UPDATE_BIT },
 	};
 	int64_t usage = 0;
-	for (const auto &[ours, godots] : BITS) {
-		usage |= has_usage(p_desc.usage, ours) ? godots : 0;
+	for (const auto &[gnomon_bit, godot_bits] : BITS) {
+		usage |= has_usage(p_desc.usage, gnomon_bit) ? godot_bits : 0;
 	}
 	return usage;
 }

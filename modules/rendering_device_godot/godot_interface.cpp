@@ -27,21 +27,28 @@ GDExtensionVariantType to_godot(BuiltInType p_type) {
 	return static_cast<GDExtensionVariantType>(p_type);
 }
 
-/// Constructor 0 makes an empty value and constructor 1 a copy, for all types.
-void construct(BuiltInType p_type, int p_index, void *r_value, const void *p_source) {
+// Indices of constructors, the same for all types.
+constexpr int EMPTY_CONSTRUCTOR = 0;
+constexpr int COPY_CONSTRUCTOR = 1;
+
+void construct(BuiltInType p_type, int p_constructor, void *r_value, const void *p_source) {
 	const GDExtensionConstTypePtr arguments[] = { p_source };
-	interface.variant_get_ptr_constructor(to_godot(p_type), p_index)(r_value, arguments);
+	interface.variant_get_ptr_constructor(to_godot(p_type), p_constructor)(r_value, arguments);
 }
 
+/// A method of a built-in type, with one argument or none. p_hash: Godot's hash of its signature.
 class BuiltInMethod {
 public:
 	BuiltInMethod(BuiltInType p_type, const char *p_name, int64_t p_hash) {
 		const StringName name(p_name);
 		method = interface.variant_get_ptr_builtin_method(to_godot(p_type), name.get(), p_hash);
 		if (!method) {
-			fail("This Godot has no method \"", p_name, "\" of arrays as Gnomon knows it.");
+			fail("This Godot has no method \"", p_name,
+					"\" of arrays with the signature that the add-on was built for. Build the "
+					"add-on with this Godot, see doc/godot.md.");
 		}
 	}
+	/// p_argument: null if the method has none.
 	void call(void *p_base, const void *p_argument, void *r_result) const {
 		const GDExtensionConstTypePtr arguments[] = { p_argument };
 		method(p_base, arguments, r_result, p_argument ? 1 : 0);
@@ -122,7 +129,7 @@ void construct_built_in(BuiltInType p_type, void *r_value) {
 	if (p_type == BuiltInType::VARIANT) {
 		interface.variant_new_nil(r_value);
 	} else {
-		construct(p_type, 0, r_value, nullptr);
+		construct(p_type, EMPTY_CONSTRUCTOR, r_value, nullptr);
 	}
 }
 
@@ -130,7 +137,7 @@ void copy_built_in(BuiltInType p_type, void *r_value, const void *p_source) {
 	if (p_type == BuiltInType::VARIANT) {
 		interface.variant_new_copy(r_value, p_source);
 	} else {
-		construct(p_type, 1, r_value, p_source);
+		construct(p_type, COPY_CONSTRUCTOR, r_value, p_source);
 	}
 }
 
@@ -222,7 +229,7 @@ double Variant::to_float() const {
 }
 
 std::string Variant::to_utf8() const {
-	String value; // empty: has no memory yet
+	String value; // owns no memory while empty, so that it can be constructed over
 	convert_to_godot_type(BuiltInType::STRING, value.get(), bytes);
 	return value.to_utf8();
 }
@@ -245,6 +252,8 @@ void *Variant::to_object() const {
 }
 
 void Variant::store(BuiltInType p_type, void *r_value) const {
+	// The new value is constructed over the old one, so types with a destructor are destroyed
+	// first. RID and OBJECT have none and must not be stored.
 	if (p_type == BuiltInType::VARIANT || p_type >= BuiltInType::STRING_NAME ||
 			p_type == BuiltInType::STRING) {
 		destroy_built_in(p_type, r_value);
@@ -257,11 +266,11 @@ void Variant::store(BuiltInType p_type, void *r_value) const {
 }
 
 Variant Variant::get_keyed(const Variant &p_key) const {
-	Variant value;
-	Variant got(Uninitialized::UNINITIALIZED);
+	Variant empty;
+	Variant found(Uninitialized::UNINITIALIZED);
 	GDExtensionBool is_valid = 0;
-	interface.variant_get_keyed(bytes, p_key.bytes, got.bytes, &is_valid);
-	return is_valid ? got : value;
+	interface.variant_get_keyed(bytes, p_key.bytes, found.bytes, &is_valid);
+	return is_valid ? found : empty;
 }
 
 Variant Variant::call(const char *p_method, std::span<const Variant> p_arguments) const {
@@ -276,7 +285,8 @@ Variant Variant::call(const char *p_method, std::span<const Variant> p_arguments
 			static_cast<GDExtensionInt>(arguments.size()), result.bytes, &error);
 	if (error.error != GDEXTENSION_CALL_OK) {
 		fail("Godot refused to call \"", p_method, "\" with ", p_arguments.size(),
-				" arguments (error ", int(error.error), ", argument ", error.argument, ").");
+				" arguments (GDExtensionCallErrorType ", int(error.error), ", argument ",
+				error.argument, ").");
 	}
 	return result;
 }
@@ -434,7 +444,7 @@ void *cast_object(void *p_object, void *p_class_tag) {
 void *create_object(const char *p_class) {
 	const StringName name(p_class);
 	void *object = interface.classdb_construct_object2(name.get());
-	GNOMON_ASSERT(object, "Godot makes no ", p_class);
+	GNOMON_ASSERT(object, "Godot cannot create an object of class ", p_class);
 	RefCounted(object).init_ref();
 	return object;
 }
@@ -463,7 +473,8 @@ MethodBind::MethodBind(const char *p_class, const char *p_method, int64_t p_hash
 			interface.classdb_get_method_bind(class_name.get(), method_name.get(), p_hash));
 	if (!bind) {
 		fail("This Godot has no ", p_class, ".", p_method,
-				" as Gnomon knows it. Build the add-on with this Godot, see doc/godot.md.");
+				" with the signature that the add-on was built for. Build the add-on with this "
+				"Godot, see doc/godot.md.");
 	}
 }
 

@@ -55,8 +55,8 @@ struct Interface {
 	GDExtensionClassLibraryPtr extension; // handle of the add-on's library
 };
 
-/// Loads the functions with the address getter of the add-on's entry point; everything else here
-/// needs them. A missing function is an Error that names it.
+/// Loads the functions with the address getter of the add-on's entry point; everything else in
+/// gnomon::godot needs them. A missing function is an Error that names it.
 void load_interface(
 		GDExtensionInterfaceGetProcAddress p_get_address, GDExtensionClassLibraryPtr p_library);
 const Interface &get_interface();

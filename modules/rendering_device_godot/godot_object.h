@@ -21,14 +21,16 @@ protected:
 };
 
 /// Creates an object of a Godot class that inherits RefCounted, with one reference. A class that
-/// Godot cannot create, or a singleton that it lacks, is an assertion.
+/// Godot cannot create is an assertion.
 void *create_object(const char *p_class);
+/// Returns the only object of the class; a singleton that Godot lacks is an assertion.
 void *find_singleton(const char *p_class);
 /// Returns the object with this id; null: it was freed. Call it on the thread that may free it.
 void *get_instance(uint64_t p_id);
 uint64_t get_instance_id(void *p_object);
 /// Returns the tag of a class; null: this version of Godot has no such class.
 void *find_class_tag(const char *p_class);
+/// Returns null if the object or the tag is null, or the object is of another class.
 void *cast_object(void *p_object, void *p_class_tag);
 /// Casts an object; the result is empty if it is null or of another class.
 template <typename T> T cast(const ObjectHandle &p_object) {
@@ -72,10 +74,11 @@ public:
 	}
 };
 
-/// A method of a Godot class, looked up at the first call. If this version of Godot lacks it, the
-/// call is an Error that names the method.
+/// A method of a Godot class. The generated classes look it up at its first call. If this version
+/// of Godot lacks it, that is an Error that names the method.
 class MethodBind {
 public:
+	/// p_hash: Godot's hash of the method's signature.
 	MethodBind(const char *p_class, const char *p_method, int64_t p_hash);
 
 	template <typename Result, typename... Arguments>
@@ -114,6 +117,7 @@ private:
 	struct Pointer {
 		const void *value;
 	};
+	/// Converts an argument to what a ptrcall reads: get_pointer of the result is its address.
 	template <typename T> static auto encode(const T &p_value) {
 		if constexpr (std::is_same_v<T, bool>) {
 			return uint8_t(p_value);

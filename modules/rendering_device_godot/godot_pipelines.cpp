@@ -1,3 +1,5 @@
+// Shaders and pipelines of GodotDevice.
+
 #include "modules/core/embedded_shaders.h"
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_device.h"
@@ -27,7 +29,7 @@ int64_t to_godot_stage(ShaderStage p_stage, const std::string &p_name) {
 		case ShaderStage::NONE:
 			break;
 	}
-	GNOMON_ASSERT(false, "shader ", p_name, " is of a stage that Godot does not have");
+	GNOMON_ASSERT(false, "shader ", p_name, " is not a vertex, fragment or compute shader");
 	return 0;
 }
 
@@ -40,6 +42,7 @@ Array make_constants(
 				std::find(booleans.begin(), booleans.end(), constant.constant_id) != booleans.end();
 		const auto made = Ref<godot::RDPipelineSpecializationConstant>::create();
 		made.set_constant_id(constant.constant_id);
+		// Godot needs the value in the constant's type, boolean or integer.
 		made.set_value(
 				is_boolean ? Variant(constant.value != 0) : Variant(int64_t(constant.value)));
 		constants.append(Variant::of_object(made.get_object()));
@@ -48,6 +51,7 @@ Array make_constants(
 }
 
 void set_stencil(const StencilTest &p_test, const godot::RDPipelineDepthStencilState &r_state) {
+	constexpr int64_t ALL_BITS = 0xff; // of an 8-bit stencil
 	// Gnomon's and Godot's enums have the same order.
 	r_state.set_enable_stencil(true);
 	r_state.set_front_op_compare(int64_t(p_test.front.compare));
@@ -55,15 +59,15 @@ void set_stencil(const StencilTest &p_test, const godot::RDPipelineDepthStencilS
 	r_state.set_front_op_depth_fail(int64_t(p_test.front.depth_fail));
 	r_state.set_front_op_pass(int64_t(p_test.front.pass));
 	r_state.set_front_op_reference(p_test.reference);
-	r_state.set_front_op_compare_mask(0xff);
-	r_state.set_front_op_write_mask(0xff);
+	r_state.set_front_op_compare_mask(ALL_BITS);
+	r_state.set_front_op_write_mask(ALL_BITS);
 	r_state.set_back_op_compare(int64_t(p_test.back.compare));
 	r_state.set_back_op_fail(int64_t(p_test.back.fail));
 	r_state.set_back_op_depth_fail(int64_t(p_test.back.depth_fail));
 	r_state.set_back_op_pass(int64_t(p_test.back.pass));
 	r_state.set_back_op_reference(p_test.reference);
-	r_state.set_back_op_compare_mask(0xff);
-	r_state.set_back_op_write_mask(0xff);
+	r_state.set_back_op_compare_mask(ALL_BITS);
+	r_state.set_back_op_write_mask(ALL_BITS);
 }
 static_assert(int64_t(CompareOp::ALWAYS) == RD::COMPARE_OP_ALWAYS &&
 		int64_t(CompareOp::GREATER) == RD::COMPARE_OP_GREATER &&
@@ -78,13 +82,14 @@ Ref<godot::RDPipelineColorBlendStateAttachment> make_blend(BlendMode p_mode) {
 	const int64_t operation = p_mode == BlendMode::MINIMUM ? RD::BLEND_OP_MINIMUM
 			: p_mode == BlendMode::MAXIMUM				   ? RD::BLEND_OP_MAXIMUM
 														   : RD::BLEND_OP_ADD;
-	const int64_t target = is_alpha ? RD::BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : RD::BLEND_FACTOR_ONE;
+	const int64_t dst_factor =
+			is_alpha ? RD::BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : RD::BLEND_FACTOR_ONE;
 	state.set_enable_blend(true);
 	state.set_src_color_blend_factor(is_alpha ? RD::BLEND_FACTOR_SRC_ALPHA : RD::BLEND_FACTOR_ONE);
-	state.set_dst_color_blend_factor(target);
+	state.set_dst_color_blend_factor(dst_factor);
 	state.set_color_blend_op(operation);
 	state.set_src_alpha_blend_factor(RD::BLEND_FACTOR_ONE);
-	state.set_dst_alpha_blend_factor(target);
+	state.set_dst_alpha_blend_factor(dst_factor);
 	state.set_alpha_blend_op(operation);
 	return state;
 }
@@ -237,7 +242,8 @@ godot::RID GodotDevice::make_raster_pipeline(
 	blend.set_attachments(attachments);
 	const godot::RID made = rd.render_pipeline_create(p_pipeline.shader, p_framebuffer_format,
 			p_pipeline.vertex_format, RD::RENDER_PRIMITIVE_TRIANGLES, rasterization,
-			Ref<godot::RDPipelineMultisampleState>::create(), depth_stencil, blend, 0, 0,
+			Ref<godot::RDPipelineMultisampleState>::create(), depth_stencil, blend,
+			/*p_dynamic_state_flags=*/0, /*p_for_render_pass=*/0,
 			make_constants(p_pipeline, desc.constants));
 	if (!made) {
 		fail("Pipeline '", p_pipeline.name,

@@ -38,7 +38,7 @@ struct Transform3D {
 	bool operator==(const Transform3D &) const = default;
 };
 
-/// Values of GDExtensionVariantType; VARIANT: a Variant that can store any of them.
+/// Values of GDExtensionVariantType; VARIANT, which is NIL there, is a Variant of any type.
 enum class BuiltInType : int {
 	VARIANT = 0,
 	BOOL = 1,
@@ -81,7 +81,7 @@ public:
 		return *this;
 	}
 	~BuiltIn() { destroy_built_in(TYPE, bytes); }
-	void *get() const { return bytes; }
+	void *get() const { return bytes; } // the address that Godot's calls take
 
 protected:
 	/// Leaves `bytes` without a valid value, for the constructor of the derived class to fill.
@@ -90,6 +90,7 @@ protected:
 
 	alignas(8) mutable uint8_t bytes[BYTES] = {};
 };
+/// The classes derived from BuiltIn, which is_built_in() marks; it does nothing.
 template <typename T>
 concept IsBuiltIn = requires(const T &p_value) {
 	{ p_value.is_built_in() };
@@ -149,9 +150,9 @@ public:
 	glm::vec3 to_vector3() const;
 	Transform3D to_transform() const;
 	RID to_rid() const;
-	/// Null: none; does not add a reference, so callers that keep a RefCounted must.
+	/// Returns null if no object is stored. Adds no reference: callers that keep a RefCounted must.
 	void *to_object() const;
-	/// Assigns to a value of that type, which Godot passes by address.
+	/// Converts to p_type and assigns to an existing value of that type.
 	void store(BuiltInType p_type, void *r_value) const;
 	/// Looks up a key of a Dictionary; the result is empty if the key is absent.
 	Variant get_keyed(const Variant &p_key) const;
@@ -182,7 +183,7 @@ public:
 	void is_built_in() const {}
 };
 
-// Resize, read or assign the packed array of that type at r_array or p_array. resize_packed and
+// Resize, read or construct the packed array of that type at r_array or p_array. resize_packed and
 // get_packed return the address of its first element; get_packed returns null if it is empty.
 void *resize_packed(BuiltInType p_type, void *r_array, size_t p_size);
 const void *get_packed(BuiltInType p_type, const void *p_array, size_t &r_size);

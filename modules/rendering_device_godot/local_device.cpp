@@ -1,4 +1,4 @@
-// A local device, which shares no resources with the device that draws Godot's frames.
+// Creates a local device of Godot, which shares no resources with the one that draws its frames.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_device.h"

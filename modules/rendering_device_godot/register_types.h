@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: the add-on creates a device for the engine that hosts it.
+// Nothing to register: callers create the device, on top of one of Godot's.

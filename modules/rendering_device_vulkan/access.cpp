@@ -16,7 +16,7 @@ struct AccessScope {
 
 constexpr VkPipelineStageFlags2 DEPTH_STAGES =
 		VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
-// Covers the geometry stage where the device has one, without enabling the feature.
+// Covers the geometry stage too, whose own bit is only allowed if geometryShader is enabled.
 constexpr VkPipelineStageFlags2 VERTEX_STAGES = VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT;
 constexpr VkAccessFlags2 SHADER_ACCESS = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
 constexpr VkAccessFlags2 WRITES = VK_ACCESS_2_SHADER_WRITE_BIT |
@@ -112,7 +112,7 @@ Dependency compute_dependency(const Barrier &p_barrier) {
 	const AccessScope &before = get_access_scope(p_barrier.before);
 	const AccessScope &after = get_access_scope(p_barrier.after);
 	Dependency dependency = { before.stages, get_write_access(p_barrier.before), after.stages,
-		after.access, before.layout, after.layout, true };
+		after.access, before.layout, after.layout, /*is_needed=*/true };
 	const bool is_texture = bool(p_barrier.texture);
 	if (p_barrier.before == Access::NONE) {
 		// Each command list begins with a full barrier. With the stages of the next use as source

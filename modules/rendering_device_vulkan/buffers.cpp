@@ -8,10 +8,11 @@ namespace gnomon {
 
 namespace {
 
+/// Largest size of buffers with one of the usages.
 struct Limit {
 	BufferUsage usage;
 	uint64_t max_bytes;
-	const char *what;
+	const char *what; // such a buffer, in messages
 };
 
 } // namespace
@@ -102,7 +103,7 @@ BufferRID VulkanDevice::create_buffer_with_data(
 		BufferDesc p_desc, std::span<const uint8_t> p_bytes) {
 	fail_if_lost();
 	GNOMON_ASSERT(p_bytes.size() <= p_desc.size_bytes, "buffer '", p_desc.name, "' of ",
-			p_desc.size_bytes, " bytes gets ", p_bytes.size());
+			p_desc.size_bytes, " bytes gets ", p_bytes.size(), " bytes of data");
 	p_desc.usage = p_desc.usage | BufferUsage::COPY_TARGET;
 	p_desc.memory = MemoryKind::GPU;
 	const BufferRID buffer = buffers.add(make_buffer(p_desc));

@@ -15,13 +15,13 @@ void VulkanCommandList::push_barrier(const Barrier &p_barrier,
 		std::vector<VkBufferMemoryBarrier2> &r_buffers,
 		std::vector<VkImageMemoryBarrier2> &r_images) {
 	const Dependency dependency = compute_dependency(p_barrier);
-	const auto fill = [&](auto p_empty) {
-		p_empty.srcStageMask = dependency.source_stages;
-		p_empty.srcAccessMask = dependency.source_access;
-		p_empty.dstStageMask = dependency.target_stages;
-		p_empty.dstAccessMask = dependency.target_access;
-		p_empty.srcQueueFamilyIndex = p_empty.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-		return p_empty;
+	const auto add_masks = [&](auto p_info) {
+		p_info.srcStageMask = dependency.source_stages;
+		p_info.srcAccessMask = dependency.source_access;
+		p_info.dstStageMask = dependency.target_stages;
+		p_info.dstAccessMask = dependency.target_access;
+		p_info.srcQueueFamilyIndex = p_info.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+		return p_info;
 	};
 	if (p_barrier.texture) {
 		TextureResource &texture = device->textures.get(p_barrier.texture);
@@ -30,8 +30,8 @@ void VulkanCommandList::push_barrier(const Barrier &p_barrier,
 		const Format format = texture.desc.format;
 		texture.recorded_layout = get_layout_for_format(dependency.new_layout, format);
 		if (dependency.is_needed) {
-			r_images.push_back(
-					fill(VkImageMemoryBarrier2{ .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+			r_images.push_back(add_masks(
+					VkImageMemoryBarrier2{ .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
 							.oldLayout = get_layout_for_format(dependency.old_layout, format),
 							.newLayout = texture.recorded_layout,
 							.image = texture.image,
@@ -42,8 +42,8 @@ void VulkanCommandList::push_barrier(const Barrier &p_barrier,
 	} else {
 		const BufferResource &buffer = device->buffers.get(p_barrier.buffer);
 		if (dependency.is_needed) {
-			r_buffers.push_back(
-					fill(VkBufferMemoryBarrier2{ .sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
+			r_buffers.push_back(add_masks(
+					VkBufferMemoryBarrier2{ .sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
 							.buffer = buffer.buffer,
 							.size = VK_WHOLE_SIZE }));
 		}

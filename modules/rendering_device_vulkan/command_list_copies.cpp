@@ -11,15 +11,15 @@ VkImageSubresourceLayers make_layers(
 	GNOMON_ASSERT(p_layer + p_layer_count <= p_desc.layer_count, "texture '", p_desc.name, "' has ",
 			p_desc.layer_count, " layers, ", p_layer, " was requested");
 	GNOMON_ASSERT(!has_stencil(p_desc.format), "texture '", p_desc.name, "' is ",
-			get_format_name(p_desc.format), ", which is not copied");
-	return { get_aspect(p_desc.format), 0, p_layer, p_layer_count };
+			get_format_name(p_desc.format), ", which cannot be copied");
+	return { get_aspect(p_desc.format), /*mipLevel=*/0, p_layer, p_layer_count };
 }
 
 VkBufferImageCopy make_layer_copy(const BufferDesc &p_buffer, const TextureDesc &p_texture,
 		uint32_t p_layer, uint64_t p_offset_bytes = 0) {
 	GNOMON_ASSERT(p_buffer.size_bytes >= p_offset_bytes + compute_layer_bytes(p_texture),
 			"buffer '", p_buffer.name, "' has ", p_buffer.size_bytes, " bytes, a layer of '",
-			p_texture.name, "' ", compute_layer_bytes(p_texture), ", beginning at ",
+			p_texture.name, "' needs ", compute_layer_bytes(p_texture), " at offset ",
 			p_offset_bytes);
 	return { .bufferOffset = p_offset_bytes,
 		.imageSubresource = make_layers(p_texture, p_layer, 1),

@@ -59,12 +59,14 @@ void VulkanCommandList::begin_rendering_of_size(
 	};
 	for (const ColorTarget &target : p_colors) {
 		TextureResource &texture = get_target(target.texture, TextureUsage::COLOR_ATTACHMENT);
-		VkRenderingAttachmentInfo &info = colors.emplace_back(VkRenderingAttachmentInfo{
-				.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-				.imageView = device->get_view(texture, ViewUse::ATTACHMENT, target.layer, false),
-				.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-				.loadOp = static_cast<VkAttachmentLoadOp>(target.load),
-				.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
+		const VkImageView view = device->get_view(
+				texture, ViewUse::ATTACHMENT, target.layer, /*p_is_arrayed=*/false);
+		VkRenderingAttachmentInfo &info = colors.emplace_back(
+				VkRenderingAttachmentInfo{ .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+						.imageView = view,
+						.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+						.loadOp = static_cast<VkAttachmentLoadOp>(target.load),
+						.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
 		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
 		target_color_formats.push_back(texture.desc.format);
 	}
@@ -80,7 +82,8 @@ void VulkanCommandList::begin_rendering_of_size(
 		is_target_depth_read_only = texture.recorded_layout == read_only;
 		GNOMON_ASSERT(!is_target_depth_read_only || p_depth->load == LoadOp::KEEP, "target '",
 				texture.desc.name, "' has Access::DEPTH_READ and must be LoadOp::KEEP");
-		depth.imageView = device->get_view(texture, ViewUse::ATTACHMENT, p_depth->layer, false);
+		depth.imageView = device->get_view(
+				texture, ViewUse::ATTACHMENT, p_depth->layer, /*p_is_arrayed=*/false);
 		depth.imageLayout = is_target_depth_read_only
 				? read_only
 				: get_layout_for_format(VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, format);

@@ -11,6 +11,7 @@ namespace {
 // Sets per descriptor pool; a submission that needs more gets further pools, which are reused
 // later.
 constexpr uint32_t SETS_PER_POOL = 256;
+// The factors are averages per set. A pool that runs out of one kind of descriptor is full.
 constexpr VkDescriptorPoolSize POOL_SIZES[] = {
 	{ VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * SETS_PER_POOL },
 	{ VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * SETS_PER_POOL },
@@ -104,7 +105,8 @@ private:
 			const bool is_array = texture.desc.is_array && p_binding.layer == Binding::ALL_LAYERS;
 			GNOMON_ASSERT(is_array == p_reflected.is_arrayed, "pipeline '", pipeline.name,
 					"': texture '", texture.desc.name, "' at binding ", p_binding.binding,
-					is_array ? " is an array" : " is no array", ", the shader declares another");
+					is_array ? " is an array, but the shader declares none"
+							 : " is no array, but the shader declares one");
 			info.imageView = device.get_view(
 					texture, ViewUse::SHADER, p_binding.layer, p_reflected.is_arrayed);
 			info.imageLayout = p_layout;

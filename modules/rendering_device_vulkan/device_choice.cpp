@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t NEEDED_PUSH_CONSTANT_BYTES = 128;
+constexpr uint32_t NEEDED_PUSH_CONSTANT_BYTES = 128; // see CommandList::push_constants
 
 // Best type first.
 const std::pair<VkPhysicalDeviceType, const char *> TYPES[] = {
@@ -117,6 +117,8 @@ std::string describe_devices(const std::vector<PhysicalDevice> &p_devices) {
 	return list;
 }
 
+/// Returns the device with this index, else the first usable one whose name contains the text, else
+/// the first unusable one; null if there is none.
 const PhysicalDevice *find_named_device(
 		const std::vector<PhysicalDevice> &p_devices, const std::string &p_requested) {
 	for (const PhysicalDevice &device : p_devices) {
@@ -190,8 +192,8 @@ const PhysicalDevice &choose_device(
 					". Give an index or a part of a name to ", "--device.");
 		}
 		if (!device->info.is_usable) {
-			fail("Vulkan device \"", device->info.name, "\" cannot be used: it ",
-					device->info.refusal, ". There are: ", describe_devices(p_devices),
+			fail("Vulkan device \"", device->info.name, "\" cannot be used (", device->info.refusal,
+					"). There are: ", describe_devices(p_devices),
 					". Choose another with --device, or update the driver.");
 		}
 		return *device;
@@ -214,7 +216,8 @@ std::vector<DeviceInfo> find_rendering_devices() {
 	std::vector<DeviceInfo> infos;
 	try {
 		const VulkanInstance instance{ DeviceOptions() };
-		for (const PhysicalDevice &device : find_physical_devices(instance.get(), false)) {
+		for (const PhysicalDevice &device :
+				find_physical_devices(instance.get(), /*p_needs_surface=*/false)) {
 			infos.push_back(device.info);
 		}
 	} catch (...) {

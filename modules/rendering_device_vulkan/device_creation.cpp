@@ -194,8 +194,8 @@ VulkanDevice::~VulkanDevice() {
 	for (PendingUpload &upload : pending_uploads) {
 		destroy(upload.staging);
 	}
-	drop_read_backs(0);
-	destroy_freed(~uint64_t(0));
+	drop_read_backs(/*p_after_submission_number=*/0);  // all
+	destroy_freed(/*p_finished_number=*/~uint64_t(0)); // all
 	textures.for_each([&](TextureRID, TextureResource &r_texture) { destroy(r_texture); });
 	buffers.for_each([&](BufferRID, BufferResource &r_buffer) { destroy(r_buffer); });
 	samplers.for_each([&](SamplerRID, SamplerResource &r_sampler) { destroy(r_sampler); });

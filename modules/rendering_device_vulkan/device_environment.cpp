@@ -11,11 +11,12 @@ namespace gnomon {
 
 namespace {
 
-constexpr double MAX_WAIT_S = 86400;
-constexpr double GPU_WAIT_S = 60; // drivers reset a device that hangs after 2 to 10 s
-// Software is a hundred times slower than a GPU, on which a pass takes far less than GPU_WAIT_S.
+constexpr double MAX_WAIT_S = 86400; // a day
+constexpr double GPU_WAIT_S = 60;	 // drivers reset a device that hangs after 2 to 10 s
+// Software is a hundred times slower than a GPU, but ten times the limit is enough, because a pass
+// takes far less than GPU_WAIT_S on a GPU.
 constexpr double CPU_WAIT_S = 600;
-constexpr double MAX_BUDGET_MIB = 1 << 24;
+constexpr double MAX_BUDGET_MIB = 1 << 24; // 16 TiB
 
 /// Reads a number in 0..p_max from an environment variable. Returns nothing if the variable is
 /// absent or empty; any other value is an Error, in which p_zero states the meaning of 0.

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double PROGRESS_CHECK_INTERVAL_S = 1.0; // interval between checks for progress
+constexpr double PROGRESS_CHECK_INTERVAL_S = 1.0;
 constexpr double FINAL_WAIT_S = 2.0; // last wait for a hung device, before it is leaked
 
 std::atomic<bool> has_hung_device = false;
@@ -53,6 +53,7 @@ void VulkanDevice::wait_for(uint64_t p_submission_number) {
 		}
 		return std::pair(get_finished_number(), begun_count);
 	};
+	// A quarter of a short limit, so that the wait does not exceed it by much.
 	const double check_interval_s = wait_limit_s > 0
 			? std::min(PROGRESS_CHECK_INTERVAL_S, wait_limit_s / 4)
 			: PROGRESS_CHECK_INTERVAL_S;
@@ -92,7 +93,7 @@ void VulkanDevice::fail_as_hung(uint64_t p_finished_number) {
 	}
 	is_hung = true;
 	lost_text = text("The device has made no progress for ", wait_limit_s, " s, ", where,
-			". Lower the sizes this pass works with, choose another device with --device, or let "
+			". Lower the map size or the image size, choose another device with --device, or let "
 			"it take longer: GNOMON_DEVICE_TIMEOUT_S is the limit in seconds, 0 = none.");
 	throw DeviceLost(lost_text);
 }

@@ -12,6 +12,7 @@ constexpr size_t NAMED_RESOURCE_COUNT = 3; // named when memory is exhausted
 std::string describe_bytes(uint64_t p_bytes) {
 	constexpr uint64_t KIB = 1024;
 	constexpr uint64_t MIB = KIB * KIB;
+	// From 16 units on, so that rounding down loses less than 1/16.
 	if (p_bytes < 16 * KIB) {
 		return text(p_bytes, " bytes");
 	}
@@ -28,7 +29,7 @@ void VulkanDevice::check(VkResult p_result, const char *p_call) {
 		fail_as_lost(describe_last_span());
 	}
 	fail(p_call, " failed on device \"", physical.info.name, "\": ", get_result_name(p_result),
-			". Lower the sizes in use, or choose another device with --device.");
+			". Lower the map size or the image size, or choose another device with --device.");
 }
 
 void VulkanDevice::fail_if_lost() const {
@@ -40,7 +41,7 @@ void VulkanDevice::fail_if_lost() const {
 void VulkanDevice::fail_as_lost(const std::string &p_where) {
 	if (lost_text.empty()) {
 		lost_text = text("The device was lost ", p_where,
-				". Restart the program; if it happens again, lower the sizes this pass works with, "
+				". Restart the program; if it happens again, lower the map size or the image size, "
 				"update the driver, or choose another device with --device.");
 	}
 	throw DeviceLost(lost_text);

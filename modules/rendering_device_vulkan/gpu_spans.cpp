@@ -5,7 +5,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t SPANS_PER_QUERY_POOL = 64;
+constexpr uint32_t SPANS_PER_QUERY_POOL = 64; // with two timestamps each
 
 } // namespace
 
@@ -41,13 +41,13 @@ void VulkanCommandList::begin_span(const std::string &p_name) {
 		slot.query_pools.push_back(pool);
 	}
 	const VkQueryPool pool = slot.query_pools[pool_index];
-	const uint32_t in_pool = index % SPANS_PER_QUERY_POOL;
-	if (in_pool == 0) {
+	const uint32_t index_in_pool = index % SPANS_PER_QUERY_POOL;
+	if (index_in_pool == 0) {
 		vkCmdResetQueryPool(commands, pool, 0, 2 * SPANS_PER_QUERY_POOL);
 	}
 	// "All commands" at both ends: a span begins when all commands before it are done, so that the
 	// spans of a frame do not overlap and their times can be added.
-	vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * in_pool);
+	vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * index_in_pool);
 }
 
 void VulkanCommandList::end_span() {
@@ -80,6 +80,7 @@ void VulkanDevice::read_spans(SubmissionSlot &r_slot) {
 					"vkGetQueryPoolResults");
 			// The mask keeps the difference correct if timestamps of less than 64 bits overflow.
 			const uint64_t ticks = (times[1] - times[0]) & timestamp_mask;
+			// timestampPeriod: nanoseconds per tick.
 			span.gpu_ms = static_cast<double>(ticks) * limits.timestampPeriod * 1e-6;
 		}
 		gpu_spans.push_back(std::move(span));

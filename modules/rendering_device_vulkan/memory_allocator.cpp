@@ -14,7 +14,8 @@ constexpr uint64_t HEAP_PERCENT = 90;
 // as a 256 MiB window into the memory of a large device.
 constexpr uint64_t BLOCKS_PER_HEAP = 16;
 
-/// Returns how well a memory type suits the kind: higher is better, -1 is unusable.
+/// Returns how well a memory type suits the kind: higher is better, -1 is unusable. The property
+/// with factor 2 decides; the other one chooses between types that are equal in it.
 int rate_memory_type(VkMemoryPropertyFlags p_flags, MemoryKind p_kind) {
 	const auto has = [&](VkMemoryPropertyFlags p_flag) { return (p_flags & p_flag) == p_flag; };
 	const bool is_mappable =
@@ -57,7 +58,7 @@ void MemoryAllocator::initialize(VkPhysicalDevice p_physical_device, VkDevice p_
 	vkGetPhysicalDeviceProperties2(physical_device, &device_properties);
 	max_allocation_bytes = limits.maxMemoryAllocationSize;
 	refresh_heap_budgets();
-	const uint32_t type = find_memory_type(~0u, MemoryKind::GPU);
+	const uint32_t type = find_memory_type(/*p_type_bits=*/~0u, MemoryKind::GPU);
 	use.budget_bytes = compute_budget_bytes(type);
 }
 
@@ -93,16 +94,18 @@ void MemoryAllocator::refresh_heap_budgets() {
 	};
 	vkGetPhysicalDeviceMemoryProperties2(physical_device, &properties2);
 	for (uint32_t heap = 0; heap < properties.memoryHeapCount; ++heap) {
-		heap_budgets[heap] = properties.memoryHeaps[heap].size / 100 * HEAP_PERCENT;
+		heap_budget_bytes[heap] = properties.memoryHeaps[heap].size / 100 * HEAP_PERCENT;
 		if (reported.heapBudget[heap] > 0) {
-			heap_budgets[heap] = std::min<uint64_t>(heap_budgets[heap], reported.heapBudget[heap]);
+			heap_budget_bytes[heap] =
+					std::min<uint64_t>(heap_budget_bytes[heap], reported.heapBudget[heap]);
 		}
 	}
 }
 
 uint64_t MemoryAllocator::compute_budget_bytes(uint32_t p_memory_type) {
-	return option_budget_bytes > 0 ? option_budget_bytes
-								   : heap_budgets[properties.memoryTypes[p_memory_type].heapIndex];
+	return option_budget_bytes > 0
+			? option_budget_bytes
+			: heap_budget_bytes[properties.memoryTypes[p_memory_type].heapIndex];
 }
 
 Allocation MemoryAllocator::allocate_in_block(
@@ -130,11 +133,11 @@ Allocation MemoryAllocator::allocate(const MemoryRequest &p_request) {
 			std::min(BLOCK_BYTES, properties.memoryHeaps[heap].size / BLOCKS_PER_HEAP);
 	if (size_bytes <= block_bytes / 2) {
 		for (const auto &block : blocks) {
+			// A block for the GPU is not mapped if that failed, see create_block.
+			const bool is_suitable = block->mapped || p_request.kind == MemoryKind::GPU;
 			if (!block->is_dedicated && block->memory_type == type &&
 					block->tiling == p_request.tiling && is_suitable) {
 				if (Allocation allocation = allocate_in_block(*block, p_request);
-			// A block for the GPU is not mapped if that failed, see create_block.
-			const bool is_suitable = block->mapped || p_request.kind == MemoryKind::GPU;
 						allocation.block) {
 					return allocation;
 				}

@@ -75,7 +75,7 @@ private:
 	uint64_t option_budget_bytes = 0;
 	uint64_t max_allocation_bytes = 0;
 	VkPhysicalDeviceMemoryProperties properties = {};
-	uint64_t heap_budgets[VK_MAX_MEMORY_HEAPS] = {};
+	uint64_t heap_budget_bytes[VK_MAX_MEMORY_HEAPS] = {};
 	uint64_t heap_used_bytes[VK_MAX_MEMORY_HEAPS] = {};
 	std::vector<std::unique_ptr<MemoryBlock>> blocks;
 	MemoryUse use;

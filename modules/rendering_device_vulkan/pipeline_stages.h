@@ -21,7 +21,7 @@ public:
 private:
 	VulkanDevice &device;
 	const std::vector<SpecializationConstant> &constants;
-	// Vulkan ignores constants that a shader lacks, so that all stages get the same.
+	// Of all stages together: Vulkan ignores constants that a shader lacks.
 	std::vector<VkSpecializationMapEntry> entries;
 	std::vector<uint32_t> values;
 	VkSpecializationInfo specialization = {};

@@ -20,7 +20,8 @@ VkMemoryRequirements get_image_requirements(VkDevice p_device, const VkImageCrea
 RenderingDevice::PlacementRequirements VulkanDevice::get_placement_requirements(
 		const TextureDesc &p_desc) {
 	fail_if_lost();
-	GNOMON_ASSERT(features.aliased_memory, "texture '", p_desc.name, "' cannot be placed");
+	GNOMON_ASSERT(features.aliased_memory, "texture '", p_desc.name,
+			"' cannot be placed: the device has no aliased_memory");
 	check_texture_limits(p_desc);
 	const VkMemoryRequirements needs = get_image_requirements(device, make_image_info(p_desc));
 	return { needs.size, needs.alignment };
@@ -28,14 +29,16 @@ RenderingDevice::PlacementRequirements VulkanDevice::get_placement_requirements(
 
 MemoryRID VulkanDevice::create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) {
 	fail_if_lost();
-	GNOMON_ASSERT(features.aliased_memory, "memory '", p_name, "' cannot be shared");
+	GNOMON_ASSERT(features.aliased_memory, "memory '", p_name,
+			"' cannot be shared by textures: the device has no aliased_memory");
 	GNOMON_ASSERT(p_size_bytes > 0, "memory '", p_name, "' has no bytes");
-	// Allow only the memory types that colour, storage and depth images have in common.
-	const TextureDesc samples[] = {
+	// Allow only the memory types that colour, storage and depth images have in common. They do not
+	// depend on the size.
+	const TextureDesc examples[] = {
 		{ "", Format::RGBA16_SFLOAT, glm::uvec2(256), 1,
 				TextureUsage::SAMPLED | TextureUsage::COLOR_ATTACHMENT },
 		{ "", Format::R32_SFLOAT, glm::uvec2(256), 2, TextureUsage::SAMPLED | TextureUsage::STORAGE,
-				true },
+				/*is_array=*/true },
 		{ "", Format::D32_SFLOAT, glm::uvec2(256), 1,
 				TextureUsage::SAMPLED | TextureUsage::DEPTH_ATTACHMENT },
 	};
@@ -44,8 +47,8 @@ MemoryRID VulkanDevice::create_texture_memory(const std::string &p_name, uint64_
 		.kind = MemoryKind::GPU,
 		.tiling = Tiling::OPTIMAL
 	};
-	for (const TextureDesc &sample : samples) {
-		const VkMemoryRequirements needs = get_image_requirements(device, make_image_info(sample));
+	for (const TextureDesc &example : examples) {
+		const VkMemoryRequirements needs = get_image_requirements(device, make_image_info(example));
 		request.needs.memoryTypeBits &= needs.memoryTypeBits;
 		request.needs.alignment = std::max(request.needs.alignment, needs.alignment);
 	}

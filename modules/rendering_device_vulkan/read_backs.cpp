@@ -23,7 +23,8 @@ void VulkanDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
 	const BufferResource &source = buffers.get(p_buffer);
 	const BufferResource &target =
 			add_read_back(source.desc.name, source.desc.size_bytes, std::move(p_callback));
-	recording.copy_buffer(source, target, source.desc.size_bytes, 0, 0);
+	recording.copy_buffer(source, target, source.desc.size_bytes, /*p_source_offset_bytes=*/0,
+			/*p_target_offset_bytes=*/0);
 }
 
 void VulkanDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) {

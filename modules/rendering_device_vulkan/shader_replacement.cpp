@@ -70,8 +70,8 @@ void VulkanDevice::replace_shaders(const Replacements &p_spirv_by_name) {
 	Replacements before;
 	for (const auto &[name, words] : p_spirv_by_name) {
 		check_interface(name, words);
-		const std::span<const uint32_t> present = find_embedded_shader(name);
-		before[name].assign(present.begin(), present.end());
+		const std::span<const uint32_t> current = find_embedded_shader(name);
+		before[name].assign(current.begin(), current.end());
 	}
 	for (const auto &[name, words] : p_spirv_by_name) {
 		replace_embedded_shader(name, words);

@@ -130,7 +130,7 @@ CommandList &VulkanDevice::begin_commands() {
 	GNOMON_ASSERT(!recording.is_recording,
 			"begin_commands was called twice without submit_commands or abandon_commands.");
 	SubmissionSlot &slot = get_recording_slot();
-	// An abandoned or refused recording leaves a number that was not submitted.
+	// An abandoned recording, or one that failed to submit, leaves a number that was not submitted.
 	wait_for(std::min(slot.number, submitted_number));
 	collect();
 	drop_read_backs(submitted_number);
@@ -180,7 +180,7 @@ bool VulkanDevice::apply_injected_fault(const SubmissionSlot &p_slot) {
 		fail_as_lost(describe_begun_span(*pass));
 	}
 	if (fault == Fault::OUT_OF_MEMORY) {
-		throw std::bad_alloc();
+		throw std::bad_alloc(); // memory of the CPU
 	}
 	return fault == Fault::HANG;
 }
@@ -200,6 +200,7 @@ void VulkanDevice::submit() {
 
 	const bool is_waiting = swapchain && swapchain->must_wait();
 	const bool is_presenting = swapchain && swapchain->must_present();
+	constexpr uint64_t BINARY = 0; // Vulkan ignores the value of a binary semaphore
 	const auto make_semaphore_info = [](VkSemaphore p_semaphore, uint64_t p_value) {
 		return VkSemaphoreSubmitInfo{ .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
 			.semaphore = p_semaphore,
@@ -208,14 +209,14 @@ void VulkanDevice::submit() {
 	};
 	std::vector<VkSemaphoreSubmitInfo> waits;
 	if (is_waiting) {
-		waits.push_back(make_semaphore_info(swapchain->get_acquire_semaphore(), 0));
+		waits.push_back(make_semaphore_info(swapchain->get_acquire_semaphore(), BINARY));
 	}
 	if (must_hang) {
-		waits.push_back(make_semaphore_info(hang_semaphore, 1));
+		waits.push_back(make_semaphore_info(hang_semaphore, /*p_value=*/1));
 	}
 	std::vector<VkSemaphoreSubmitInfo> signals = { make_semaphore_info(timeline, slot.number) };
 	if (is_presenting) {
-		signals.push_back(make_semaphore_info(swapchain->get_rendered_semaphore(), 0));
+		signals.push_back(make_semaphore_info(swapchain->get_rendered_semaphore(), BINARY));
 	}
 	const VkSubmitInfo2 info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
 		.waitSemaphoreInfoCount = static_cast<uint32_t>(waits.size()),

@@ -9,7 +9,7 @@ void VulkanDevice::check_texture_limits(const TextureDesc &p_desc) {
 			"texture '", p_desc.name, "' is ", p_desc.size_px.x, " x ", p_desc.size_px.y, " x ",
 			p_desc.layer_count);
 	GNOMON_ASSERT(p_desc.is_array || p_desc.layer_count == 1, "texture '", p_desc.name, "' has ",
-			p_desc.layer_count, " layers and is no array");
+			p_desc.layer_count, " layers, but is_array is false");
 	const VkImageCreateInfo info = make_image_info(p_desc);
 	const VkPhysicalDeviceImageFormatInfo2 format_info = {
 		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2,

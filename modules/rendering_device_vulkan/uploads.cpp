@@ -76,7 +76,7 @@ VkCommandBufferSubmitInfo VulkanDevice::record_uploads(const SubmissionSlot &p_s
 		if (upload.texture) {
 			VkImageMemoryBarrier2 &barrier =
 					barriers.emplace_back(make_upload_barrier(textures.get(upload.texture)));
-			// All commands, not none: the memory may have belonged to an earlier resource.
+			// Waits for all commands, because the memory may have belonged to an earlier resource.
 			barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
 			barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 			barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
@@ -93,6 +93,7 @@ VkCommandBufferSubmitInfo VulkanDevice::record_uploads(const SubmissionSlot &p_s
 			const TextureDesc &desc = texture.desc;
 			std::vector<VkBufferImageCopy> regions;
 			VkDeviceSize offset_bytes = 0;
+			// Textures have several mip levels or several layers, not both: see TextureDesc.
 			for (uint32_t level = 0; level < desc.mip_count; ++level) {
 				const glm::uvec2 size_px = compute_mip_size(desc.size_px, level);
 				regions.push_back({ .bufferOffset = offset_bytes,
@@ -140,8 +141,8 @@ void VulkanDevice::flush_uploads_when_many() {
 	if (pending_upload_bytes < MAX_PENDING_BYTES) {
 		return;
 	}
-	// A separate submission that is waited for. It runs before the commands recorded so far, as the
-	// uploads at submission would.
+	// Makes a separate submission and waits for it. It runs before the commands recorded so far, as
+	// uploads that are submitted with those commands would.
 	SubmissionSlot &slot = get_recording_slot();
 	// The slot's command buffers can be reused after this. If earlier work hangs, it throws
 	// DeviceLost, while vkQueueWaitIdle has no time limit.

@@ -8,16 +8,19 @@ namespace gnomon {
 
 namespace {
 
+// Start of the message IDs of the Vulkan loader, which reports about the drivers it finds.
+const char *const LOADER_PREFIX = "Loader Message";
+
 std::mutex messages_mutex; // layers may report from the driver's threads
 unsigned message_count = 0;
-std::vector<std::string> *expected_messages = nullptr;
+std::vector<std::string> *expected_messages = nullptr; // null: messages are counted and logged
 
 VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
 		VkDebugUtilsMessageSeverityFlagBitsEXT /*p_severity*/,
 		VkDebugUtilsMessageTypeFlagsEXT /*p_types*/,
 		const VkDebugUtilsMessengerCallbackDataEXT *p_data, void * /*p_user*/) {
 	const char *name = p_data->pMessageIdName ? p_data->pMessageIdName : "";
-	if (std::strncmp(name, "Loader Message", 14) == 0) {
+	if (std::strncmp(name, LOADER_PREFIX, std::strlen(LOADER_PREFIX)) == 0) {
 		return VK_FALSE;
 	}
 	const char *message = p_data->pMessage ? p_data->pMessage : "";

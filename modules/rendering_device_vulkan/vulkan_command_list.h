@@ -58,6 +58,7 @@ public:
 			uint64_t p_source_offset_bytes) override;
 	void copy_texture(TextureRID p_source, TextureRID p_target) override;
 
+	// The same copies for read_backs.cpp, whose staging buffers have no handles.
 	void copy_buffer(const BufferResource &p_source, const BufferResource &p_target,
 			uint64_t p_size_bytes, uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes);
 	void copy_texture_to_buffer(
@@ -74,6 +75,7 @@ public:
 private:
 	void begin_rendering_of_size(glm::uvec2 p_size_px, std::span<const ColorTarget> p_colors,
 			const DepthTarget *p_depth);
+	// Assert that a call is allowed now. p_call: its name, for the message.
 	void check_recording(const char *p_call) const;
 	void check_draw(const char *p_call) const;
 	void check_dispatch(const char *p_call) const;

@@ -67,8 +67,8 @@ struct PipelineResource {
 	VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
 	VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
 	std::vector<ReflectedBinding> bindings; // of all stages
-	bool uses_resources = false;
-	uint32_t push_constant_bytes = 0; // rounded up to 16
+	bool uses_resources = false;			// a stage reads or writes at least one binding
+	uint32_t push_constant_bytes = 0;		// rounded up to a multiple of 16
 	VkShaderStageFlags push_constant_stages = 0;
 	glm::uvec3 local_size = glm::uvec3(1);
 	// For raster pipelines: compared with the render targets at each draw.
@@ -111,7 +111,7 @@ struct PendingReadBack {
 
 /// Resources of one of the two submissions in flight.
 struct SubmissionSlot {
-	uint64_t number = 0; // 0: nothing submitted yet
+	uint64_t number = 0; // of the submission last recorded here; 0: none yet
 	VkCommandPool pool = VK_NULL_HANDLE;
 	VkCommandBuffer commands = VK_NULL_HANDLE;
 	VkCommandBuffer uploads = VK_NULL_HANDLE; // runs before `commands`
@@ -128,11 +128,11 @@ struct SubmissionSlot {
 /// The Vulkan device. Its source files share this class; it is hidden outside this module.
 class VulkanDevice final : public RenderingDevice {
 public:
+	// device_creation.cpp
 	~VulkanDevice() override;
 	/// Must be called once, before everything else; if it fails, the destructor cleans up.
 	void initialize(const DeviceOptions &p_options);
 
-	// device_creation.cpp
 	const DeviceInfo &get_info() const override { return physical.info; }
 	const DeviceFeatures &get_features() const override { return features; }
 	MemoryUse get_memory_use() const override { return allocator.get_use(); }
@@ -190,7 +190,7 @@ public:
 	PhysicalDevice physical;
 	VkPhysicalDeviceLimits limits = {};
 	uint64_t max_buffer_bytes = 0;
-	uint64_t timestamp_mask = 0; // 0: no timestamps
+	uint64_t timestamp_mask = 0; // the valid bits of a timestamp; 0: no timestamps
 	DeviceFeatures features;
 	VkDevice device = VK_NULL_HANDLE;
 	VkQueue queue = VK_NULL_HANDLE;
@@ -204,7 +204,7 @@ public:
 	std::map<ComputePipelineDesc, PipelineRID> compute_pipelines;
 	std::map<RasterPipelineDesc, PipelineRID> raster_pipelines;
 	VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
-	uint64_t saved_cache_hash = 0;
+	uint64_t saved_cache_hash = 0; // of the pipeline cache on disk; 0: there is none
 
 	std::deque<DeferredFree> deferred_frees; // in the order of their submissions
 	std::vector<PendingUpload> pending_uploads;
@@ -256,7 +256,7 @@ public:
 	}
 	void set_name_of(VkObjectType p_type, uint64_t p_handle, const std::string &p_name);
 
-	// buffers.cpp, textures.cpp
+	// buffers.cpp, textures.cpp, pipelines.cpp, raster_pipelines.cpp
 	Allocation allocate(const std::string &p_resource, const MemoryRequest &p_request);
 	BufferResource make_buffer(const BufferDesc &p_desc);
 	TextureResource make_image(const TextureDesc &p_desc);
@@ -278,7 +278,9 @@ public:
 	BufferResource make_staging(const std::string &p_name, std::span<const uint8_t> p_bytes);
 	/// Records into the slot's command buffer for uploads.
 	VkCommandBufferSubmitInfo record_uploads(const SubmissionSlot &p_slot);
+	/// Submits the pending uploads and waits for them, if they have reached MAX_PENDING_BYTES.
 	void flush_uploads_when_many();
+	/// Discards the pending uploads to a buffer or texture that is being freed.
 	template <typename Handle> void drop_uploads(Handle p_target);
 
 	// read_backs.cpp

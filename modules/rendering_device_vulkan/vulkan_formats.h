@@ -5,6 +5,7 @@
 
 namespace gnomon {
 
+// Vulkan's equivalents of formats and usages.
 VkFormat get_vulkan_format(Format p_format);
 VkImageAspectFlags get_aspect(Format p_format);
 VkImageUsageFlags get_vulkan_usage(TextureUsage p_usage);

@@ -99,7 +99,7 @@ VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
 	};
 	const VkValidationFeaturesEXT validation_features = {
 		.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
-		.pNext = is_debug_utils_enabled ? &messenger_info : nullptr, // for the instance's own calls
+		.pNext = is_debug_utils_enabled ? &messenger_info : nullptr, // for vkCreateInstance
 		.enabledValidationFeatureCount = 1,
 		.pEnabledValidationFeatures = enabled
 	};

@@ -25,7 +25,7 @@ std::vector<Item> list_all(Function p_function, Arguments... p_arguments) {
 bool has_extension(
 		const std::vector<VkExtensionProperties> &p_extensions, const std::string &p_name);
 
-/// Makes the info of a messenger that counts validation warnings and errors, but neither
+/// Makes the info of a messenger that counts and logs validation warnings and errors, but neither
 /// performance advice nor what the loader reports about the drivers it finds.
 VkDebugUtilsMessengerCreateInfoEXT make_messenger_info();
 /// For tests: collects messages in r_messages instead of counting and logging them. Null: counts

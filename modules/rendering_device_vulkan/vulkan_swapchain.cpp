@@ -11,7 +11,7 @@ namespace {
 
 constexpr VkImageUsageFlags IMAGE_USAGE = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
 
-constexpr uint64_t ACQUIRE_TIMEOUT_NS = 2'000'000'000;
+constexpr uint64_t ACQUIRE_TIMEOUT_NS = 2'000'000'000; // then acquire() returns nothing
 
 } // namespace
 
@@ -25,7 +25,7 @@ VulkanSwapchain::VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_
 		device(r_device) {
 	device.fail_if_lost();
 	GNOMON_ASSERT(device.options.needs_surface, "the device was created without needs_surface");
-	GNOMON_ASSERT(!device.swapchain, "a device has one swapchain");
+	GNOMON_ASSERT(!device.swapchain, "the device already has a swapchain");
 	surface = p_create_surface(device.instance->get());
 	if (!surface) {
 		fail("The window gave no Vulkan surface. Check that there is a display, or run with ",
@@ -153,8 +153,10 @@ bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 	for (VkImage handle : list_all<VkImage>(vkGetSwapchainImagesKHR, device.device, swapchain)) {
 		const size_t index = images.size();
 		TextureResource texture;
-		texture.desc = { text("window image ", index), get_format(), size_px, 1,
-			TextureUsage::COLOR_ATTACHMENT };
+		texture.desc = { .name = text("window image ", index),
+			.format = get_format(),
+			.size_px = size_px,
+			.usage = TextureUsage::COLOR_ATTACHMENT };
 		texture.image = handle;
 		texture.is_swapchain = true;
 		device.set_name(VK_OBJECT_TYPE_IMAGE, texture.image, texture.desc.name);

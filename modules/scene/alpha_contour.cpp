@@ -22,11 +22,13 @@ public:
 	int64_t get_count() const { return int64_t(texel_count) + 4; }
 	bool is_outside(int64_t p_node) const { return p_node == 0 || p_node == get_count() - 1; }
 	bool is_border(int64_t p_node) const { return p_node == 1 || p_node == get_count() - 2; }
+	/// Returns a node's position in units; nodes outside are at the same position as the border.
 	int32_t get_position(int64_t p_node) const {
 		const int64_t end = int64_t(texel_count) * UNITS;
 		return static_cast<int32_t>(std::clamp<int64_t>((p_node - 2) * UNITS + UNITS / 2, 0, end));
 	}
-	/// Returns one of the two texels whose mean is the alpha at a node. p_side: 0 or 1.
+	/// Returns one of the two texels whose mean is the alpha at a node: at a border those on both
+	/// sides of it, otherwise twice the node's own. p_side: 0 or 1.
 	uint32_t get_texel(int64_t p_node, int p_side) const {
 		const int64_t first = p_node == 1 ? -1 : p_node - 2;
 		return wrap_texel(first + (is_border(p_node) ? p_side - (p_node == 1 ? 0 : 1) : 0),
@@ -59,7 +61,9 @@ private:
 	int get_alpha(int64_t p_x, int64_t p_y) const;
 	bool is_inside(int p_alpha) const { return p_alpha >= 0 && p_alpha >= threshold; }
 	void read_row(int64_t p_y, std::vector<int> &r_row) const;
+	/// Adds the contour's segments in a cell. p_alphas: of its corners.
 	void add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]);
+	/// Returns the index, in the whole grid, of a side of the cell whose first node is (p_x, p_y).
 	uint64_t get_edge(int64_t p_x, int64_t p_y, int p_side) const;
 	glm::ivec2 compute_crossing(int64_t p_x, int64_t p_y, int p_side, const int p_alphas[4]) const;
 	std::vector<PolygonLoop> link_loops();
@@ -117,7 +121,7 @@ glm::ivec2 ContourFinder::compute_crossing(
 	const glm::ivec2 b(
 			columns.get_position(p_x + CORNER_X[to]), rows.get_position(p_y + CORNER_Y[to]));
 	const int length = (b.x - a.x) + (b.y - a.y);
-	if (length == 0 || p_alphas[from] < 0 || p_alphas[to] < 0) {
+	if (length == 0 || p_alphas[from] < 0 || p_alphas[to] < 0) { // closes the contour at a border
 		return p_alphas[from] < 0 ? b : a;
 	}
 	const double fraction =
@@ -136,7 +140,7 @@ void ContourFinder::add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]) {
 	}
 	const bool is_saddle =
 			inside[0] == inside[2] && inside[1] == inside[3] && inside[0] != inside[1];
-	const bool is_joined = is_saddle && sum >= 4 * threshold;
+	const bool is_joined = is_saddle && sum >= 4 * threshold; // the corners' mean decides
 	for (int side = 0; side < 4; ++side) {
 		if (!inside[side] || inside[(side + 1) % 4]) {
 			continue;
@@ -215,10 +219,11 @@ private:
 				image.get_texel(static_cast<uint32_t>(p_x), static_cast<uint32_t>(p_y))[3] >=
 				threshold;
 	}
-	/// Whether the region's border runs from a texel's corner in a direction, with the region to
-	/// its left.
+	/// Whether the region's border runs from a texel's corner in DIRECTIONS[p_direction], with the
+	/// region to its left (y upwards, as in PolygonLoop).
 	bool is_border(const glm::ivec2 &p_corner, int p_direction) const;
-	PolygonLoop trace_loop(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_visited) const;
+	/// Traces a loop from a corner with a border in DIRECTIONS[0]. r_visited_directions: see find.
+	PolygonLoop trace_loop(glm::ivec2 p_corner, std::vector<uint8_t> &r_visited_directions) const;
 	size_t get_index(const glm::ivec2 &p_corner) const {
 		return size_t(p_corner.y) * (image.size_px.x + 1) + p_corner.x;
 	}
@@ -238,11 +243,11 @@ bool TexelBorderFinder::is_border(const glm::ivec2 &p_corner, int p_direction) c
 }
 
 PolygonLoop TexelBorderFinder::trace_loop(
-		glm::ivec2 p_corner, std::vector<uint8_t> &r_is_visited) const {
+		glm::ivec2 p_corner, std::vector<uint8_t> &r_visited_directions) const {
 	PolygonLoop loop;
 	int direction = 0; // every loop has a side in that direction, or it would not close
-	while (!(r_is_visited[get_index(p_corner)] & (1 << direction))) {
-		r_is_visited[get_index(p_corner)] |= static_cast<uint8_t>(1 << direction);
+	while (!(r_visited_directions[get_index(p_corner)] & (1 << direction))) {
+		r_visited_directions[get_index(p_corner)] |= static_cast<uint8_t>(1 << direction);
 		p_corner += DIRECTIONS[direction];
 		const int left = (direction + 1) % 4;
 		const int right = (direction + 3) % 4;
@@ -265,16 +270,17 @@ PolygonLoop TexelBorderFinder::trace_loop(
 
 std::optional<std::vector<PolygonLoop>> TexelBorderFinder::find(size_t p_max_segments) {
 	const glm::ivec2 size(image.size_px);
-	std::vector<uint8_t> is_visited(size_t(size.x + 1) * size_t(size.y + 1));
+	// Per corner: bit i is set if the border that leaves it in DIRECTIONS[i] has been traced.
+	std::vector<uint8_t> visited_directions(size_t(size.x + 1) * size_t(size.y + 1));
 	std::vector<PolygonLoop> loops;
 	size_t segment_count = 0;
 	for (int y = 0; y < size.y; ++y) {
 		for (int x = 0; x < size.x; ++x) {
 			const glm::ivec2 corner(x, y);
-			if (!is_border(corner, 0) || is_visited[get_index(corner)] & 1) {
+			if (!is_border(corner, 0) || visited_directions[get_index(corner)] & 1) {
 				continue;
 			}
-			loops.push_back(trace_loop(corner, is_visited));
+			loops.push_back(trace_loop(corner, visited_directions));
 			segment_count += loops.back().size();
 			if (segment_count > p_max_segments) {
 				return std::nullopt;

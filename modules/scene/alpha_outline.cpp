@@ -13,7 +13,7 @@ namespace gnomon {
 namespace {
 
 const int32_t UNITS = AlphaOutline::UNITS_PER_TEXEL;
-// Tolerances for masks that have more edges than their budget.
+// Tolerances for outlines that have more edges than their budget.
 const double COARSE_TOLERANCES_PX[] = { 0.5, 1.0 };
 
 size_t count_points(const std::vector<PolygonLoop> &p_loops) {
@@ -42,8 +42,8 @@ bool triangulate_into(
 
 const uint32_t SQUARE_WITH_HOLE_EDGES = 8; // of a tile that is a square with a hole
 
-/// Replaces each block of texels by a square, or a square hole, of the same area as the mask has
-/// there.
+/// Replaces each block of texels by a square, or a square hole, of the same area as its texels that
+/// pass the alpha test.
 class HalfTone {
 public:
 	HalfTone(const AlphaTest &p_test, uint32_t p_block_size_px) :
@@ -55,7 +55,7 @@ public:
 	std::optional<std::vector<PolygonLoop>> find(size_t p_max_edges) const;
 
 private:
-	/// Returns the fraction, 0..1, of a block's area that the mask covers.
+	/// Returns the fraction, 0..1, of a block's texels that pass the alpha test.
 	double compute_coverage(const glm::uvec2 &p_block) const;
 	PolygonLoop make_square(const glm::uvec2 &p_block, double p_coverage) const;
 	glm::ivec2 get_corner(const glm::ivec2 &p_block) const {
@@ -99,7 +99,7 @@ PolygonLoop HalfTone::make_square(const glm::uvec2 &p_block, double p_coverage) 
 
 std::optional<std::vector<PolygonLoop>> HalfTone::find(size_t p_max_edges) const {
 	std::vector<PolygonLoop> loops;
-	std::vector<uint8_t> texels; // one for each block
+	std::vector<uint8_t> texels; // one for each block: opaque if at least half of it is
 	for (uint32_t y = 0; y < count.y; ++y) {
 		for (uint32_t x = 0; x < count.x; ++x) {
 			const double coverage = compute_coverage({ x, y });

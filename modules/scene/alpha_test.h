@@ -19,10 +19,10 @@ struct AlphaTest {
 	bool is_nearest = false; // false: the four nearest texels are interpolated
 };
 
-/// Makes the test for the material's base colour texture. Its cutoff is the material's, which
-/// applies to the product of the texture's alpha, the material's and that of vertex colours: divide
-/// it by the latter two for a threshold of the texture's alpha. The image is null if there is no
-/// texture.
+/// Makes the test for the material's base colour texture. Its cutoff is the material's (0.5 for
+/// AlphaMode::BLEND), which applies to the product of the texture's alpha, the material's and that
+/// of vertex colours: divide it by the latter two for a threshold of the texture's alpha. The image
+/// is null if there is no texture.
 AlphaTest make_alpha_test(const Material &p_material);
 /// Hashes everything that affects the test, texels included; without an image, the other fields.
 uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);

@@ -77,6 +77,7 @@ std::map<int, NodePose> sample_channels(const Animation &p_animation, double p_t
 	return poses;
 }
 
+/// Implements pose_scene. Changes the nodes, which are not const even in a const scene.
 void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_time_s) {
 	std::map<int, NodePose> poses;
 	std::map<int, NodeTransform> file_transforms;
@@ -215,7 +216,8 @@ std::shared_ptr<const Animation> find_animation(const Scene &p_scene, const std:
 	const std::string subject =
 			p_scene.path.empty() ? "The scene" : "Scene \"" + p_scene.path + "\"";
 	if (names.empty()) {
-		fail(subject, " has no animation \"", p_name, "\", and no other. Leave the name out.");
+		fail(subject, " has no animation \"", p_name,
+				"\", and no other animation. Leave the name out.");
 	}
 	fail(subject, " has no animation \"", p_name, "\". Name one of these: ", names,
 			p_scene.animations.size() > SHOWN_COUNT

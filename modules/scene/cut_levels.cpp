@@ -19,11 +19,12 @@ const double MIN_HALF_WIDTH_PER_TOLERANCE = 80;
 const double MIN_HALF_WIDTH_PER_COARSE_TOLERANCE = 350;
 const double COARSE_TOLERANCE_PX = 0.25;
 // For a receiver whose own penumbra is known to have this half width, in tolerances, a coarse
-// outline adds at most 0.0025 to the MAE of trees (leaves, courtyard), which is then below 0.006.
+// outline adds at most 0.0025 to the MAE of trees (the scenes `leaves` and `courtyard`), which is
+// then below 0.006.
 const double MIN_HALF_WIDTH_PER_RECEIVER_TOLERANCE = 4.5;
 // A coarse level that only few receivers could use is not worth its memory: the widest penumbra
 // must have this half width, in tolerances.
-const double MAX_HALF_WIDTH_PER_TOLERANCE = 5.5;
+const double MIN_WIDEST_HALF_WIDTH_PER_TOLERANCE = 5.5;
 const uint32_t MIN_LEVEL_STEP = 2; // to the coarse level: at least four times the tolerance
 // Where the texture repeats within a triangle, the outline's error repeats too and does not average
 // out.
@@ -46,7 +47,7 @@ double compute_texel_size(const Mesh &p_mesh, const Texture &p_texture, uint32_t
 	}
 	const glm::dvec2 s = texels[1] - texels[0];
 	const glm::dvec2 t = texels[2] - texels[0];
-	const double area = s.x * t.y - s.y * t.x;
+	const double area = s.x * t.y - s.y * t.x; // twice the triangle's, in texels
 	if (area == 0 || !std::isfinite(area)) {
 		return 0;
 	}
@@ -95,7 +96,8 @@ uint32_t CutLevels::choose_level(double p_half_width) const {
 uint32_t CutLevels::choose_coarse_level(uint32_t p_level, double p_half_width) const {
 	uint32_t level = static_cast<uint32_t>(TOLERANCES_PX.size()) - 1;
 	while (level > p_level &&
-			TOLERANCES_PX[level] * texel_size * MAX_HALF_WIDTH_PER_TOLERANCE > p_half_width) {
+			TOLERANCES_PX[level] * texel_size * MIN_WIDEST_HALF_WIDTH_PER_TOLERANCE >
+					p_half_width) {
 		--level;
 	}
 	return level >= p_level + MIN_LEVEL_STEP ? level : p_level;
@@ -114,7 +116,8 @@ std::shared_ptr<const Mesh> CutLevels::get_mesh(uint32_t p_level) const {
 	if (!level.is_built) {
 		const std::shared_ptr<const Mesh> mesh = source.lock();
 		const double tolerance_px = TOLERANCES_PX.at(p_level);
-		level = { mesh ? cut_mesh(mesh, material, {}, tolerance_px).mesh : nullptr, true };
+		level = { mesh ? cut_mesh(mesh, material, /*p_budget=*/{}, tolerance_px).mesh : nullptr,
+			/*is_built=*/true };
 	}
 	return level.mesh;
 }

@@ -36,8 +36,8 @@ glm::vec3 compute_barycentrics(const glm::dvec3 &p_point, const glm::dvec3 &p_a,
 	}
 	const bool is_ab = glm::dot(ab, ab) >= glm::dot(ac, ac);
 	const glm::dvec3 side = is_ab ? ab : ac;
-	const double length = glm::dot(side, side);
-	const double fraction = length > 0 ? glm::dot(offset, side) / length : 0.0;
+	const double square_length = glm::dot(side, side);
+	const double fraction = square_length > 0 ? glm::dot(offset, side) / square_length : 0.0;
 	return is_ab ? glm::vec3(1.0 - fraction, fraction, 0) : glm::vec3(1.0 - fraction, 0, fraction);
 }
 
@@ -140,7 +140,7 @@ MeshPolygon MeshCutter::read_triangle(uint32_t p_triangle) const {
 		const uint32_t index = mesh.indices[3 * size_t(p_triangle) + corner];
 		const glm::dvec2 uv = uvs.empty() ? glm::dvec2(0.0) : glm::dvec2(uvs[index]);
 		triangle.uv[corner] = transform * glm::dvec3(uv, 1.0);
-		triangle.position[corner] = mesh.positions_node[index] + 0.0f;
+		triangle.position[corner] = mesh.positions_node[index] + 0.0f; // -0 becomes 0
 	}
 	triangle.set_up();
 	return triangle;
@@ -158,7 +158,7 @@ OutlinedTexture &MeshCutter::get_texture(double p_cutoff) {
 
 void MeshCutter::cut_triangle(uint32_t p_triangle) {
 	const double cutoff = compute_cutoff(&mesh.indices[3 * size_t(p_triangle)]);
-	if (cutoff > 1) {
+	if (cutoff > 1) { // no alpha passes: nothing of the triangle is left
 		return;
 	}
 	if (!texture.image) {
@@ -166,7 +166,7 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 		return;
 	}
 	MeshPolygon polygon = read_triangle(p_triangle);
-	if (!polygon.has_area()) {
+	if (!polygon.has_area()) { // cannot be clipped: the alpha at its centre decides
 		const glm::dvec2 middle = (polygon.uv[0] + polygon.uv[1] + polygon.uv[2]) / 3.0;
 		if (std::isfinite(middle.x + middle.y) &&
 				sample_alpha(make_alpha_test(material), middle) >= cutoff) {
@@ -184,7 +184,7 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 			pieces.push_back(std::move(piece));
 		}
 	}
-	const double ROUNDING = 1e-12;
+	const double ROUNDING = 1e-12; // relative; of the sum, if the pieces cover the whole polygon
 	if (area < (1 - ROUNDING) * std::abs(polygon.area)) {
 		add_pieces(pieces, polygon, p_triangle);
 	} else {
@@ -252,7 +252,7 @@ void MeshCutter::add_pieces(
 	}
 }
 
-/// Sorts by position along the side and removes duplicates: equal parameters give equal positions.
+/// Sorts by position along the side and removes duplicates: equal fractions give equal positions.
 void MeshCutter::sort_side_points() {
 	for (auto &[key, points] : side_points) {
 		std::sort(points.begin(), points.end(), [](const auto &p_left, const auto &p_right) {
@@ -291,6 +291,7 @@ void MeshCutter::add_uncut(uint32_t p_triangle) {
 	}
 	const glm::dvec3 sum = glm::dvec3(triangle.position[0]) + glm::dvec3(triangle.position[1]) +
 			glm::dvec3(triangle.position[2]);
+	// A fan from a corner would have degenerate triangles along that corner's sides.
 	const uint32_t middle = add_point(glm::vec3(sum / 3.0));
 	for (size_t i = 0; i < ring.size(); ++i) {
 		add_triangle(middle, ring[i], ring[(i + 1) % ring.size()], p_triangle);
@@ -301,7 +302,7 @@ uint32_t MeshCutter::add_point(const glm::vec3 &p_position) {
 	const auto [found, is_new] = point_indices.try_emplace(
 			to_position_bits(p_position), static_cast<uint32_t>(positions.size()));
 	if (is_new) {
-		positions.push_back(p_position + 0.0f);
+		positions.push_back(p_position + 0.0f); // -0 becomes 0
 	}
 	return found->second;
 }
@@ -342,8 +343,8 @@ std::shared_ptr<const Mesh> MeshCutter::cut(const std::shared_ptr<const Mesh> &p
 			MeshSource{ p_mesh, std::move(sources), std::move(points) });
 }
 
-/// Finds each point's barycentric coordinates in one of the triangles that contain it: points on a
-/// side have the same position in both triangles, up to rounding, and are one point.
+/// Finds each point's barycentric coordinates in one of the triangles that contain it. A point on a
+/// side is in two: both lead to the same position, up to rounding.
 std::vector<TrianglePoint> MeshCutter::find_points() const {
 	std::vector<TrianglePoint> points(positions.size());
 	for (size_t corner = 0; corner < indices.size(); ++corner) {
@@ -373,7 +374,7 @@ auto make_key(const Mesh &p_mesh, const Material &p_material) {
 uint64_t compute_content_hash(const Mesh &p_mesh, const Material &p_material) {
 	const Texture &texture = p_material.base_color_texture;
 	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[texture.uv_set];
-	uint64_t hash = compute_hash(make_alpha_test(p_material), 1);
+	uint64_t hash = compute_hash(make_alpha_test(p_material), /*p_seed=*/1);
 	hash = compute_value_hash(p_material.alpha, hash);
 	hash = compute_value_hash(texture.transform, hash);
 	hash = compute_hash(bytes_of(std::span<const glm::vec2>(uvs)), hash);
@@ -415,7 +416,7 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 	// Locked while a mesh is cut, because two threads could otherwise do the same work.
 	const std::lock_guard<std::mutex> lock(cache_mutex);
 	CacheEntry &entry = cache[make_key(*p_mesh, *p_material)];
-	if (entry.source.expired()) {
+	if (entry.source.expired()) { // a new entry
 		CutMesh cut = cut_mesh(p_mesh, *p_material);
 		if (cut.mesh && cut.mesh != p_mesh && cut.block_size_px == 0 &&
 				p_material->base_color_texture.image) {

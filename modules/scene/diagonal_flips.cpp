@@ -33,7 +33,7 @@ private:
 	std::span<const glm::ivec2> points;
 	std::vector<uint32_t> &triangles;
 	std::vector<size_t> opposite; // per side: the same diagonal in the other triangle, or NO_SIDE
-	std::vector<size_t> pending;
+	std::vector<size_t> pending;  // sides to check
 };
 
 DiagonalFlips::DiagonalFlips(

@@ -81,7 +81,7 @@ std::vector<NodeField> make_light_fields() {
 				  "Half angle of a spot light's cone; outside it is dark.", "deg", "Light"),
 				&read_degrees<Light3D, &Light3D::outer_cone_rad>, &write_outer_cone, &is_spot }
 	};
-	fields[1].info.is_color = true;
+	fields[1].info.is_color = true; // "color"
 	return extend_node_fields(std::move(fields));
 }
 
@@ -93,9 +93,10 @@ const std::vector<NodeField> &Light3D::get_fields() const {
 }
 
 void Light3D::add_stored_properties(PropertyList &r_list) const {
-	const char *other = type == LightType::DIRECTIONAL ? "light_size" : "light_angular_distance";
+	const char *inapplicable =
+			type == LightType::DIRECTIONAL ? "light_size" : "light_angular_distance";
 	for (const PropertyInfo &info : get_property_list().get_properties()) {
-		if (info.name != other) {
+		if (info.name != inapplicable) {
 			r_list.add(info);
 		}
 	}
@@ -107,10 +108,11 @@ void Light3D::add_gizmos(std::vector<NodeGizmo> &r_gizmos) const {
 		const double angle_deg =
 				get_float(get_property_list(), properties, "light_angular_distance");
 		gizmo.center = glm::dvec3(0, 0, -1);
-		gizmo.radius_m = std::tan(0.5 * angle_deg / DEGREES);
+		gizmo.radius_m = std::tan(0.5 * angle_deg / DEGREES_PER_RADIAN);
 		gizmo.property = "light_angular_distance";
 		gizmo.value = angle_deg;
-		gizmo.value_per_m = 2.0 * DEGREES / (1.0 + gizmo.radius_m * gizmo.radius_m);
+		// Derivative of the angle, 2 atan(radius).
+		gizmo.value_per_m = 2.0 * DEGREES_PER_RADIAN / (1.0 + gizmo.radius_m * gizmo.radius_m);
 		r_gizmos.push_back(gizmo);
 		return;
 	}

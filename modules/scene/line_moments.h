@@ -28,8 +28,8 @@ private:
 	/// Integrals along the loop from its first point.
 	struct Sum {
 		double length = 0;
-		glm::dvec2 first = glm::dvec2(0.0);
-		double xx = 0, xy = 0, yy = 0;
+		glm::dvec2 first_moment = glm::dvec2(0.0); // of the position relative to the first point
+		double xx = 0, xy = 0, yy = 0;			   // second moments of that position
 	};
 	const std::vector<glm::ivec2> &loop;
 	std::vector<Sum> sums; // per point, for two rounds

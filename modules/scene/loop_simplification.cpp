@@ -10,16 +10,17 @@ namespace gnomon {
 
 namespace {
 
-/// Lines grow point by point up to this many points, then in steps that double: each trial checks
-/// all points of the line, and a straight border of a large image has thousands.
+/// Lines grow point by point up to this many points, then in steps that double until a trial fails,
+/// then halve: each trial checks all points of the line, and a straight border of a large image has
+/// thousands.
 const uint32_t MAX_SINGLE_STEPS = 64;
 
 double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
 	const glm::dvec2 along(p_b - p_a);
 	const glm::dvec2 offset(p_point - p_a);
-	const double length = glm::dot(along, along);
+	const double square_length = glm::dot(along, along);
 	const double fraction =
-			length > 0 ? std::clamp(glm::dot(offset, along) / length, 0.0, 1.0) : 0.0;
+			square_length > 0 ? std::clamp(glm::dot(offset, along) / square_length, 0.0, 1.0) : 0.0;
 	return glm::length(offset - along * fraction);
 }
 
@@ -32,8 +33,8 @@ struct Chain {
 	/// Returns the point between two others that is farthest from the line between them; p_end is
 	/// above p_begin and may be beyond the loop's end (it wraps around).
 	uint32_t find_farthest(uint32_t p_begin, uint32_t p_end, double &r_distance) const;
-	/// Returns the end of the longest line from a point that has all points between within the
-	/// tolerance.
+	/// Returns the end, at most p_end, of a line from p_begin that is as long as possible with all
+	/// points between within the tolerance.
 	uint32_t find_line_end(uint32_t p_begin, uint32_t p_end, double p_tolerance) const;
 	void retain(uint32_t p_point) { is_retained[p_point % loop->size()] = 1; }
 	void simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance);
@@ -80,7 +81,8 @@ void Chain::simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance) {
 	}
 }
 
-/// Whether the point is on one of the rectangle's sides and its two neighbours are not both on it.
+/// Whether the point is on one of the rectangle's sides and its two neighbours are not both on that
+/// side. Such points stay.
 bool is_fixed(const Chain &p_chain, uint32_t p_point, const glm::ivec2 &p_size) {
 	const uint32_t count = static_cast<uint32_t>(p_chain.loop->size());
 	const glm::ivec2 &before = p_chain.get(p_point + count - 1);
@@ -138,12 +140,13 @@ void retain_triangle(Chain &r_chain) {
 
 /// Retains as few points of a loop as the tolerance allows. The number depends on where the first
 /// line starts: of several starts that with the fewest points is chosen, and of all tolerances that
-/// lead to this number a small one. Long loops would gain little.
+/// lead to this number a small one. Loops that retain more than MAX_POINTS points would gain little
+/// by these searches.
 Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::ivec2 &p_size) {
 	const uint32_t MAX_STARTS = 64;
 	const double TOLERANCE_FACTOR = 0.93; // from one attempt to the next
-	const int MAX_ATTEMPTS = 16;
-	const int64_t MAX_POINTS = 64; // of a loop that is worth it
+	const int MAX_ATTEMPTS = 16;		  // down to 0.93^16 = 0.31 of the tolerance
+	const int64_t MAX_POINTS = 64;
 	const auto count_retained = [](const Chain &p_chain) {
 		return std::count(p_chain.is_retained.begin(), p_chain.is_retained.end(), 1);
 	};
@@ -216,7 +219,7 @@ uint32_t find_best_corner(const Chain &p_chain, const LineMoments &p_moments, ui
 /// Their number and fixed points remain.
 void move_corners(double p_tolerance, const glm::ivec2 &p_size, Chain &r_chain) {
 	const int MAX_ROUNDS = 8;
-	// The fitted lines are nearer to the loop than the chords.
+	// Chords may deviate more, because the fitted lines are nearer to the loop.
 	const double CHORD_TOLERANCE_FACTOR = 1.25;
 	const uint32_t count = static_cast<uint32_t>(r_chain.loop->size());
 	const LineMoments moments(*r_chain.loop);
@@ -386,11 +389,12 @@ void restore_area(int64_t p_twice_area, double p_max_distance, const glm::ivec2 
 	const size_t count = r_loop.size();
 	std::vector<glm::dvec2> directions(count); // moves both lines at a point outwards by 1
 	double change = 0;						   // of the area, for a distance of 1
+	const double MIN_SQUARE_SUM = 0.5;		   // below: a spike of less than 41 degrees
 	for (size_t i = 0; i < count; ++i) {
 		const glm::ivec2 &before = r_loop[(i + count - 1) % count];
 		const glm::ivec2 &after = r_loop[(i + 1) % count];
 		const glm::dvec2 sum = find_normal(before, r_loop[i]) + find_normal(r_loop[i], after);
-		if (is_on_border(r_loop[i], p_size) || glm::dot(sum, sum) < 0.5) { // or a sharp spike
+		if (is_on_border(r_loop[i], p_size) || glm::dot(sum, sum) < MIN_SQUARE_SUM) {
 			continue;
 		}
 		directions[i] = sum * 2.0 / glm::dot(sum, sum);
@@ -414,8 +418,8 @@ PolygonLoop fit_lines(const Chain &p_chain, double p_tolerance, const glm::ivec2
 	std::vector<FittedLine> lines;
 	for (size_t i = 0; i < count; ++i) {
 		const bool wraps = i + 1 == count;
-		const uint32_t round = wraps ? static_cast<uint32_t>(p_chain.loop->size()) : 0;
-		lines.push_back(moments.fit(retained[i], retained[(i + 1) % count] + round));
+		const uint32_t offset = wraps ? static_cast<uint32_t>(p_chain.loop->size()) : 0;
+		lines.push_back(moments.fit(retained[i], retained[(i + 1) % count] + offset));
 	}
 	PolygonLoop moved;
 	for (size_t i = 0; i < count; ++i) {
@@ -428,7 +432,7 @@ PolygonLoop fit_lines(const Chain &p_chain, double p_tolerance, const glm::ivec2
 		const double offset_after = glm::dot(normal_after, after.centroid - point);
 		glm::dvec2 shift = (normal_before * offset_before + normal_after * offset_after) * 0.5;
 		const double cross = normal_before.x * normal_after.y - normal_before.y * normal_after.x;
-		if (std::abs(cross) > 0.1) { // not nearly parallel: where both lines meet
+		if (std::abs(cross) > 0.1) { // at least 6 degrees between the lines: where they meet
 			shift = glm::dvec2(offset_before * normal_after.y - offset_after * normal_before.y,
 							offset_after * normal_before.x - offset_before * normal_after.x) /
 					cross;

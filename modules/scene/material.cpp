@@ -10,6 +10,7 @@ glm::vec3 Material::compute_transmittance(float p_scale) const {
 	if (!(transmission > 0.0f)) {
 		return glm::vec3(0.0f);
 	}
+	// Metals transmit no light (KHR_materials_transmission).
 	glm::vec3 transmittance = transmission * (1.0f - metallic) * base_color;
 	if (thickness_m > 0.0f && attenuation_distance_m > 0.0f) {
 		transmittance *= glm::pow(

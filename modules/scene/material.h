@@ -37,7 +37,7 @@ struct Material {
 	float transmission = 0.0f;
 	/// KHR_materials_volume: the thickness of the volume, and the light that remains in it:
 	/// attenuation_color after attenuation_distance_m (0: infinite, nothing is absorbed).
-	float thickness_m = 0.0f; // in the mesh's space
+	float thickness_m = 0.0f; // in the mesh's space, before the node's scale
 	glm::vec3 attenuation_color = glm::vec3(1.0f);
 	float attenuation_distance_m = 0.0f;
 	bool is_double_sided = false;
@@ -59,7 +59,7 @@ struct Material {
 	bool operator==(const Material &) const = default;
 	/// Computes the fraction of light that remains after it passes through the caster once, 0..1
 	/// per colour channel; 0 = opaque. p_scale: scale of the node, which scales the thickness.
-	/// Beer-Lambert law (KHR_materials_volume).
+	/// Beer-Lambert law (KHR_materials_volume), without the texture of the base colour.
 	glm::vec3 compute_transmittance(float p_scale) const;
 	/// Whether an alpha test removes parts of the surface. Materials that transmit light are not
 	/// cut out.

@@ -6,9 +6,10 @@ namespace gnomon {
 
 namespace {
 
-const char LENGTH_RANGE[] = "0,10000,0.001";
+const char LENGTH_RANGE[] = "0,10000,0.001"; // minimum, maximum, step: see PropertyInfo::hint
 const char GROUP[] = "Material";
 
+/// Returns the first material of the node, whose values the inspector shows for all of them.
 const Material &get_material(const Node3D &p_node) {
 	static const Material none;
 	for (const MeshInstance3D::Surface &surface : to<MeshInstance3D>(p_node).surfaces) {

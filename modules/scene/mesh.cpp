@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace gnomon {
 
@@ -41,12 +42,13 @@ void check_mesh(const Mesh &p_mesh) {
 				", one per position. Leave them out to have them computed.");
 	}
 	const MeshAttributes &attributes = p_mesh.attributes;
-	for (const size_t count : { attributes.uvs[0].size(), attributes.uvs[1].size(),
-				 attributes.tangents.size(), attributes.colors.size() }) {
+	for (const auto &[kind, count] : { std::pair("UVs of set 0", attributes.uvs[0].size()),
+				 std::pair("UVs of set 1", attributes.uvs[1].size()),
+				 std::pair("tangents", attributes.tangents.size()),
+				 std::pair("colours", attributes.colors.size()) }) {
 		if (count != 0 && count != vertex_count) {
-			fail("Mesh \"", p_mesh.name, "\" has ", count,
-					" vertex attributes of a kind, must be 0 or ", vertex_count,
-					", one per position. Export it again.");
+			fail("Mesh \"", p_mesh.name, "\" has ", count, " ", kind, ", must be 0 or ",
+					vertex_count, ", one per position. Export it again.");
 		}
 	}
 	if (attributes.rig && attributes.rig->vertex_count != vertex_count) {
@@ -70,8 +72,8 @@ void check_mesh(const Mesh &p_mesh) {
 }
 
 /// Sums the normals of the faces at each vertex, weighted by area: the cross product's length is
-/// twice the area. Uses double, because the square of a millimetre in a large mesh vanishes in
-/// float.
+/// twice the area. Uses double: in a float sum, a square millimetre vanishes beside a square of
+/// 10 m.
 std::vector<glm::dvec3> compute_face_normal_sums(const Mesh &p_mesh) {
 	std::vector<glm::dvec3> sums(p_mesh.positions_node.size(), glm::dvec3(0.0));
 	for (size_t first = 0; first + 2 < p_mesh.indices.size(); first += 3) {
@@ -196,7 +198,7 @@ std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_position
 
 double Bounds::compute_exit_distance(
 		const glm::dvec3 &p_point, const glm::dvec3 &p_direction) const {
-	double nearest = 1e300;
+	double nearest = 1e300; // beyond any side of the box
 	for (int axis = 0; axis < 3; ++axis) {
 		const double side = p_direction[axis] > 0 ? maximum[axis] : minimum[axis];
 		if (p_direction[axis] != 0) {

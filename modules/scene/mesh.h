@@ -45,7 +45,7 @@ Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_
 struct Mesh;
 struct MeshRig;
 
-/// Vertex attributes other than position and normal. Each list is empty or has one element a
+/// Vertex attributes other than position and normal. Each list is empty or has one element per
 /// vertex.
 struct MeshAttributes {
 	std::vector<glm::vec2> uvs[2]; // x along an image's rows, y down from its top
@@ -58,7 +58,7 @@ struct MeshAttributes {
 
 /// A point on a triangle, as barycentric coordinates: it follows the corners when they move.
 struct TrianglePoint {
-	glm::uvec3 corners = glm::uvec3(0);		// vertices
+	glm::uvec3 corners = glm::uvec3(0);		// vertex indices
 	glm::vec3 weights = glm::vec3(1, 0, 0); // barycentric weights; their sum is 1
 };
 
@@ -92,9 +92,9 @@ struct Mesh {
 	bool is_deformable() const { return attributes.rig || !source.points.empty(); }
 };
 
-/// Checks sizes and indices (a bad one is an Error naming the mesh), fills missing or unusable
-/// normals by area-weighted face normals, computes the bounds and the hash, and gives the mesh its
-/// id.
+/// Checks sizes, positions and indices (a bad one is an Error naming the mesh), normalizes normals,
+/// replaces missing or unusable ones by area-weighted face normals, computes the bounds and the
+/// hash, and gives the mesh its id.
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
 		MeshAttributes p_attributes = {}, MeshSource p_source = {});

@@ -75,7 +75,7 @@ MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p
 std::shared_ptr<const Mesh> MeshPose::get_mesh(const std::shared_ptr<const Mesh> &p_rest) const {
 	const std::lock_guard<std::mutex> lock(mutex);
 	const auto get_uncut = [&] {
-		std::shared_ptr<const Mesh> &uncut = meshes[rest->id];
+		std::shared_ptr<const Mesh> &uncut = meshes[rest->id]; // the whole mesh
 		if (!uncut) {
 			DeformedVertices vertices = deform_vertices(*rest, joints, weights);
 			uncut = make_mesh(rest->name, std::move(vertices.positions),

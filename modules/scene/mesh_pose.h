@@ -39,7 +39,8 @@ private:
 	Bounds bounds;
 	uint64_t hash = 0;
 	mutable std::mutex mutex;
-	mutable std::map<uint64_t, std::shared_ptr<const Mesh>> meshes; // by id of the mesh at rest
+	/// Posed meshes, by the id of the mesh at rest, whole or cut.
+	mutable std::map<uint64_t, std::shared_ptr<const Mesh>> meshes;
 };
 
 /// The current pose of one surface of a node. As long as the pose does not change, the MeshPose and
@@ -68,7 +69,7 @@ private:
 		std::shared_ptr<const Mesh> mesh;
 		uint64_t last_use = 0; // value of pose_count at the last use
 	};
-	std::map<uint64_t, Deformed> deformed; // by the id of the mesh at rest
+	std::map<uint64_t, Deformed> deformed; // by the id of the mesh at rest, whole or cut
 };
 
 } // namespace gnomon

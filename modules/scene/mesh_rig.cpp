@@ -83,7 +83,7 @@ void compute_rig_bounds(MeshRig &r_rig, std::span<const glm::vec3> p_positions) 
 	r_rig.target_bounds.clear();
 	for (const MorphTarget &target : r_rig.targets) {
 		Bounds bounds;
-		bounds.add(glm::dvec3(0.0));
+		bounds.add(glm::dvec3(0.0)); // the only offset if the target has no positions
 		for (const glm::vec3 &delta : target.positions) {
 			bounds.add(glm::dvec3(delta));
 		}
@@ -135,7 +135,7 @@ uint64_t MeshRig::compute_vertex_hash(uint32_t p_vertex) const {
 		hash = compute_value_hash(weight, hash);
 	}
 	for (const MorphTarget &target : targets) {
-		if (!target.positions.empty()) {
+		if (!target.positions.empty()) { // + 0: -0 and 0 get the same hash
 			hash = compute_value_hash(target.positions[p_vertex] + 0.0f, hash);
 		}
 	}

@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-/// What a morph target adds to each vertex at weight 1. Each list is empty or has one element a
+/// What a morph target adds to each vertex at weight 1. Each list is empty or has one element per
 /// vertex.
 struct MorphTarget {
 	std::vector<glm::vec3> positions; // metres, in the mesh's space
@@ -27,8 +27,8 @@ struct MeshRig {
 	uint32_t influence_count = 0; // joints per vertex: 0 (no skin), 4 or 8
 	std::vector<uint32_t> joints; // influence_count per vertex
 	std::vector<float> weights;	  // as many as joints; 0..1; sum 1 unless keeps_weight_sums
-	/// True: weights are not normalized to a sum of 1, because the host engine draws the mesh with
-	/// sums that rounding made less than 1.
+	/// True: weights are not normalized to a sum of 1, because the host engine (Godot) draws the
+	/// mesh with sums that rounding made less than 1.
 	bool keeps_weight_sums = false;
 	std::vector<MorphTarget> targets;
 
@@ -36,7 +36,7 @@ struct MeshRig {
 	uint32_t joint_count = 0; // one more than the largest joint index
 	/// Bounds of the rest vertices that each joint moves; may be empty.
 	std::vector<Bounds> joint_bounds;
-	std::vector<Bounds> target_bounds; // bounds of the offsets that each target adds
+	std::vector<Bounds> target_bounds; // bounds of 0 and the offsets that each target adds
 	double min_weight_sum = 1;		   // smallest weight sum of a vertex, at most 1
 	double max_weight_sum = 1;		   // largest weight sum of a vertex, at least 1
 	uint64_t content_hash = 0;
@@ -65,7 +65,7 @@ struct DeformedVertices {
 DeformedVertices deform_vertices(
 		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
 /// Returns bounds that enclose the posed vertices: the union of each joint's rest bounds, with what
-/// morph targets add, transformed by that joint.
+/// morph targets add, transformed by that joint. Weight sums other than 1 scale them.
 Bounds compute_deformed_bounds(
 		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
 

@@ -48,15 +48,15 @@ struct TransformComponents {
 		double x = 0;
 		double z = 0;
 		glm::extractEulerAngleYXZ(glm::dmat4(axes), y, x, z);
-		const double STEP_DEG = 1e-6; // rounded to this: floats in files give 1.5e-8 instead of 0
-		rotation_deg =
-				glm::round(DEGREES * glm::dvec3(x, y, z) / STEP_DEG) * STEP_DEG + 0.0; // no -0
+		const double STEP_DEG = 1e-6; // floats in files give 1.5e-8 instead of 0: round that off
+		const glm::dvec3 exact_deg = DEGREES_PER_RADIAN * glm::dvec3(x, y, z);
+		rotation_deg = glm::round(exact_deg / STEP_DEG) * STEP_DEG + 0.0; // no -0
 	}
 
 	void apply(Node3D &r_node) const {
-		const glm::dvec3 rotation = rotation_deg / DEGREES;
+		const glm::dvec3 rotation_rad = rotation_deg / DEGREES_PER_RADIAN;
 		r_node.parent_from_node = glm::scale(glm::translate(glm::dmat4(1.0), position) *
-						glm::eulerAngleYXZ(rotation.y, rotation.x, rotation.z),
+						glm::eulerAngleYXZ(rotation_rad.y, rotation_rad.x, rotation_rad.z),
 				scale);
 	}
 };
@@ -99,9 +99,8 @@ std::vector<NodeField> make_node_fields() {
 				&read_component<&TransformComponents::scale>,
 				&write_component<&TransformComponents::scale> },
 		{ make_info("staged", PropertyType::BOOL, false, "",
-				  "Added because the file has no such node, and not saved. Untick it to save the "
-				  "node with the "
-				  "scene.",
+				  "Added to show the scene, not read from its file, and not saved. Untick it to "
+				  "save the node with the scene.",
 				  "", "File"),
 				&read_flag<Node3D, &Node3D::is_staged>, &write_flag<Node3D, &Node3D::is_staged>,
 				&is_staged } };
@@ -186,10 +185,10 @@ Bounds MeshInstance3D::compute_bounds() const {
 		}
 		const SkinTransforms transforms =
 				compute_surface_transforms(*this, *surface.mesh, world_from_node, world_from_nodes);
-		const Bounds own = surface.mesh->attributes.rig
+		const Bounds bounds_mesh = surface.mesh->attributes.rig
 				? compute_deformed_bounds(*surface.mesh, transforms.joints, get_morph_weights())
 				: surface.mesh->bounds_node;
-		bounds.add(transform_bounds(own, transforms.world_from_mesh));
+		bounds.add(transform_bounds(bounds_mesh, transforms.world_from_mesh));
 	}
 	return bounds;
 }

@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-constexpr double DEGREES = 180.0 / 3.14159265358979323846; // per radian
+constexpr double DEGREES_PER_RADIAN = 180.0 / 3.14159265358979323846;
 
 /// Casts a node to its class, which the caller knows.
 template <typename T> T &to(Node3D &r_node) {
@@ -39,12 +39,12 @@ template <typename T, auto MEMBER> void write_number(Node3D &r_node, const Prope
 }
 
 template <typename T, auto MEMBER> PropertyValue read_degrees(const Node3D &p_node) {
-	return DEGREES * double(to<T>(p_node).*MEMBER);
+	return DEGREES_PER_RADIAN * double(to<T>(p_node).*MEMBER);
 }
 
 template <typename T, auto MEMBER>
 void write_degrees(Node3D &r_node, const PropertyValue &p_value) {
-	to<T>(r_node).*MEMBER = float(std::get<double>(p_value) / DEGREES);
+	to<T>(r_node).*MEMBER = float(std::get<double>(p_value) / DEGREES_PER_RADIAN);
 }
 
 inline PropertyInfo make_info(const char *p_name, PropertyType p_type, PropertyValue p_default,

@@ -42,15 +42,16 @@ const PropertyValues &get_stored(const Node3D &p_node) {
 /// Compares values with a tolerance: members are floats, and their defaults in double differ a
 /// little.
 bool is_close(const PropertyValue &p_left, const PropertyValue &p_right) {
+	const double TOLERANCE = 1e-6; // relative; rounding to float is up to 6e-8
 	const double *left = std::get_if<double>(&p_left);
 	const double *right = std::get_if<double>(&p_right);
 	if (left != nullptr && right != nullptr) {
-		return std::abs(*left - *right) <= 1e-6 * std::max(std::abs(*left), std::abs(*right));
+		return std::abs(*left - *right) <= TOLERANCE * std::max(std::abs(*left), std::abs(*right));
 	}
 	const glm::dvec3 *left_vector = std::get_if<glm::dvec3>(&p_left);
 	const glm::dvec3 *right_vector = std::get_if<glm::dvec3>(&p_right);
 	if (left_vector != nullptr && right_vector != nullptr) {
-		return glm::length(*left_vector - *right_vector) <= 1e-6 * glm::length(*left_vector);
+		return glm::length(*left_vector - *right_vector) <= TOLERANCE * glm::length(*left_vector);
 	}
 	return p_left == p_right;
 }

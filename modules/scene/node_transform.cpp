@@ -31,7 +31,9 @@ NodeTransform decompose_transform(const glm::dmat4 &p_matrix) {
 }
 
 double compute_max_stretch(const glm::dmat4 &p_matrix) {
-	const double ROUNDING = 1e-6;
+	const double ROUNDING = 1e-6; // of the largest: below it the columns count as orthogonal
+	// The diagonal has the squares of the columns' lengths, the rest their dot products. If the
+	// columns are not orthogonal, the Frobenius norm is the bound.
 	const glm::dmat3 squares = glm::transpose(glm::dmat3(p_matrix)) * glm::dmat3(p_matrix);
 	const double largest = std::max({ squares[0][0], squares[1][1], squares[2][2] });
 	const double shear =

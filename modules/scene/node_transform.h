@@ -21,7 +21,7 @@ struct NodeTransform {
 NodeTransform decompose_transform(const glm::dmat4 &p_matrix);
 
 /// Returns the largest factor by which an affine matrix stretches a length. With shear: an upper
-/// bound, at most 1.8 times as large.
+/// bound, at most sqrt(3) times as large.
 double compute_max_stretch(const glm::dmat4 &p_matrix);
 
 } // namespace gnomon

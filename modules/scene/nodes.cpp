@@ -99,11 +99,11 @@ const PropertyList &Light3D::get_property_list() {
 		made.add({ "penumbra_outer_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Outer penumbra width r, how far the soft edge reaches out of the hard shadow. -1 "
 				"derives it from the light's size; 0 disables the outer part.",
-				"m", "Shadow", "-1" });
+				"m", "Shadow", /*special=*/"-1" });
 		made.add({ "penumbra_inner_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Inner penumbra width t, how far the soft edge reaches into the hard shadow. -1 "
 				"derives it from the light's size; 0 disables the inner part.",
-				"m", "Shadow", "-1" });
+				"m", "Shadow", /*special=*/"-1" });
 		return made;
 	}();
 	return list;

@@ -47,7 +47,7 @@ public:
 	/// program does not understand.
 	int file_index = -1;
 	/// True: stage_scene (stage.h) added the node, for example because the file lacks a camera or a
-	/// light. Such nodes are not saved.
+	/// light. Such nodes are saved only if a descendant is.
 	bool is_staged = false;
 
 	virtual ~Node3D() = default;
@@ -169,7 +169,7 @@ public:
 /// A perspective camera, looking along -Z of its node with +Y up.
 class Camera3D : public Node3D {
 public:
-	float vertical_fov_rad = 0.785398163f; // above 0, below pi
+	float vertical_fov_rad = 0.785398163f; // pi / 4; above 0, below pi
 	float near_m = 0.05f;				   // above 0. The far plane is at infinity (reversed depth)
 
 	const char *get_class_name() const override { return "Camera3D"; }

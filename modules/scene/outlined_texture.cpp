@@ -24,7 +24,8 @@ std::shared_ptr<const Image> make_border_image(const Image &p_image, int p_part_
 	return make_image(p_image.name, size, std::move(texels));
 }
 
-/// Whether all corners of a convex polygon are outside of one side of a polygon of the mesh.
+/// Whether all corners of a convex polygon are outside of one side of the mesh's polygon, so that
+/// the two do not overlap.
 template <size_t COUNT>
 bool is_outside(const MeshPolygon &p_polygon, const std::array<glm::dvec2, COUNT> &p_corners) {
 	for (int side = 0; side < p_polygon.corner_count; ++side) {
@@ -60,6 +61,7 @@ void TileCoverage::add(const MeshPolygon &p_polygon) {
 }
 
 bool TileCoverage::fits(double p_tile_size, double p_max_tiles) const {
+	// A double has 53 bits, so 12 or more remain for the position within a tile.
 	const double MAX_TILE_COORDINATE = double(uint64_t(1) << 40);
 	// No real texture repeats this often on one triangle: such coordinates are damaged, and each
 	// tile costs time.
@@ -80,6 +82,7 @@ OutlinedTexture::OutlinedTexture(const AlphaTest &p_test, const TileCoverage &p_
 			static_cast<uint32_t>(std::clamp(ratio, MIN_EDGES, double(p_budget.edges_per_tile))));
 	const bool repeats = p_test.wrap_u != TextureWrap::CLAMP || p_test.wrap_v != TextureWrap::CLAMP;
 	const double max_tiles = p_budget.edges_per_mesh / MIN_EDGES;
+	// Tiles get larger until the mesh's budget allows MIN_EDGES for each, and TileCoverage::fits.
 	while (repeats &&
 			(ratio * tile_size * tile_size < MIN_EDGES || !p_coverage.fits(tile_size, max_tiles))) {
 		tile_size *= 2;
@@ -90,6 +93,8 @@ std::vector<OutlinedTexture::Interval> OutlinedTexture::list_intervals(
 		TextureWrap p_wrap, double p_minimum, double p_maximum) const {
 	std::vector<Interval> intervals;
 	if (p_wrap == TextureWrap::CLAMP) {
+		// Outside the image, to a power of two beyond the polygon: polygons of similar extent get
+		// the same interval.
 		if (p_minimum < 0) {
 			intervals.push_back({ -1, -std::exp2(std::ceil(std::log2(-p_minimum))), 0 });
 		}

@@ -18,7 +18,8 @@ struct OutlineBudget {
 	uint32_t edges_per_mesh = 1 << 20;
 };
 
-/// How much of the texture plane the triangles of a mesh cover, in tiles.
+/// How much of the texture plane the triangles of a mesh cover, in tiles. A tile is one repetition
+/// of the texture, 0..1 of its coordinates.
 struct TileCoverage {
 	double area = 0;
 	double box_area = 0;		   // sum of the areas of the triangles' bounding boxes
@@ -27,8 +28,8 @@ struct TileCoverage {
 	double max_coordinate = 0;	   // largest absolute coordinate
 
 	void add(const MeshPolygon &p_polygon);
-	/// Whether tiles of that size, in repetitions of the texture, are few enough to be visited one
-	/// by one, and distinct in double.
+	/// Whether tiles of that size, in repetitions of the texture along each axis, are at most about
+	/// p_max_tiles, few enough to be visited one by one, and distinct in double.
 	bool fits(double p_tile_size, double p_max_tiles) const;
 };
 
@@ -44,6 +45,8 @@ public:
 
 	/// Lists the outline's triangles that may overlap a polygon of the mesh.
 	std::vector<Triangle> list_triangles(const MeshPolygon &p_polygon);
+	/// Returns the largest AlphaOutline::block_size_px of the outlines made so far, in texels of
+	/// the texture.
 	uint32_t get_block_size_px() const { return block_size_px; }
 
 private:
@@ -71,7 +74,9 @@ private:
 	AlphaTest test;
 	double tolerance_px;
 	uint32_t edge_budget;
-	double tile_size = 1; // in repetitions of the texture; above 1: an outline stands for several
+	/// Repetitions of the texture along each axis of a tile. Above 1, an outline stretched over the
+	/// tile stands for several of them.
+	double tile_size = 1;
 	uint32_t block_size_px = 0;
 	std::map<std::pair<int, int>, Tile> tiles;
 };

@@ -16,6 +16,7 @@ bool is_above(const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
 	return p_a.y > p_b.y || (p_a.y == p_b.y && p_a.x < p_b.x);
 }
 
+/// Computes the result of triangulate.
 class Triangulator {
 public:
 	explicit Triangulator(std::span<const PolygonLoop> p_loops);
@@ -40,6 +41,7 @@ private:
 	uint32_t find_left_edge(uint32_t p_point);
 	void close_edge(uint32_t p_edge, uint32_t p_point);
 	void open_edge(uint32_t p_point);
+	/// Adds the diagonal from a point to the edge's helper if that is a merge point or p_always.
 	void connect_helper(uint32_t p_edge, uint32_t p_point, bool p_always);
 	void sort_outgoing(uint32_t p_point);
 	uint32_t find_next(uint32_t p_from, uint32_t p_to) const;
@@ -49,7 +51,7 @@ private:
 	std::vector<glm::ivec2> points;
 	std::vector<uint32_t> next, previous;
 	std::vector<uint32_t> helpers;				 // per edge: its helper point (de Berg et al.)
-	std::vector<uint8_t> is_merge;				 // per point
+	std::vector<uint8_t> is_merge;				 // per point: a merge vertex (de Berg et al.)
 	std::vector<std::vector<uint32_t>> outgoing; // per point: points that edges lead to
 	Status status{ IsLeftOf{ *this } };
 	bool is_valid = true; // false: a loop has too few points, or loops cross or touch
@@ -64,7 +66,8 @@ Triangulator::Triangulator(std::span<const PolygonLoop> p_loops) {
 		for (uint32_t i = 0; i < count; ++i) {
 			GNOMON_ASSERT(std::abs(loop[i].x) <= MAX_POLYGON_COORDINATE &&
 							std::abs(loop[i].y) <= MAX_POLYGON_COORDINATE,
-					loop[i].x, loop[i].y);
+					"point (", loop[i].x, ", ", loop[i].y, "), coordinates must be at most ",
+					MAX_POLYGON_COORDINATE);
 			points.push_back(loop[i]);
 			next.push_back(first + (i + 1) % count);
 			previous.push_back(first + (i + count - 1) % count);
@@ -115,6 +118,7 @@ std::vector<uint32_t> Triangulator::run() {
 		return {};
 	}
 	triangulate_pieces();
+	// If loops cross or touch, triangles are reversed or do not add up to the loops' area.
 	int64_t twice_area = 0;
 	for (uint32_t point = 0; point < points.size(); ++point) {
 		twice_area += compute_twice_signed_area(glm::ivec2(0), points[point], points[next[point]]);
@@ -163,7 +167,7 @@ void Triangulator::visit(uint32_t p_point) {
 			if (!is_valid) {
 				return;
 			}
-			connect_helper(left, p_point, true);
+			connect_helper(left, p_point, /*p_always=*/true);
 			helpers[left] = p_point;
 		}
 		open_edge(p_point);
@@ -175,7 +179,7 @@ void Triangulator::visit(uint32_t p_point) {
 			if (!is_valid) {
 				return;
 			}
-			connect_helper(left, p_point, false);
+			connect_helper(left, p_point, /*p_always=*/false);
 			helpers[left] = p_point;
 		}
 	} else if (is_after_below) { // the inside is to the right
@@ -186,7 +190,7 @@ void Triangulator::visit(uint32_t p_point) {
 		if (!is_valid) {
 			return;
 		}
-		connect_helper(left, p_point, false);
+		connect_helper(left, p_point, /*p_always=*/false);
 		helpers[left] = p_point;
 	}
 }
@@ -201,7 +205,7 @@ uint32_t Triangulator::find_left_edge(uint32_t p_point) {
 }
 
 void Triangulator::close_edge(uint32_t p_edge, uint32_t p_point) {
-	connect_helper(p_edge, p_point, false);
+	connect_helper(p_edge, p_point, /*p_always=*/false);
 	is_valid = is_valid && status.erase(p_edge) == 1;
 }
 

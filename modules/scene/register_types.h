@@ -1,3 +1,4 @@
 #pragma once
 
-// Nothing to register: file readers create the nodes, which are then found by their class.
+// The build requires this file in every module. Scene registers nothing: file readers create the
+// nodes, and other modules find them by class (Scene::find_nodes).

@@ -37,7 +37,8 @@ float read_float(const LightSnapshot &p_light, std::string_view p_name) {
 	return static_cast<float>(std::get<double>(read_property(p_light, p_name)));
 }
 
-/// Returns the longest of the cross products of a matrix's columns.
+/// Returns the longest of the cross products of a matrix's columns: the normal of their plane if
+/// all are in one.
 glm::dvec3 find_longest_cross_product(const glm::dmat3 &p_matrix) {
 	glm::dvec3 longest(0.0);
 	for (int column = 0; column < 3; ++column) {
@@ -51,7 +52,7 @@ glm::dvec3 find_longest_cross_product(const glm::dmat3 &p_matrix) {
 /// but whose faces have no front or back. It gets the smallest thickness that restores them.
 void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	const double THICKNESS = 1e-6; // of the longest axis
-	const double ROUNDING = 1e-14;
+	const double ROUNDING = 1e-14; // relative: smaller areas and volumes count as 0
 	const glm::dmat3 axes(r_world_from_node);
 	const double longest =
 			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
@@ -109,7 +110,7 @@ glm::dmat3 compute_orientation(
 	if (is_degenerate || !(std::abs(glm::determinant(axes)) > MIN_AXES_VOLUME)) {
 		fail(p_kind, " \"", p_name,
 				"\": its transform has no orientation (a scale is 0, too large, ",
-				"or axes coincide). Set the scale of it and of its parents to other than 0.");
+				"or axes coincide). Correct the scale of it and of its parents.");
 	}
 	const glm::dvec3 back = axes[2];
 	const glm::dvec3 right = glm::normalize(axes[0] - back * glm::dot(axes[0], back));

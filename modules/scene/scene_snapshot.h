@@ -12,6 +12,7 @@
 
 namespace gnomon {
 
+/// A camera of a frame.
 struct CameraSnapshot {
 	std::string name;
 	glm::dvec3 position_world = glm::dvec3(0.0);
@@ -66,6 +67,7 @@ class CutLevels;
 class MeshPose;
 class PoseSlot;
 
+/// One surface of a MeshInstance3D: a mesh with its material, transform and pose.
 struct InstanceSnapshot {
 	std::shared_ptr<const Mesh> mesh;
 	/// The mesh that casts the shadow: the mesh itself, or what the alpha test leaves of it
@@ -146,10 +148,10 @@ struct SceneSnapshot {
 	Bounds compute_bounds() const;
 };
 
-/// Builds a snapshot of the whole tree, with p_camera as its camera. Nodes with a transform that is
-/// not finite are an Error that names them; of singular transforms, those that flatten a mesh give
-/// it a minimum thickness, and those that collapse it to a line or point draw nothing. A light or
-/// camera with a singular transform is an Error (compute_orientation).
+/// Builds a snapshot of the whole tree, with p_camera as its camera. A transform that is not finite
+/// is an Error that names the node. A mesh that its transform flattens gets a minimum thickness;
+/// one that it collapses to a line or a point is invisible. A light or camera with a singular
+/// transform is an Error (compute_orientation).
 std::shared_ptr<const SceneSnapshot> build_snapshot(const Scene &p_scene, const Camera3D &p_camera);
 
 } // namespace gnomon

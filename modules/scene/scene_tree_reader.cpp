@@ -56,8 +56,8 @@ LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_w
 	return snapshot;
 }
 
-/// Fills the snapshot from the tree and passes the world transform down: computing it per node
-/// would cost the square of the depth.
+/// Fills the snapshot from the tree. Passes the world transform down, because
+/// Node3D::compute_world_from_node would walk up to the root for each node.
 class TreeReader {
 public:
 	/// p_is_posed: false = the scene at rest, without its animations; only used for the scene size.
@@ -155,14 +155,14 @@ std::shared_ptr<const SceneSnapshot> build_snapshot(
 		const Scene &p_scene, const Camera3D &p_camera) {
 	auto snapshot = std::make_shared<SceneSnapshot>();
 	snapshot->camera = build_camera_snapshot(p_camera);
-	TreeReader reader(*snapshot, true);
+	TreeReader reader(*snapshot, /*p_is_posed=*/true);
 	reader.read(*p_scene.root);
 	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
 	if (has_own_size) {
 		snapshot->scene_size_m = p_scene.scene_size_m;
 	} else if (reader.has_animated_nodes()) { // at rest, so that S does not change with the pose
 		SceneSnapshot rest_snapshot;
-		TreeReader(rest_snapshot, false).read(*p_scene.root);
+		TreeReader(rest_snapshot, /*p_is_posed=*/false).read(*p_scene.root);
 		snapshot->scene_size_m = rest_snapshot.compute_caster_bounds().get_diagonal();
 	} else {
 		snapshot->scene_size_m = snapshot->compute_caster_bounds().get_diagonal();

@@ -23,9 +23,9 @@ const glm::dvec3 TO_CAMERA(-0.5, 0.45, 1.0);
 // Direction to the light: over the camera's other shoulder, so that the shadow falls where it is
 // visible.
 const glm::dvec3 TO_LIGHT(0.75, 1.6, 0.7);
-// Lengths in diagonals of the meshes' bounds. With the largest light of a report, of radius 0.3,
-// all techniques are usable from a distance of 5 radii on; corners can be 0.5 nearer than the
-// centre.
+// Lengths in diagonals of the meshes' bounds. No technique needs casters farther than 5 radii from
+// the light (ShadowLimits): 1.5 for the largest light of a report, of radius 0.3. Corners can be
+// 0.5 nearer than the centre.
 const double LIGHT_DISTANCE = 2.2;
 const double LIGHT_SIZE = 0.1; // radius
 const double GROUND_HALF_WIDTH = 6.0;
@@ -53,8 +53,8 @@ glm::dvec3 project_to_ground(
 	return glm::mix(p_light, p_point, (p_light.y - p_ground_y) / (p_light.y - p_point.y));
 }
 
-/// Returns the nearest position from which an image, square or narrower, shows all points with the
-/// margin, for a camera that looks along -TO_CAMERA and whose up direction is y.
+/// Returns the nearest position from which an image, or the central square of a wide one, shows all
+/// points with the margin, for a camera that looks along -TO_CAMERA and whose up direction is y.
 glm::dvec3 find_camera_position(const std::vector<glm::dvec3> &p_points, double p_aspect) {
 	const glm::dmat3 world_from_view(look_at(TO_CAMERA, glm::dvec3(0.0)));
 	const glm::dvec2 slope =
@@ -146,9 +146,11 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode, double p_aspect) {
 			framed.push_back(
 					project_to_ground(framed[corner], to_light, bounds.minimum.y - centre.y));
 		}
+		// Half angles; the sphere around the meshes' bounds has asin(0.5 / LIGHT_DISTANCE) = 0.23.
 		light->inner_cone_rad = 0.5f;
 		light->outer_cone_rad = 0.8f;
-		// The illuminance of the meshes, about 250 lx, does not depend on their size.
+		// The illuminance of the meshes, 1200 / LIGHT_DISTANCE^2 = 250 lx, does not depend on their
+		// size.
 		light->intensity = static_cast<float>(1200.0 * std::max(size_m * size_m, 1e-6));
 		light->properties["light_size"] = std::min(LIGHT_SIZE * size_m, MAX_LENGTH_M);
 		add_first(r_scene, std::move(light), "Stage light");

@@ -18,7 +18,7 @@ std::shared_ptr<const Image> make_image(
 	image->size_px = p_size_px;
 	image->texels = std::move(p_texels);
 	image->id = next_id++;
-	image->content_hash = compute_hash(image->texels, compute_value_hash(p_size_px, 1));
+	image->content_hash = compute_hash(image->texels, compute_value_hash(p_size_px, /*p_seed=*/1));
 	return image;
 }
 

@@ -17,7 +17,7 @@ double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 	return p_a.x * p_b.y - p_a.y * p_b.x;
 }
 
-/// Returns a value above 0 to the left of the line from a to b.
+/// Returns twice the signed area of the triangle: above 0 to the left of the line from a to b.
 double compute_signed_area(
 		const glm::dvec2 &p_a, const glm::dvec2 &p_b, const glm::dvec2 &p_point) {
 	return cross(p_b - p_a, p_point - p_a);
@@ -95,7 +95,7 @@ glm::dvec3 MeshPolygon::compute_position(const glm::dvec2 &p_uv) const {
 }
 
 bool MeshPolygon::join(const MeshPolygon &p_other) {
-	const double ROUNDING = 2.4e-7;		 // of positions, relative to the largest coordinate
+	const double ROUNDING = 2.4e-7;		 // of positions, relative to the largest coordinate: 2^-22
 	const double MIN_CORNER_AREA = 1e-6; // of the whole area; below, the corner is nearly straight
 	const auto is_equal = [&](int p_own, int p_others) {
 		return uv[p_own] == p_other.uv[p_others] && position[p_own] == p_other.position[p_others];
@@ -105,8 +105,8 @@ bool MeshPolygon::join(const MeshPolygon &p_other) {
 			if (!is_equal(own, p_other.get_next(other)) || !is_equal(get_next(own), other)) {
 				continue;
 			}
-			// This polygon's corner that the other one lacks, then the common edge around the
-			// other one's corner.
+			// Corners in order: this triangle's own one, the start of the common edge, the other
+			// triangle's own one, the end of the common edge.
 			MeshPolygon joined;
 			joined.corner_count = 4;
 			const int first = get_previous(own);
@@ -147,7 +147,7 @@ ClippedPiece::ClippedPiece(const MeshPolygon &p_polygon, const std::array<glm::d
 		Point &point = points.emplace_back();
 		point.uv = a;
 		const bool is_reversed = std::tie(b.x, b.y) < std::tie(a.x, a.y);
-		lines.push_back({ -1, is_reversed ? b : a, is_reversed ? a : b });
+		lines.push_back({ /*side=*/-1, is_reversed ? b : a, is_reversed ? a : b });
 	}
 	for (int side = 0; side < polygon.corner_count && !points.empty(); ++side) {
 		clip(side);
@@ -245,7 +245,6 @@ glm::vec3 ClippedPiece::get_position(const Point &p_point) const {
 							 : glm::vec3(polygon.compute_position(p_point.uv));
 }
 
-/// Returns twice the signed area.
 double ClippedPiece::compute_area() const {
 	double area = 0;
 	for (size_t i = 1; i + 1 < points.size(); ++i) {

@@ -46,7 +46,7 @@ struct MeshPolygon {
 
 	/// Computes sides and area from uv and position.
 	void set_up();
-	/// False: the whole triangle shows one line of texels, or none.
+	/// False: the texture coordinates are on one line, or not finite.
 	bool has_area() const { return std::isfinite(area) && area != 0; }
 	int get_next(int p_corner) const { return (p_corner + 1) % corner_count; }
 	int get_previous(int p_corner) const { return (p_corner + corner_count - 1) % corner_count; }
@@ -76,15 +76,19 @@ public:
 		double fraction = 0; // position along that side; while clipping it may be outside 0..1
 	};
 
+	/// Clips a triangle of the outline to the polygon, which must have an area and outlive the
+	/// piece. No points: nothing is left.
 	ClippedPiece(const MeshPolygon &p_polygon, const std::array<glm::dvec2, 3> &p_uvs);
 	const std::vector<Point> &get_points() const { return points; }
 	glm::vec3 get_position(const Point &p_point) const;
+	/// Returns twice the signed area in texture coordinates.
 	double compute_area() const;
 
 private:
 	struct Line {
 		int side = -1; // side of the polygon; -1: a line of the outline
-		glm::dvec2 a = glm::dvec2(0.0), b = glm::dvec2(0.0); // two points of the line, in order
+		/// Two points of the line; their order does not depend on the winding.
+		glm::dvec2 a = glm::dvec2(0.0), b = glm::dvec2(0.0);
 	};
 
 	void clip(int p_side);

@@ -91,15 +91,15 @@ std::vector<uint32_t> optimize(
 				messages += std::string("\n") + p_text;
 			});
 	std::istringstream flags(SHADER_OPTIMIZER_PASSES);
-	bool is_done = true;
+	bool are_flags_known = true;
 	for (std::string flag; std::getline(flags, flag, ',');) {
-		is_done = is_done && optimizer.RegisterPassFromFlag(flag);
+		are_flags_known = are_flags_known && optimizer.RegisterPassFromFlag(flag);
 	}
 	spvtools::OptimizerOptions options;
 	options.set_preserve_bindings(true);
 	options.set_preserve_spec_constants(true);
 	std::vector<uint32_t> optimized;
-	if (!is_done || !optimizer.Run(p_words.data(), p_words.size(), &optimized, options)) {
+	if (!are_flags_known || !optimizer.Run(p_words.data(), p_words.size(), &optimized, options)) {
 		fail("Shader \"", p_name, "\" cannot be optimised:", messages);
 	}
 	return optimized;
@@ -143,13 +143,15 @@ std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string
 	glslang::TShader shader(stage);
 	shader.setPreamble(preamble.c_str());
 	shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
-	shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
+	shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan,
+			/*version=*/100); // of GL_KHR_vulkan_glsl
 	// The same target as in shaders/shader_builders.py: the lowest with subgroup operations.
 	shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
 	shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
 	const EShMessages messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
 	FolderIncluder includer(p_folder);
-	if (!shader.parse(GetDefaultResources(), GLSL_VERSION, false, messages, includer)) {
+	if (!shader.parse(GetDefaultResources(), GLSL_VERSION, /*forwardCompatible=*/false, messages,
+				includer)) {
 		fail("Shader \"", p_name, "\" does not compile:\n", tidy_log(shader.getInfoLog()));
 	}
 	glslang::TProgram program;

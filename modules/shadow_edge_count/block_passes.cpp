@@ -55,7 +55,7 @@ std::vector<PassBinding> make_count_bindings(
 	return bindings;
 }
 
-/// The constants of every shader that processes blocks: a pipeline per kind of light and device.
+/// The specialization constants of every shader that processes blocks.
 std::vector<SpecializationConstant> make_pipeline_constants(
 		const ShadowTechnique::Inputs &p_inputs) {
 	return { { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(p_inputs.views.size()) },
@@ -69,7 +69,7 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		uint32_t p_kind, std::vector<PassBinding> p_bindings) {
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	const shader::CountBlockPush push = { p_kind, p_kind * p_blocks.block_count,
-		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, 0 };
+		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, /*padding=*/0 };
 	std::vector<SpecializationConstant> constants = make_pipeline_constants(inputs);
 	const bool has_no_list =
 			p_kind == EDGE_COUNT_BLOCKS_UNLISTED || p_kind == EDGE_COUNT_BLOCKS_FILTERED;
@@ -93,6 +93,7 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 void add_filter_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, RGTexture p_mask) {
 	CountBlocks blocks = p_blocks;
+	// The views of the depth map, whose size differs from that of the maps of face lists.
 	blocks.receivers = make_map_resolve_bindings(
 			r_graph, p_passes.inputs, p_passes.inputs.light, p_passes.depth_views);
 	std::vector<PassBinding> bindings = make_block_bindings(blocks);
@@ -152,6 +153,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	blocks.block_receivers =
 			make_words("block receivers", block_count * EDGE_COUNT_RECEIVERS_WORDS);
 	blocks.chains = make_words("block chains", block_count * part_count * EDGE_COUNT_CHAIN_WORDS);
+	// + 1: the index of each chunk's next chunk.
 	blocks.lists = r_graph.create_buffer(make_fetched_buffer_desc(inputs.device, "block edges",
 			uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1) * sizeof(uint32_t),
 			Format::R32_UINT));
@@ -242,9 +244,10 @@ RGTexture add_count_passes(
 
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
-	const RGTexture output = r_graph.create_texture({ "counted", Format::R16_SFLOAT,
-			p_passes.inputs.size_px, EDGE_COUNT_DEBUG_LAYERS,
-			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE, true });
+	const RGTexture output = r_graph.create_texture(
+			{ "counted", Format::R16_SFLOAT, p_passes.inputs.size_px, EDGE_COUNT_DEBUG_LAYERS,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
+					/*is_array=*/true });
 	for (uint32_t kind = 0; kind < EDGE_COUNT_BLOCK_KINDS; ++kind) {
 		std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_blocks);
 		bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, output,

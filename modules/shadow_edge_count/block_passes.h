@@ -9,7 +9,7 @@ namespace gnomon {
 struct CountBlockPasses {
 	const ShadowTechnique::Inputs &inputs;
 	const CountSettings &settings;
-	CountFrameBuffers light;
+	CountFrameBuffers light; // the light's faces, edges and face lists
 	CountCapacities capacities;
 	uint32_t empty_views = 0; // bit i: view i has no casters or no receivers
 	RGBuffer masks;			  // mask tables of all sample sets, see DiscMasks

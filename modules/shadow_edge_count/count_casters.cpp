@@ -21,14 +21,14 @@ namespace {
 // and 26 bits (COUNT_EDGE_MASK in count_box_inc.glsl).
 constexpr uint32_t MAX_COUNT = 10'000'000;
 
-// With more triangles, casters have no second level of detail, so that it never exceeds the buffers
-// of a device.
+// With more triangles, casters have no second level of detail, so that this level does not make
+// buffers exceed the device's maximum size.
 constexpr uint64_t MAX_COUNT_WITH_LEVELS = 1'000'000;
 
 // Maximum number of faces to examine one by one, which takes some tenths of a millisecond.
 constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
 
-const double SIDE_TOLERANCE_SIZES = 2.5e-7; // shift of a face's plane by rounding, fraction of S
+const double SIDE_TOLERANCE_SIZES = 2.5e-7; // maximum shift of a plane by rounding, in S
 const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same for a directional light, as a cosine
 
 /// Upper bound of the number of texels that the faces of a mesh overlap, summed over the faces.
@@ -64,18 +64,18 @@ uint64_t compute_max_overlapped_texels(
 		const glm::dvec2 size =
 				glm::min(maximum, glm::dvec2(p_size_px)) - glm::max(minimum, glm::dvec2(0.0)) + 2.0;
 		const double box = std::max(size.x, 0.0) * std::max(size.y, 0.0);
-		// Upper bound of the unit squares that a convex region overlaps, from its area, the sides
-		// of its bounds and its perimeter.
+		// Upper bound of the unit squares that the triangle overlaps: of the lattice points in its
+		// Minkowski sum with a unit square, at most area + perimeter / 2 + 1 (Nosarzewska 1948).
 		const glm::dvec2 u = positions[1] - positions[0];
 		const glm::dvec2 v = positions[2] - positions[0];
-		const double outline = glm::length(u) + glm::length(v) + glm::length(u - v);
+		const double perimeter = glm::length(u) + glm::length(v) + glm::length(u - v);
 		const glm::dvec2 sides = maximum - minimum;
 		const double triangle =
-				0.5 * std::abs(u.x * v.y - u.y * v.x) + sides.x + sides.y + 0.5 * outline + 4.0;
+				0.5 * std::abs(u.x * v.y - u.y * v.x) + sides.x + sides.y + 0.5 * perimeter + 4.0;
 		const double covered = std::min(box, triangle);
 		sum += crosses_near_plane || !std::isfinite(covered)
 				? whole
-				: std::min(covered * 1.01 + 1.0, whole);
+				: std::min(covered * 1.01 + 1.0, whole); // more than the rounding
 	}
 	return static_cast<uint64_t>(std::ceil(sum));
 }

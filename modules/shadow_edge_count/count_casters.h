@@ -23,8 +23,8 @@ struct CountCaster {
 	bool is_coarse() const { return push.first_half_width > 0; }
 };
 
-/// The casters of all views of a light, each once (cut-outs also coarse), and the sizes of all
-/// their data together.
+/// The casters of all views of a light, each once or, for a cut-out with a coarse level of detail,
+/// twice, and the sizes of all their data together.
 struct CountCasters {
 	std::vector<CountCaster> casters;
 	uint32_t face_count = 0;
@@ -45,9 +45,9 @@ struct CountCasters {
 	bool has_layout_of(const CountCasters &p_other) const;
 };
 
-/// Collects the casters of all views, and uploads their meshes where needed. p_disc_radius: R in
-/// metres; directional: the tangent of half the angular diameter. Throws an Error if there are more
-/// than 10,000,000 faces or edges: face indices have 24 bits, edge indices 26.
+/// Collects the casters of all views, and uploads their meshes where needed. p_disc_radius: R, see
+/// CountSettings. Throws an Error if there are more than 10,000,000 faces or edges: face indices
+/// have 24 bits, edge indices 26.
 CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius);
 
 /// Clears CountCaster::is_moved of casters with the same transform and pose as in p_before, which

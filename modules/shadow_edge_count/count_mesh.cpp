@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t CURVE_BITS = 10; // the curve has 2^CURVE_BITS cells per axis
 
-/// Spreads the lowest CURVE_BITS bits to every third bit.
+/// Spreads the lowest CURVE_BITS bits to every third bit, as for Morton codes.
 uint32_t spread_bits(uint32_t p_value) {
 	uint32_t value = (p_value | p_value << 16) & 0x030000ffu;
 	value = (value | value << 8) & 0x0300f00fu;

@@ -20,7 +20,7 @@ struct CountMesh {
 	/// For each connected part of the mesh that this one was cut out of: centre and radius of a
 	/// sphere around the part before the alpha test (connected by edges, whatever their winding).
 	/// All levels of detail have the same source parts, so they switch at the same distance. One
-	/// point if the mesh was not cut out.
+	/// sphere of radius 0 if the mesh was not cut out.
 	std::vector<glm::vec4> source_parts;
 
 	/// Words with one bit per edge.

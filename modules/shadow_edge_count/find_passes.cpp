@@ -15,7 +15,7 @@ template <typename Items, typename Bind>
 void add_caster_pass(RenderingDevice &p_device, PassBuilder p_pass, const char *p_shader,
 		const CountFindPasses &p_passes, Items p_items, Bind p_bind) {
 	const PipelineRID pipeline = p_device.get_compute_pipeline(
-			{ p_shader, choose_fetching_shader(p_device, p_shader), {} });
+			{ p_shader, choose_fetching_shader(p_device, p_shader), /*constants=*/{} });
 	std::vector<CountCaster> casters;
 	for (const CountCaster &caster : p_passes.casters.casters) {
 		if (p_items(caster) > 0) {
@@ -71,7 +71,8 @@ void add_edge_passes(
 			});
 	add_compute_pass(r_graph, "bound edges",
 			p_device.get_compute_pipeline({ "bound edges",
-					choose_fetching_shader(p_device, "shadow_edge_count/bound_edges.comp"), {} }),
+					choose_fetching_shader(p_device, "shadow_edge_count/bound_edges.comp"),
+					/*constants=*/{} }),
 			{ PassBinding::read(FIND_BINDING_EDGES, buffers.edges),
 					PassBinding::read(FIND_BINDING_FACES, buffers.faces),
 					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
@@ -79,7 +80,7 @@ void add_edge_passes(
 			{ p_passes.capacities.get_bundle_count(), 1, 1 });
 	add_compute_pass(r_graph, "bound bundles",
 			p_device.get_compute_pipeline(
-					{ "bound bundles", "shadow_edge_count/bound_bundles.comp", {} }),
+					{ "bound bundles", "shadow_edge_count/bound_bundles.comp", /*constants=*/{} }),
 			{ PassBinding::constants(FIND_BINDING_LIGHT, p_passes.constants),
 					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
 					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
@@ -152,7 +153,7 @@ void add_find_passes(
 		add_compute_pass(r_graph, "list cut faces",
 				p_device.get_compute_pipeline({ "list cut faces",
 						choose_fetching_shader(p_device, "shadow_edge_count/list_cut_faces.comp"),
-						{} }),
+						/*constants=*/{} }),
 				{ PassBinding::constants(FACE_LIST_BINDING_LIGHT, p_passes.constants),
 						PassBinding::read(FACE_LIST_BINDING_FACES, buffers.faces),
 						PassBinding::write(
@@ -188,9 +189,10 @@ void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 		PassBinding::write(FACE_LIST_BINDING_NODES, buffers.nodes, Content::UPDATE), totals };
 	RGBuffer dispatches;
 	for (uint32_t attempt = 0; attempt < attempt_count; ++attempt) {
-		const shader::CountFaceListPush push = { p_view_index, 0, p_passes.capacities.face_count,
-			attempt == 0 ? 1u : 0u, attempt + 2 == attempt_count ? 1u : 0u,
-			p_passes.may_overflow ? 1u : 0u, 0, 0 };
+		const shader::CountFaceListPush push = { p_view_index, /*first_face=*/0,
+			p_passes.capacities.face_count, /*is_first=*/attempt == 0 ? 1u : 0u,
+			/*is_next_final=*/attempt + 2 == attempt_count ? 1u : 0u,
+			p_passes.may_overflow ? 1u : 0u, /*padding0=*/0, /*padding1=*/0 };
 		const auto push_bytes = std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push));
 		const std::string suffix = attempt == 0 ? view : text(view, " attempt ", attempt);
 		if (attempt == 0) {

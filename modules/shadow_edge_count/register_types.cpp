@@ -12,7 +12,7 @@ void initialize_shadow_edge_count_module(ModuleLevel p_level) {
 	ShadowTechniqueInfo info = { "edge_count", "Silhouette edges counted per receiver",
 		"Own; after Sun, Lü, Liu, Wu 2010", "#ff7f0e",
 		[] { return std::make_unique<ShadowEdgeCount>(); } };
-	info.default_rank = 2;
+	info.default_rank = 2; // above shadow_map
 	ShadowRegistry::add(std::move(info));
 }
 

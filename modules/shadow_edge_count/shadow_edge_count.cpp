@@ -159,11 +159,13 @@ void ShadowEdgeCount::at_light_view(
 	}
 	if (!constants) {
 		constants = r_graph.upload_constants("counted views",
-				make_block_constants(p_inputs, settings, buffers.get_capacities(), 0));
+				make_block_constants(
+						p_inputs, settings, buffers.get_capacities(), /*p_empty_views=*/0));
 	}
 	const CountFindPasses passes = { cached.casters, buffers.get_capacities(),
 		buffers.import(r_graph), constants, p_inputs.views.front().is_orthographic,
-		settings.disc_radius > 0, !do_face_lists_fit() || !p_inputs.may_skip };
+		/*has_edges=*/settings.disc_radius > 0,
+		/*may_overflow=*/!do_face_lists_fit() || !p_inputs.may_skip };
 	if (!are_casters_found) {
 		add_find_passes(r_graph, p_inputs.device, passes);
 		are_casters_found = true;
@@ -189,7 +191,7 @@ RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &
 	if (!frame_depth_map) {
 		const TextureDesc desc = { "depth map of " + p_inputs.light.name, Format::D32_SFLOAT,
 			glm::uvec2(DEPTH_MAP_SIZE_PX), static_cast<uint32_t>(p_inputs.views.size()),
-			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true };
+			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, /*is_array=*/true };
 		const bool has_content = bool(depth_map);
 		if (!has_content) {
 			depth_map = OwnedTexture(p_inputs.device, p_inputs.device.create_texture(desc));
@@ -231,10 +233,11 @@ RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	const uint32_t empty_views = views.get_empty_views() | cached.casters.empty_views;
 	if (!has_casters || views.is_all_empty() ||
 			empty_views == ~0u >> (32 - p_inputs.views.size())) {
-		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
+		return add_constant_mask(r_graph, p_inputs.size_px, /*p_visibility=*/1.0f);
 	}
 	CountBlockPasses passes = { p_inputs, settings, buffers.import(r_graph),
-		buffers.get_capacities(), empty_views, import_masks(r_graph, p_inputs), {}, {} };
+		buffers.get_capacities(), empty_views, import_masks(r_graph, p_inputs),
+		/*depth_map=*/{}, /*depth_views=*/{} };
 	if (may_filter) {
 		passes.depth_map = import_depth_map(r_graph, p_inputs);
 		passes.depth_views = build_depth_views(p_inputs);
@@ -249,8 +252,8 @@ RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 	if (debug_image) {
 		r_views.push_back({ "edges", debug_image, glm::vec2(0.0f, 64.0f), EDGE_COUNT_DEBUG_EDGES });
-		r_views.push_back(
-				{ "solids", debug_image, glm::vec2(0.0f, 7.0f), EDGE_COUNT_DEBUG_SOLIDS, 8 });
+		r_views.push_back({ "solids", debug_image, glm::vec2(0.0f, 7.0f), EDGE_COUNT_DEBUG_SOLIDS,
+				/*class_count=*/8 });
 		r_views.push_back({ "blocks", debug_image, glm::vec2(0.0f, 5.0f), EDGE_COUNT_DEBUG_BLOCKS,
 				EDGE_COUNT_BLOCK_KINDS });
 	}

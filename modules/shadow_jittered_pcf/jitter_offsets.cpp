@@ -11,8 +11,9 @@ namespace gnomon {
 
 std::vector<glm::vec4> build_jitter_offsets(uint32_t p_ring_count) {
 	constexpr uint32_t SET_COUNT = JITTERED_PCF_SETS_PER_SIDE * JITTERED_PCF_SETS_PER_SIDE;
-	std::mt19937 random(1);
-	// Uniform in [0, 1). std::uniform_real_distribution differs between standard libraries.
+	std::mt19937 random(1); // a fixed seed
+	// Uniform in [0, 1): 32 random bits divided by 2^32. std::uniform_real_distribution differs
+	// between standard libraries.
 	const auto next = [&] { return random() / 4294967296.0; };
 	std::vector<glm::vec2> offsets;
 	for (uint32_t set = 0; set < SET_COUNT; ++set) {

@@ -8,11 +8,12 @@ namespace gnomon {
 
 namespace {
 
-constexpr double GOLDEN_ANGLE_RAD = 2.399963229728653;
+constexpr double GOLDEN_ANGLE_RAD = 2.399963229728653; // pi (3 - sqrt 5)
 // 1 / plastic number. With the golden ratio instead, the radius would correlate with the direction,
 // which advances by the golden angle.
 constexpr double RADIUS_STEP = 0.7548776662466927;
 
+/// Point p_index of a Vogel disc of radius 1.
 glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
 	const double radius = std::sqrt((p_index + 0.5) / p_count);
 	const double angle_rad = GOLDEN_ANGLE_RAD * p_index;
@@ -24,7 +25,7 @@ glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
 double compute_ball_radius(double p_fraction) {
 	double low = 0;
 	double high = 1;
-	for (int step = 0; step < 50; ++step) {
+	for (int step = 0; step < 50; ++step) { // to within 2^-51
 		const double x = 0.5 * (low + high);
 		const double fraction = (std::asin(x) - x * std::sqrt(1 - x * x)) * 2 / glm::pi<double>();
 		(fraction < p_fraction ? low : high) = x;
@@ -32,6 +33,7 @@ double compute_ball_radius(double p_fraction) {
 	return 0.5 * (low + high);
 }
 
+/// Point p_index of an omni light of radius 1.
 glm::dvec3 compute_ball_point(uint32_t p_index, uint32_t p_count) {
 	// A Fibonacci sphere gives the direction. The radii are stratified in an independent order.
 	const double z = 1 - 2 * (p_index + 0.5) / p_count;
@@ -56,7 +58,8 @@ LightSnapshot make_light_point(
 	const glm::dvec2 offset = radius * compute_vogel_point(p_index, p_count);
 	if (p_light.type == LightType::SPOT) {
 		point.position_world += axes[0] * offset.x + axes[1] * offset.y;
-		const double tangent = std::tan(std::min(1.55, double(p_light.outer_cone_rad)));
+		const double MAX_CONE_RAD = 1.55; // below pi / 2, where the tangent is infinite
+		const double tangent = std::tan(std::min(MAX_CONE_RAD, double(p_light.outer_cone_rad)));
 		const double widened = tangent + radius / std::max({ p_nearest_m, radius, 1e-9 });
 		point.outer_cone_rad = static_cast<float>(std::atan(widened));
 		return point;

@@ -6,13 +6,14 @@
 
 namespace gnomon {
 
-/// Returns the light reduced to point p_index of the p_count points that sample its area.
+/// Returns the light, moved to point p_index of the p_count points that sample its area
+/// (directional: turned to that direction).
 ///
 /// Spot: a Vogel disc of radius R perpendicular to the axis. Omni: points in the sphere of radius R
 /// with density 1 / sqrt(R^2 - r^2), whose projection along any direction is the uniform disc of
 /// radius R. Directional: directions within a cone whose half angle is half
 /// light_angular_distance. The cone of a moved spot is widened so that its view still contains the
-/// original cone beyond the distance p_nearest_m (at least R) from the light.
+/// original cone from the distance max(p_nearest_m, R) along the axis on.
 LightSnapshot make_light_point(
 		const LightSnapshot &p_light, uint32_t p_index, uint32_t p_count, double p_nearest_m);
 

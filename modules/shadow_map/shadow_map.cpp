@@ -23,6 +23,7 @@ void ShadowMap::get_light_properties(PropertyList &r_list) const {
 }
 
 uint32_t ShadowMap::get_border_px(const PropertyValues &p_properties) const {
+	// Half the box, and a texel that its border covers in part.
 	return get_filter_width(p_properties) / 2 + 1;
 }
 
@@ -31,7 +32,8 @@ void ShadowMap::filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline({ "shadow_map resolve",
 			shader,
 			{ { SHADOW_MAP_CONSTANT_FILTER_WIDTH, get_filter_width(p_inputs.properties) } } });
-	const shader::ShadowMapPush push = { p_empty_views, 0, 1, 0 };
+	const shader::ShadowMapPush push = { p_empty_views, /*point_index=*/0, /*point_count=*/1,
+		/*padding=*/0 };
 	add_compute_pass(r_graph, "resolve", pipeline, p_bindings, p_inputs.size_px, push);
 }
 

@@ -13,7 +13,7 @@ namespace gnomon {
 
 namespace {
 
-uint32_t get_count(const LightSnapshot &p_light, const PropertyValues &p_properties) {
+uint32_t get_point_count(const LightSnapshot &p_light, const PropertyValues &p_properties) {
 	// A light without size has a single point.
 	return p_light.get_disc_radius() > 0.0f
 			? static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_count")))
@@ -32,24 +32,25 @@ void Views::get_light_properties(PropertyList &r_list) const {
 void Views::get_quality_settings(
 		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
 	r_settings.push_back({ "16 views", { { "views_count", int64_t(16) } } });
-	r_settings.push_back({ "64 views", { { "views_count", int64_t(64) } }, true });
+	r_settings.push_back({ "64 views", { { "views_count", int64_t(64) } }, /*is_expensive=*/true });
 }
 
 void Views::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const uint32_t size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_map_size")));
-	const uint32_t count = get_count(p_light, p_properties);
+	const uint32_t count = get_point_count(p_light, p_properties);
 	const double nearest_m = compute_nearest_distance_m(p_light, p_scene.scene);
 	for (uint32_t index = 0; index < count; ++index) {
 		const LightSnapshot point = make_light_point(p_light, index, count, nearest_m);
-		const std::vector<LightView> views = build_light_views(point, p_scene, size_px, 1);
+		const std::vector<LightView> views =
+				build_light_views(point, p_scene, size_px, /*p_border_px=*/1);
 		r_views.insert(r_views.end(), views.begin(), views.end());
 	}
 }
 
 void Views::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	const uint32_t count = get_count(p_inputs.light, p_inputs.properties);
+	const uint32_t count = get_point_count(p_inputs.light, p_inputs.properties);
 	views_per_point = static_cast<uint32_t>(p_inputs.views.size()) / count;
 	is_empty.assign(p_inputs.views.size(), false);
 	for (uint32_t index = 0; index < p_inputs.views.size(); ++index) {
@@ -81,22 +82,23 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const double nearest_m = compute_nearest_distance_m(p_inputs.light, p_inputs.scene);
 	bool is_map_written = false;
 	for (uint32_t point_index = 0; point_index < count; ++point_index) {
-		shader::ShadowMapPush push = { 0, point_index, count, 0 };
+		shader::ShadowMapPush push = { .point_index = point_index, .point_count = count };
 		std::vector<LightView> views;
-		for (uint32_t face = 0; face < views_per_point; ++face) {
-			const uint32_t index = point_index * views_per_point + face;
+		for (uint32_t layer = 0; layer < views_per_point; ++layer) {
+			const uint32_t index = point_index * views_per_point + layer;
 			views.push_back(p_inputs.views[index]);
 			if (is_empty[index]) {
-				push.empty_views |= 1u << face;
+				push.empty_views |= 1u << layer;
 			} else {
-				add_depth_pass(r_graph, text("depth point ", point_index, " view ", face), p_inputs,
-						p_inputs.views[index], p_inputs.casters[index], map, face);
+				add_depth_pass(r_graph, text("depth point ", point_index, " view ", layer),
+						p_inputs, p_inputs.views[index], p_inputs.casters[index], map, layer);
 				is_map_written = true;
 			}
 		}
 		if (!is_map_written) {
 			// No map has been drawn yet. It is bound although no texel is read, so it must exist.
-			add_depth_pass(r_graph, "empty map", p_inputs, views[0], {}, map, 0);
+			add_depth_pass(r_graph, "empty map", p_inputs, views[0], /*p_casters=*/{}, map,
+					/*p_layer=*/0);
 			is_map_written = true;
 		}
 		const LightSnapshot point = make_light_point(p_inputs.light, point_index, count, nearest_m);

@@ -8,14 +8,15 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t VERTICES_PER_HALF = 6;
+constexpr uint32_t VERTICES_PER_HALF = 6; // two triangles
 // Distances of fins from the light are clamped to at least this fraction of the farthest distance.
 // Otherwise inner depths, which are divided by inner_divisor (K), could underflow in float32.
 constexpr float MIN_DISTANCE_FRACTION = 1e-6f;
 
+/// The draw of one caster's fins.
 struct FinDraw {
 	const GpuTopology *gpu = nullptr;
-	uint32_t draw_index = 0;
+	uint32_t draw_index = 0; // in SilhouetteLists::draws
 	shader::FinsPush push;
 };
 
@@ -52,6 +53,7 @@ RasterPipelineDesc make_pipeline_desc(
 		desc.name = "fins, geometry shader";
 		desc.vertex_shader = "shadow_penumbra_fins/fins.vert";
 		desc.geometry_shader = "shadow_penumbra_fins/fins.geom";
+		// Positions and normals, a vec4 each.
 		desc.attributes = { { 0, 0, Format::R32_SFLOAT, 4, 0 },
 			{ 1, 1, Format::R32_SFLOAT, 4, 0 } };
 		desc.vertex_strides_bytes = { sizeof(glm::vec4), sizeof(glm::vec4) };
@@ -114,6 +116,7 @@ shader::FinsViewConstants compute_fins_view_constants(const ShadowTechnique::Inp
 	constants.beta_m = p_settings.beta_m;
 	constants.nearest_m = std::max({ view.near_m, nearest_limit_m, 1e-30f });
 	constants.farthest_m = std::max(static_cast<float>(farthest_m), constants.nearest_m);
+	// K of Sun et al. 2010, section 2.1.3: puts every inner depth below every outer one.
 	constants.inner_divisor = 2.0f * constants.farthest_m / constants.nearest_m;
 	return constants;
 }
@@ -125,7 +128,7 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 	const RGBuffer constants = r_graph.upload_constants("fins view",
 			compute_fins_view_constants(p_inputs, p_view_index, p_settings), BufferUsage::UNIFORM);
 	const RGTexture layer_1 = p_targets.layer_1;
-	// When layer 2 was not peeled, layer 1 fills its binding and is not read from it.
+	// When layer 2 was not peeled, layer 1 fills its binding, which the shader then does not read.
 	const RGTexture layer_2 = p_targets.layer_2 ? p_targets.layer_2 : layer_1;
 	PassBuilder pass = r_graph.add_pass(text("fins view ", p_view_index));
 	pass.reads(constants, Access::UNIFORM_READ)
@@ -133,10 +136,10 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			.reads(layer_2, Access::SHADER_READ_FRAGMENT)
 			.color(p_targets.color, LoadOp::CLEAR, glm::vec4(0.0f), p_view_index)
 			.depth(p_targets.penumbra_depth, LoadOp::CLEAR, 0.0f, p_view_index);
-	const TopologyBuffer parts = TopologyBuffer::POSITIONS | TopologyBuffer::NORMALS |
+	const TopologyBuffer buffers = TopologyBuffer::POSITIONS | TopologyBuffer::NORMALS |
 			(is_geometry_shader ? TopologyBuffer::FACE_FLAGS | TopologyBuffer::ADJACENCY
 								: TopologyBuffer::EDGES);
-	const std::vector<FinDraw> draws = build_draws(p_inputs, p_view_index, p_casters, parts);
+	const std::vector<FinDraw> draws = build_draws(p_inputs, p_view_index, p_casters, buffers);
 	if (draws.empty() || !p_settings.has_fins()) {
 		pass.execute([](PassContext &) {}); // only clears the attachments
 		return;

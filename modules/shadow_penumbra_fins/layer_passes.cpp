@@ -141,6 +141,7 @@ void add_one_pass_peeling(RenderGraph &r_graph, const ShadowTechnique::Inputs &p
 	copy.reads(texels, Access::COPY_READ);
 	const bool is_array = r_graph.get_desc(p_layers[0]).layer_count > 1;
 	for (const RGTexture &layer : p_layers) {
+		// The copy writes one layer of an array, and the others keep their content.
 		copy.writes(layer, Access::COPY_WRITE,
 				is_array ? PassBuilder::Content::UPDATE : PassBuilder::Content::FRESH);
 	}
@@ -159,7 +160,7 @@ void add_layer_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling,
 		RGBuffer &r_texels) {
 	GNOMON_ASSERT(!p_layers.empty() && p_layers.size() <= FINS_MAX_LAYERS, p_layers.size(),
-			" depth layers");
+			" depth layers, must be 1 to ", FINS_MAX_LAYERS);
 	if (p_peeling == Peeling::ONE_PASS && p_layers.size() > 1) {
 		add_one_pass_peeling(r_graph, p_inputs, p_view_index, p_layers, r_texels);
 	} else {

@@ -64,6 +64,7 @@ void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 				"t is 0: only inner fins need them");
 		settings.layer_count = 1;
 	}
+	// Without skipping, the fin passes run even if r and t are 0, and only clear the maps.
 	draws_fins = settings.has_fins() || !p_inputs.may_skip;
 	plan_views(p_inputs, r_plan);
 	if (!views.is_all_empty()) {
@@ -73,7 +74,7 @@ void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 
 void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	views.begin(p_inputs, CachedViews::FilterReach::SINGLE_VIEW);
-	bool has_content = !views.may_free_maps();
+	bool has_content = !views.may_free_maps(); // if all views are empty: the maps stay as they are
 	if (views.is_all_empty()) {
 		if (views.may_free_maps()) {
 			maps.reset();
@@ -234,7 +235,7 @@ void ShadowPenumbraFins::get_debug_views(std::vector<DebugView> &r_views) const 
 		const FinTargets targets = maps.get_targets();
 		r_views.push_back({ "penumbra_color", targets.color });
 		r_views.push_back({ "penumbra_depth", targets.penumbra_depth });
-		r_views.push_back({ "case", cases, glm::vec2(0.0f, 6.0f), 0, 7 });
+		r_views.push_back({ "case", cases, glm::vec2(0.0f, 6.0f), /*layer=*/0, /*class_count=*/7 });
 	}
 }
 

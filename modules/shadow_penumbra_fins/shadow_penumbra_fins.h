@@ -62,8 +62,8 @@ private:
 	bool draws_fins = false;
 	SilhouetteCasters fin_casters;
 	SilhouetteLists edge_lists;
-	RGBuffer layer_texels; // r_texels of add_layer_passes
-	RGTexture cases;
+	RGBuffer layer_texels;						   // r_texels of add_layer_passes
+	RGTexture cases;							   // the case of each pixel, see cases.comp
 	glm::vec2 layer_range = glm::vec2(0.0f, 1.0f); // depths that the debug views show
 };
 

@@ -45,7 +45,7 @@ std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 			? glm::dvec4(light.position_world - scene.camera.position_world, 1.0)
 			: glm::dvec4(-light.get_direction_world(), 0.0);
 	const double light_height = glm::dot(p_plane, light_position);
-	// p -> (plane . light) p - (plane . p) light
+	// p -> (plane . light) p - (plane . p) light (Blinn 1988)
 	const glm::dmat4 flatten =
 			glm::dmat4(1.0) * light_height - glm::outerProduct(light_position, p_plane);
 	const LightView camera = make_camera_view(scene.camera, p_inputs.size_px);
@@ -85,7 +85,7 @@ PlanarTargets add_lit_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &
 				p_context.commands.bind_pipeline(pipeline);
 				p_context.commands.bind_resources(
 						{ { PLANAR_BINDING_RECEIVERS, p_context.get(receivers) } });
-				p_context.commands.draw(3);
+				p_context.commands.draw(3); // one triangle over the whole image
 			});
 	return targets;
 }
@@ -117,7 +117,7 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 				{ PLANAR_BINDING_NORMAL, p_context.get(normal) },
 				{ PLANAR_BINDING_RECEIVERS, p_context.get(receivers) } });
 		commands.push_constants(mark_push);
-		commands.draw(3);
+		commands.draw(3); // one triangle over the whole image
 	});
 
 	RasterPipelineDesc desc;
@@ -129,7 +129,7 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 	desc.color_formats = { Format::R16_SFLOAT };
 	desc.has_stencil = true;
 	// The first caster that covers a pixel clears its stencil, so that it is not drawn again.
-	desc.stencil.front = { CompareOp::EQUAL, StencilOp::KEEP, StencilOp::KEEP, StencilOp::ZERO };
+	desc.stencil.front = { .compare = CompareOp::EQUAL, .pass = StencilOp::ZERO };
 	desc.stencil.back = desc.stencil.front;
 	desc.stencil.reference = ON_PLANE;
 	desc.depth_compare = CompareOp::ALWAYS;

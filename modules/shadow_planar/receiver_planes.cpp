@@ -7,17 +7,18 @@ namespace gnomon {
 
 namespace {
 
-const double MIN_AREA_FRACTION = 0.05; // minimum area of a plane as a fraction of the lit area
+// Minimum area of a plane, as a fraction of the instance's light-facing area.
+const double MIN_AREA_FRACTION = 0.05;
 const size_t MAX_PLANE_COUNT = 16;
 // Maximum number of planes per instance, since a mesh with more is probably curved. Faces in
 // further planes get none.
 const size_t MAX_PLANES_PER_INSTANCE = 64;
-const double MAX_NORMAL_DEVIATION =
-		1e-6; // maximum of 1 - cosine between normals of faces in one plane
-const double MAX_OFFSET_DIFFERENCE =
-		1e-5; // maximum difference of their offsets, as a fraction of S
-// Minimum height of the light above a plane that it lights, as a fraction of S. Directional:
-// minimum cosine of its angle to the normal.
+// Maximum of 1 - cosine between normals of faces in one plane: an angle of 0.08 degrees.
+const double MAX_NORMAL_DEVIATION = 1e-6;
+// Maximum difference of their offsets, as a fraction of S.
+const double MAX_OFFSET_DIFFERENCE = 1e-5;
+// Minimum height of the light above a plane that faces it, as a fraction of S. Directional: minimum
+// cosine of its angle to the normal.
 const double MIN_LIGHT_HEIGHT = 1e-6;
 
 /// Computes a face's plane. The normal of a double-sided face points towards the light. p_corners:
@@ -47,7 +48,7 @@ ReceiverPlane make_plane(const InstanceSnapshot &p_instance, const Mesh &p_mesh,
 	return plane;
 }
 
-bool is_lit(
+bool faces_light(
 		const ReceiverPlane &p_plane, const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
 	const bool is_directional = p_light.type == LightType::DIRECTIONAL;
 	const double min_height = MIN_LIGHT_HEIGHT * (is_directional ? 1.0 : p_scene.scene_size_m);
@@ -55,19 +56,19 @@ bool is_lit(
 			compute_light_height(p_plane, p_light, p_scene.camera) > min_height;
 }
 
-/// Groups the instance's light-facing faces by plane. Adds their area to r_lit_area_m2.
+/// Groups the instance's light-facing faces by plane. Adds their area to r_facing_area_m2.
 std::vector<ReceiverPlane> group_faces(const InstanceSnapshot &p_instance,
-		const LightSnapshot &p_light, const SceneSnapshot &p_scene, double &r_lit_area_m2) {
+		const LightSnapshot &p_light, const SceneSnapshot &p_scene, double &r_facing_area_m2) {
 	std::vector<ReceiverPlane> groups;
 	const std::shared_ptr<const Mesh> mesh = p_instance.get_posed_mesh();
 	const std::vector<uint32_t> &indices = mesh->indices;
 	for (size_t first = 0; first + 2 < indices.size(); first += 3) {
 		const ReceiverPlane face =
 				make_plane(p_instance, *mesh, p_light, p_scene.camera, &indices[first]);
-		if (!is_lit(face, p_light, p_scene)) {
+		if (!faces_light(face, p_light, p_scene)) {
 			continue;
 		}
-		r_lit_area_m2 += face.area_m2;
+		r_facing_area_m2 += face.area_m2;
 		const auto same =
 				std::find_if(groups.begin(), groups.end(), [&](const ReceiverPlane &p_group) {
 					return glm::dot(p_group.normal, face.normal) > 1 - MAX_NORMAL_DEVIATION &&
@@ -101,14 +102,14 @@ ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSna
 			continue;
 		}
 		++result.declared_count;
-		double lit_area_m2 = 0;
+		double facing_area_m2 = 0;
 		const size_t count_before = result.planes.size();
-		for (ReceiverPlane &plane : group_faces(instance, p_light, p_scene, lit_area_m2)) {
-			if (plane.area_m2 >= MIN_AREA_FRACTION * lit_area_m2) {
+		for (ReceiverPlane &plane : group_faces(instance, p_light, p_scene, facing_area_m2)) {
+			if (plane.area_m2 >= MIN_AREA_FRACTION * facing_area_m2) {
 				result.planes.push_back(plane);
 			}
 		}
-		result.curved_count += lit_area_m2 > 0 && result.planes.size() == count_before ? 1 : 0;
+		result.curved_count += facing_area_m2 > 0 && result.planes.size() == count_before ? 1 : 0;
 	}
 	std::stable_sort(result.planes.begin(), result.planes.end(),
 			[](const ReceiverPlane &p_left, const ReceiverPlane &p_right) {

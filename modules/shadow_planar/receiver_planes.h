@@ -20,13 +20,13 @@ struct ReceiverPlane {
 struct ReceiverPlanes {
 	std::vector<ReceiverPlane> planes; // largest first
 	uint32_t declared_count = 0;	   // instances that are declared planar
-	uint32_t curved_count = 0;		   // of these: lit, but without a plane that is large enough
+	uint32_t curved_count = 0;		   // of these: light-facing, but no plane is large enough
 	uint32_t skipped_count = 0;		   // planes beyond the maximum of 16, the smallest ones
 };
 
 /// Finds the light-facing planes of the instances whose `shadow_planar_receiver` is set. The faces
-/// of a plane must together have at least a twentieth of the instance's lit area. Returns at most
-/// the 16 largest planes.
+/// of a plane must together have at least a twentieth of the instance's light-facing area.
+/// Returns at most the 16 largest planes.
 ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSnapshot &p_light);
 
 /// Height of the light's centre above the plane in metres. Directional: cosine of the angle between

@@ -39,7 +39,7 @@ void ShadowPlanar::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 
 RGTexture ShadowPlanar::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	if ((casters.empty() || receivers.planes.empty()) && p_inputs.may_skip) {
-		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
+		return add_constant_mask(r_graph, p_inputs.size_px, /*p_visibility=*/1.0f);
 	}
 	const PlanarTargets targets = add_lit_pass(r_graph, p_inputs);
 	for (uint32_t index = 0; index < receivers.planes.size(); ++index) {

@@ -13,6 +13,8 @@
 #include <mutex>
 #include <thread>
 
+// Implements CasterScene::compute. The rest of the class is in caster_scene.cpp.
+
 namespace gnomon {
 
 namespace {
@@ -90,8 +92,9 @@ struct Job {
 	bool has_second_half;
 	std::vector<float> &visibility;
 	std::vector<glm::vec3> &colors; // empty without translucent casters
-	uint32_t spread_sample_count;	// also for a light without size, which else needs one sample
-	std::vector<float> half_error;	// per pixel, see compute_half_error
+	/// Samples of receivers with a spread radius, which even a light without size needs.
+	uint32_t spread_sample_count;
+	std::vector<float> half_error; // per pixel, see compute_half_error
 	std::atomic<uint64_t> ray_count = 0;
 	std::atomic<uint32_t> next_tile = 0;
 	std::atomic<uint32_t> done_tile_count = 0;
@@ -268,7 +271,7 @@ VisibilityResult CasterScene::compute(std::span<const ReceiverPoint> p_points,
 			job.is_stopped = true; // ends the others
 		}
 	};
-	{
+	{ // at its end, the threads join
 		std::vector<std::jthread> threads;
 		for (uint32_t i = 1; i < thread_count; ++i) {
 			threads.emplace_back([&] { trace(nullptr); });

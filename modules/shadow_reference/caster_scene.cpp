@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t LANE_COUNT = 8;
+constexpr uint32_t LANE_COUNT = 8; // rays in an RTCRay8
 
 } // namespace
 

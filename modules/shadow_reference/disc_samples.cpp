@@ -56,10 +56,10 @@ float to_signed_unit(uint32_t p_fraction) {
 	return (static_cast<float>(p_fraction >> 8) + 0.5f) * 0x1p-23f - 1.0f;
 }
 
-/// Computes the sine and cosine of (pi/4) p_q for |p_q| <= 1, with an error of 1e-7. Polynomials
-/// instead of library calls, because this runs once per ray.
+/// Computes the sine and cosine of (pi/4) p_q for |p_q| <= 1, with an error of 1e-7. Taylor
+/// polynomials instead of library calls, because this runs once per ray.
 void compute_sine_cosine(float p_q, float &r_sine, float &r_cosine) {
-	const float t = p_q * 0.785398163f;
+	const float t = p_q * 0.785398163f; // pi / 4
 	const float t2 = t * t;
 	r_sine = t * (1.0f + t2 * (-1.0f / 6 + t2 * (1.0f / 120 + t2 * (-1.0f / 5040 + t2 / 362880))));
 	r_cosine = 1.0f + t2 * (-0.5f + t2 * (1.0f / 24 + t2 * (-1.0f / 720 + t2 / 40320)));
@@ -101,7 +101,7 @@ void DiscSamples::compute_packet(
 		const float radius = is_wide ? a : b;
 		float sine = 0;
 		float cosine = 0;
-		// Both coordinates are 0 in the centre of the disc.
+		// In the disc's centre, both coordinates are 0 and the quotient is not defined.
 		compute_sine_cosine(radius != 0 ? (is_wide ? b : a) / radius : 0.0f, sine, cosine);
 		r_packet.x[i] = radius * (is_wide ? cosine : sine);
 		r_packet.y[i] = radius * (is_wide ? sine : cosine);

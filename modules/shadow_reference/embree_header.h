@@ -86,8 +86,9 @@ inline void record_crossing(const RTCFilterFunctionNArguments *p_arguments) {
 	}
 }
 
-/// Adds to r_crossings all geometries with record_crossing that the rays meet between tnear and
-/// tfar. The id of each ray is its index in r_crossings. Rays may start anywhere.
+/// Adds to r_crossings all geometries that the rays meet between tnear and tfar. Only geometries
+/// whose filter function is record_crossing are added. The id of each ray is its index in
+/// r_crossings. Rays may start anywhere.
 inline void find_crossings_8(
 		RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays, Crossings &r_crossings) {
 	CrossingContext context = {};

@@ -26,8 +26,8 @@ RTCRay make_ray(const glm::vec3 &p_origin, const glm::vec3 &p_direction, float p
 	return ray;
 }
 
-/// Returns the indices without triangles that have a corner that is not finite: Embree leaves it to
-/// the caller to skip them. An index out of range is a programming error.
+/// Returns the indices of the triangles whose corners are all finite: Embree expects the caller to
+/// skip the others. An index out of range is a programming error.
 std::vector<uint32_t> keep_finite(
 		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
 	GNOMON_ASSERT(p_triangle_indices.size() % 3 == 0, p_triangle_indices.size(), " indices");
@@ -71,8 +71,9 @@ std::shared_ptr<RTCDeviceTy> acquire_device() {
 	if (!device) {
 		RTCDevice created = rtcNewDevice(nullptr);
 		if (created == nullptr) {
-			fail("Reference: Embree cannot begin (error ",
-					static_cast<int>(rtcGetDeviceError(nullptr)), "). Free memory.");
+			fail("Reference: Embree cannot create a device (RTCError ",
+					static_cast<int>(rtcGetDeviceError(nullptr)),
+					"; 4: out of memory, 5: unsupported CPU). Free memory or use another CPU.");
 		}
 		device.reset(created, &rtcReleaseDevice);
 		shared = device;
@@ -151,6 +152,7 @@ SurfaceHit EmbreeScene::find_nearest(
 		return {};
 	}
 	const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+	// Scaled before it is normalized: the square of a tiny triangle's normal would underflow.
 	const float largest = std::max({ std::abs(normal.x), std::abs(normal.y), std::abs(normal.z) });
 	return { true, query.ray.tfar,
 		largest > 0.0f ? glm::normalize(normal / largest) : glm::vec3(0.0f) };
@@ -163,7 +165,7 @@ bool EmbreeScene::is_occluded(
 	return ray.tfar < 0.0f;
 }
 
-/// Adds one geometry, even without finite triangles: geometry ids count the calls.
+/// Adds one geometry, even without finite triangles, so that its id is the number of earlier calls.
 void EmbreeScene::add(std::span<const glm::vec3> p_positions,
 		std::span<const uint32_t> p_triangle_indices, HitMode p_hit_mode,
 		const CutOutTriangles *p_cut_out) {

@@ -8,7 +8,7 @@ namespace gnomon {
 struct AreaLight {
 	bool is_directional = false;
 	glm::vec3 position = glm::vec3(0.0f); // L, the disc's centre; spot and omni
-	/// In which it shines. Directional: any length above 0; spot with a cone: unit.
+	/// The direction in which it shines. Directional: any length above 0; spot with a cone: unit.
 	glm::vec3 direction = glm::vec3(0, -1, 0);
 	/// 0..1e18. Spot and omni: R; the disc at L is perpendicular to L - P. Directional: the tangent
 	/// of half the apparent diameter; the disc is at unit distance. 0: a hard shadow, one ray.

@@ -48,7 +48,7 @@ std::optional<ReferenceVisibility> parse_reference_entry(
 		std::span<const uint8_t> p_bytes, uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
 	EntryHeader header;
 	if (p_pixel_count > p_bytes.size()) {
-		return std::nullopt; // too short for any; otherwise the sizes below could wrap around
+		return std::nullopt; // too short; without this, the sizes below could wrap around
 	}
 	const size_t value_bytes = p_pixel_count * sizeof(float);
 	const size_t color_bytes = p_is_colored ? p_pixel_count * sizeof(glm::vec3) : 0;

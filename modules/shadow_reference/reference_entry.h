@@ -27,8 +27,8 @@ struct ReferenceVisibility {
 
 /// Serialises a reference for the cache.
 std::vector<uint8_t> build_reference_entry(uint64_t p_key, const ReferenceVisibility &p_reference);
-/// Parses the bytes of build_reference_entry. Returns nothing when their key or size is another
-/// one. p_is_colored: whether the entry must have colours.
+/// Parses the bytes of build_reference_entry. Returns nothing when their key or size differs.
+/// p_is_colored: whether the entry must have colours.
 std::optional<ReferenceVisibility> parse_reference_entry(
 		std::span<const uint8_t> p_bytes, uint64_t p_key, size_t p_pixel_count, bool p_is_colored);
 

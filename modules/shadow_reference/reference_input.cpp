@@ -44,7 +44,7 @@ std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_
 	for (size_t pixel = 0; pixel < points.size(); ++pixel) {
 		const SurfacePoint &surface = p_surfaces[pixel];
 		if (surface.is_valid && p_is_receiver(pixel)) {
-			points[pixel] = { surface.position, surface.geometric_normal, true,
+			points[pixel] = { surface.position, surface.geometric_normal, /*is_receiver=*/true,
 				p_spread != nullptr
 						? p_spread->compute_radius_m(surface.material, surface.pixel_size_m)
 						: 0.0f };

@@ -66,6 +66,7 @@ struct ShadowReference::Job {
 		}
 		key = add_to_hash(std::span<const glm::vec3>(points), key);
 		if (!spread_bodies.empty()) {
+			// Range and cone decide which points count around a receiver that spreads light.
 			std::vector<float> spread_values = { light.range_m, light.cos_outer };
 			for (const ReceiverPoint &point : p_points) {
 				spread_values.push_back(point.spread_radius_m);
@@ -85,9 +86,8 @@ struct ShadowReference::Job {
 
 void ShadowReference::get_light_properties(PropertyList &r_list) const {
 	r_list.add({ "reference_samples", PropertyType::INT, int64_t(1024), "1,65536,1",
-			"Rays per pixel. The error falls faster than 1 / sqrt(rays); "
-			"published "
-			"tables use 9216.",
+			"Rays per pixel. The error falls faster than 1 / sqrt(rays); published tables use "
+			"9216.",
 			"", "Reference" });
 }
 

@@ -15,7 +15,8 @@ constexpr float BODY_REACH = 20.0f;
 
 /// A low-discrepancy sequence in the four-dimensional unit cube, even for every count: Roberts' R
 /// sequence (generalised golden ratio). It is additive, with a random start and the inverse powers
-/// of the root of x^5 = x + 1 as steps. 32-bit fractions lose no precision over thousands of steps.
+/// of the root of x^5 = x + 1 as steps. 32-bit fractions (2^32 is 1) lose no precision over
+/// thousands of steps.
 class RobertsSequence {
 public:
 	explicit RobertsSequence(uint64_t p_hash) {

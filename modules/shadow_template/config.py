@@ -3,7 +3,7 @@ def get_dependencies():
 
 
 def get_layer():
-    return 4
+    return 4  # the layer of all techniques
 
 
 def is_example():  # delete in a copy

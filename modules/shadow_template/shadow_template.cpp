@@ -21,11 +21,11 @@ void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const LightSc
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const auto size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("template_map_size")));
-	r_views = build_light_views(p_light, p_scene, size_px, 1);
+	r_views = build_light_views(p_light, p_scene, size_px, /*p_border_px=*/1);
 }
 
 // Called before any pass is recorded, to skip what this frame does not need. The template skips
-// nothing.
+// nothing and only drops the last frame's map.
 void ShadowTemplate::plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {
 	map = {};
 }
@@ -36,13 +36,13 @@ void ShadowTemplate::at_light_view(
 	if (!map) {
 		map = r_graph.create_texture({ "template map", Format::D32_SFLOAT,
 				p_inputs.views[p_view_index].size_px, static_cast<uint32_t>(p_inputs.views.size()),
-				TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true });
+				TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, /*is_array=*/true });
 	}
 	add_depth_pass(r_graph, text("depth view ", p_view_index), p_inputs,
 			p_inputs.views[p_view_index], p_inputs.casters[p_view_index], map, p_view_index);
 }
 
-// Called once per frame: computes the visibility of every pixel.
+// Called once per frame and light: computes the visibility of every pixel.
 RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "template resolve", "shadow_template/resolve.comp", {} });

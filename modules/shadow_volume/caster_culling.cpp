@@ -15,7 +15,7 @@ namespace gnomon {
 
 namespace {
 
-const size_t MIN_CASTER_COUNT = 64;		// with Mode::AUTO
+const size_t MIN_CASTER_COUNT = 64;		// with fewer casters, AUTO does not cull
 const double MIN_HIDDEN_FRACTION = 0.1; // fraction of casters; below it, AUTO pauses
 const uint64_t PAUSE_FRAMES = 60;		// length of the pause
 const size_t HEADER_BYTES = CULLING_HEADER_WORDS * sizeof(uint32_t);
@@ -78,6 +78,7 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 	const uint64_t last_key = std::exchange(key, compute_key(p_inputs, p_instances));
 	const bool has_same_count = p_inputs.may_reuse && last_result &&
 			last_result->is_hidden.size() == p_instances.size();
+	// The debug view shows the occluders, so they must be drawn in this frame.
 	if (!p_inputs.wants_debug_views && has_same_count && last_result->key == key) {
 		return cull_hidden(p_instances, r_plan);
 	}
@@ -179,7 +180,7 @@ void CasterCulling::add_readback(RenderGraph &r_graph, RGBuffer p_words) {
 		std::vector<uint32_t> words(CULLING_HEADER_WORDS + caster_count);
 		std::memcpy(words.data(), p_bytes.data(), words.size() * sizeof(uint32_t));
 		const uint64_t found_key = words[0] | uint64_t(words[1]) << 32;
-		if (found_key == key) {
+		if (found_key == key) { // not so if no caster has a valid box: cull.comp did not run
 			*latest_readback = { key, { words.begin() + CULLING_HEADER_WORDS, words.end() } };
 		}
 	};

@@ -49,14 +49,15 @@ std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
 		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
 		const uint32_t b = corners[is_facing ? 1 : 2];
 		const uint32_t c = corners[is_facing ? 2 : 1];
-		builder.add_triangle(corners[0], b, c, false);
+		builder.add_triangle(corners[0], b, c, /*p_is_far=*/false);
 		if (p_shape.has_far_cap) {
-			builder.add_triangle(corners[0], c, b, true);
+			builder.add_triangle(corners[0], c, b, /*p_is_far=*/true);
 		}
 	}
 	for (const SilhouetteEdge &edge : silhouette.edges) {
 		const MeshPart &part = p_topology.get_part(p_topology.edges[edge.edge_index].face0);
 		// In a closed, robust part both faces of an edge have volumes, so the edge has two sides.
+		// In a part that is not closed, `weight` counts both already.
 		const uint32_t side_count =
 				part.is_closed && includes(p_shape.robust, part.is_solid()) ? 2 : 1;
 		for (uint32_t i = 0; i < edge.weight * side_count; ++i) {

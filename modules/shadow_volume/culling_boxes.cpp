@@ -41,7 +41,8 @@ CullingBoxes build_culling_boxes(
 		pending.pop_back();
 		const uint32_t begin = find_first_item(nodes, node);
 		if (nodes[node].item_count > 0 || end - begin <= CULLING_CASTERS_PER_SUBTREE) {
-			GNOMON_ASSERT(end - begin <= CULLING_CASTERS_PER_SUBTREE, "a leaf of ", end - begin);
+			GNOMON_ASSERT(end - begin <= CULLING_CASTERS_PER_SUBTREE, "a BVH leaf has ",
+					end - begin, " boxes, at most ", CULLING_CASTERS_PER_SUBTREE, " fit a subtree");
 			result.boxes.push_back(
 					make_box(nodes[node].bounds, p_origin_world, begin, end - begin));
 			continue;

@@ -126,7 +126,7 @@ OccluderPipelines get_pipelines(RenderingDevice &p_device, size_t p_count) {
 	desc.name = "occluders' edges";
 	desc.vertex_shader = "shadow_volume/occluder_edges.vert";
 	desc.fragment_shader = "";
-	desc.depth_compare = CompareOp::LESS;
+	desc.depth_compare = CompareOp::LESS; // reversed: farther
 	desc.stencil.front = { .compare = CompareOp::EQUAL };
 	desc.stencil.back = desc.stencil.front;
 	get_numbered(pipelines.edges);
@@ -238,7 +238,7 @@ OccluderMap add_occluder_passes(RenderGraph &r_graph, const ShadowTechnique::Inp
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
 	const RGTexture map = r_graph.create_texture(
 			{ "occluders", Format::D32_SFLOAT_S8_UINT, glm::uvec2(CULLING_MAP_SIZE_PX), view_count,
-					TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true });
+					TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, /*is_array=*/true });
 	const OccluderPipelines pipelines = get_pipelines(p_inputs.device, p_occluders.size());
 	for (uint32_t view = 0; view < view_count; ++view) {
 		r_graph.add_pass(text("occluders view ", view))

@@ -48,6 +48,7 @@ struct Projection {
 	void add(const glm::dvec4 &p_point) {
 		for (int axis = 0; axis < 2; ++axis) {
 			const double limit = p_point.z * camera.half_extent[axis];
+			// 1e6: far outside the image. Avoids a division by 0 at limit = 0.
 			const double ndc = std::abs(p_point[axis]) < 1e6 * limit ? p_point[axis] / limit
 					: p_point[axis] < 0								 ? -1e6
 																	 : 1e6;
@@ -117,8 +118,8 @@ VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p
 				: glm::dvec4(glm::dvec3(light) + ray * extrusion_factor, 1.0);
 	}
 	Projection projection{ p_camera };
-	// Distance behind the near plane of a point in homogeneous view space, times its w; negative
-	// before the plane.
+	// Distance beyond the near plane of a point in homogeneous view space, times its w; negative
+	// on the camera's side of the plane.
 	const auto get_height = [&](const glm::dvec4 &p_point) {
 		return p_point.z - p_camera.near_m * p_point.w;
 	};

@@ -23,7 +23,7 @@ const uint32_t MAX_FACES_FOR_GEOMETRY_SHADER = 4096;
 // Boxes are grown by this fraction of their diagonal before testing whether the light is inside.
 const double BOX_GROWTH = 1e-3;
 
-/// Properties of a mesh, cached per mesh.
+/// What is derived from the parts of a mesh, cached per mesh.
 struct MeshSolids {
 	uint32_t layer_count = 0;				// see estimate_layers
 	VolumeFaces robust = VolumeFaces::NONE; // while the light is outside the mesh's box

@@ -61,7 +61,8 @@ RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::str
 		desc.vertex_shader = text("shadow_volume/", p_variant, ".vert");
 	}
 	if (p_variant == "geometry shader" || p_variant == "corners") {
-		desc.attributes = { { 0, 0, Format::R32_SFLOAT, 4, 0 } };
+		desc.attributes = { { /*location=*/0, /*buffer_index=*/0, Format::R32_SFLOAT,
+				/*component_count=*/4, /*offset_bytes=*/0 } };
 		desc.vertex_strides_bytes = { sizeof(glm::vec4) };
 	}
 	return desc;
@@ -261,13 +262,13 @@ void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_in
 				}
 			}
 		}
-		const bool has_bounds =
+		const bool has_depth_bounds =
 				p_settings.has_scissor && p_inputs.device.get_features().depth_bounds;
-		pass.execute([group_draws, lists, has_bounds, p_predicates](PassContext &p_context) {
+		pass.execute([group_draws, lists, has_depth_bounds, p_predicates](PassContext &p_context) {
 			for (const VolumeDraw &draw : group_draws) {
 				const VolumeArea &area = draw.caster->area;
 				p_context.commands.set_scissor(area.offset_px, area.size_px);
-				if (has_bounds) {
+				if (has_depth_bounds) {
 					p_context.commands.set_depth_bounds(area.min_depth, area.max_depth);
 				}
 				p_predicates.record(p_context, draw.caster->instance_index,

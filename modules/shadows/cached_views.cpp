@@ -6,7 +6,8 @@ namespace gnomon {
 
 void CachedViews::begin(const ShadowTechnique::Inputs &p_inputs, FilterReach p_filter_reach) {
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
-	GNOMON_ASSERT(view_count > 0 && view_count <= 32, view_count, " light views");
+	GNOMON_ASSERT(view_count > 0 && view_count <= 32, view_count,
+			" light views, must be 1..32: the bits of empty_views");
 	empty_views = 0;
 	unseen_views = 0;
 	for (uint32_t index = 0; index < view_count; ++index) {

@@ -72,7 +72,7 @@ std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, Tech
 	std::vector<uint32_t> views(p_inputs.views.size());
 	std::iota(views.begin(), views.end(), 0u);
 	for (uint32_t view : views) {
-		r_plan.skip_light_view(view, "nothing is drawn from the light");
+		r_plan.skip_light_view(view, "the technique needs no shadow map");
 	}
 	return collect_casters(p_inputs, views);
 }

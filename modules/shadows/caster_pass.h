@@ -39,11 +39,12 @@ void add_depth_pass(RenderGraph &r_graph, const std::string &p_name,
 std::vector<uint32_t> collect_casters(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_view_indices);
 
-// For techniques that draw nothing from the light, but need to know which casters matter.
+// For techniques without a shadow map, which still need to know which casters matter.
 
 /// Builds views for ShadowTechnique::get_light_views that only serve to list casters.
 std::vector<LightView> build_listing_views(const LightSnapshot &p_light, const LightScene &p_scene);
-/// Skips all of the light's views and returns the instance indices of their casters, ascending.
+/// Skips all of the light's views in the plan and returns the instance indices of their casters,
+/// ascending.
 std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan);
 
 } // namespace gnomon

@@ -229,8 +229,8 @@ void DeformPass::deform_normals(const std::shared_ptr<const Mesh> &p_mesh, GpuTo
 void DeformPass::run(CommandList &r_commands) {
 	const Access READERS[] = { Access::VERTEX_READ, Access::SHADER_READ_VERTEX,
 		Access::SHADER_READ_FRAGMENT, Access::SHADER_READ_COMPUTE, Access::COPY_READ };
-	std::vector<Barrier> before;
-	std::vector<Barrier> after;
+	std::vector<Barrier> before; // the buffers' earlier readers -> these writes
+	std::vector<Barrier> after;	 // these writes -> later readers
 	for (const Work &work : pending) {
 		for (const BufferRID buffer : work.written) {
 			for (const Access reader : READERS) {

@@ -25,6 +25,7 @@ public:
 	void record(PassContext &p_context);
 
 private:
+	/// A rigged mesh that is deformed in this frame, see PoseSlot.
 	struct Slot {
 		std::shared_ptr<const MeshPose> pose;
 		std::shared_ptr<const Mesh> mesh; // the rigged mesh, from which others may be cut out
@@ -47,7 +48,7 @@ private:
 			const Slot &p_slot, const std::shared_ptr<const Mesh> &p_mesh, GpuMesh &r_gpu);
 	void deform_welded(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu);
 	void deform_normals(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu);
-	/// Records the dispatches in `pending`, with barriers before and after them, and empties it.
+	/// Records the dispatches in `pending`, with barriers before and after them, and clears it.
 	void run(CommandList &r_commands);
 
 	MeshStore &store;

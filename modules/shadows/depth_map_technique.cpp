@@ -23,11 +23,11 @@ void DepthMapTechnique::get_light_views(const LightSnapshot &p_light, const Ligh
 void DepthMapTechnique::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	const TextureDesc desc = { "depth map of " + p_inputs.light.name, Format::D32_SFLOAT,
 		p_inputs.views[0].size_px, static_cast<uint32_t>(p_inputs.views.size()),
-		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true };
+		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, /*is_array=*/true };
 	frame_map = {};
 	views.begin(p_inputs, filter_reach);
 	if (views.may_free_maps()) {
-		map.reset(); // unused
+		map.reset(); // not read in this frame
 	}
 	has_content = bool(map) && map_desc == desc;
 	views.plan(p_inputs, r_plan, has_content);

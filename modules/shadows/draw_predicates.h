@@ -12,8 +12,8 @@ namespace gnomon {
 /// written on the GPU in the same frame. The draws and dispatches of a caster execute only when its
 /// word is not 0. Casters without a word always execute. By default no caster has a word.
 struct DrawPredicates {
-	RGBuffer words; // with BufferUsage::CONDITIONAL
-	uint64_t first_offset_bytes = 0;
+	RGBuffer words;					 // with BufferUsage::CONDITIONAL
+	uint64_t first_offset_bytes = 0; // of the first instance's word; a header may precede it
 	/// The instances that have a word, ascending, in the words' order.
 	std::shared_ptr<const std::vector<uint32_t>> instances;
 

@@ -9,11 +9,11 @@
 namespace gnomon {
 
 void FramePlan::run(const std::string &p_pass) {
-	entries.push_back({ light, p_pass, true, {} });
+	entries.push_back({ light, p_pass, /*runs=*/true, /*reason=*/{} });
 }
 
 void FramePlan::skip(const std::string &p_pass, const std::string &p_reason) {
-	entries.push_back({ light, p_pass, false, p_reason });
+	entries.push_back({ light, p_pass, /*runs=*/false, p_reason });
 }
 
 bool FramePlan::is_skipped(const std::string &p_light, const std::string &p_pass) const {

@@ -39,7 +39,8 @@ struct GpuTopology {
 	SharedBuffer triangles;			// STORAGE, three welded vertices per face
 	SharedBuffer face_flags;		// STORAGE, one word per face, TOPOLOGY_FACE_*
 	SharedBuffer adjacency_indices; // INDEX, six per face, see MeshTopology
-	uint64_t pose_hash = 0;			// hash of the pose that positions and normals have; 0: at rest
+	/// Hash of the pose that positions and normals have; 0: at rest, or to be deformed again.
+	uint64_t pose_hash = 0;
 	uint32_t edge_count = 0;
 	uint32_t adjacency_index_count = 0;
 	std::shared_ptr<const MeshTopology> topology;

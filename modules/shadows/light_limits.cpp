@@ -34,8 +34,9 @@ bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
 
 const InstanceSnapshot *LightLimits::find_near_caster(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m) {
-	const uint64_t light_hash = p_light.compute_hash(compute_value_hash(p_distance_m, 1));
-	std::vector<Search> now;
+	const uint64_t light_hash =
+			p_light.compute_hash(compute_value_hash(p_distance_m, /*p_seed=*/1));
+	std::vector<Search> current_searches;
 	const InstanceSnapshot *found = nullptr;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		const Bounds &bounds = instance.bounds_world;
@@ -55,13 +56,13 @@ const InstanceSnapshot *LightLimits::find_near_caster(
 			search.is_near = has_triangle_within(*instance.get_posed_caster_mesh(),
 					instance.world_from_node, p_light.position_world, p_distance_m);
 		}
-		now.push_back(search);
+		current_searches.push_back(search);
 		if (search.is_near) {
 			found = &instance;
 			break;
 		}
 	}
-	searches = std::move(now);
+	searches = std::move(current_searches);
 	return found;
 }
 
@@ -77,7 +78,7 @@ const std::vector<ExceededLimit> &LightLimits::find_exceeded(const SceneSnapshot
 						find_near_caster(p_scene, p_light, radii * p_light.light_size_m)) {
 			exceeded.push_back({ key + "/near_caster",
 					text(light, "caster \"", caster->node_name,
-							"\" comes nearer to its centre than ", radii,
+							"\" comes nearer to the light's centre than ", radii,
 							" x light_size = ", format_number(radii * p_light.light_size_m),
 							" m, where the shadow of ", p_technique_id,
 							" is wrong. Lower light_size, move the light or the caster, or set "
@@ -117,20 +118,20 @@ std::string describe_scene_size_problem(const SceneSnapshot &p_scene) {
 			largest = &instance;
 		}
 	}
-	Bounds rest;
+	Bounds others;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		if (instance.casts_shadow && &instance != largest) {
-			rest.add(instance.bounds_world);
+			others.add(instance.bounds_world);
 		}
 	}
 	const double size_m = p_scene.scene_size_m;
-	const double rest_m = rest.get_diagonal();
-	if (rest_m > 0 && size_m > MAX_SIZE_PER_CASTERS * rest_m) {
+	const double others_m = others.get_diagonal();
+	if (others_m > 0 && size_m > MAX_SIZE_PER_CASTERS * others_m) {
 		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
-				largest->node_name, "\" are within ", format_number(rest_m),
+				largest->node_name, "\" are within ", format_number(others_m),
 				" m: their shadows begin ", format_number(double(RECEIVER_OFFSET) * size_m),
 				" m away from them. Set scene_size, in the scene's extras, to about ",
-				format_number(rest_m), ".");
+				format_number(others_m), ".");
 	}
 	const double all_m = p_scene.compute_caster_bounds().get_diagonal();
 	if (all_m > MAX_CASTERS_PER_SIZE * size_m) {

@@ -13,8 +13,8 @@ namespace {
 
 const char TECHNIQUE_PROPERTY[] = "shadow_technique";
 
-/// Makes shadow_technique an enum of the registered techniques, after the choice of the default. An
-/// example is listed only when it is chosen.
+/// Makes shadow_technique an enum of the registered techniques. Its first choice is the empty text,
+/// which means the default. An example is listed only when it is chosen.
 PropertyInfo make_choice(const PropertyInfo &p_info, const std::string &p_chosen_id) {
 	PropertyInfo info = p_info;
 	if (ShadowRegistry::get_all().empty()) {
@@ -71,7 +71,8 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 	if (light == nullptr) {
 		return;
 	}
-	LightSnapshot chosen; // only name and technique: the light's transform may be singular
+	// Only name and technique are set: a full snapshot needs a transform that is not singular.
+	LightSnapshot chosen;
 	chosen.name = light->name;
 	const auto stored = light->properties.find(TECHNIQUE_PROPERTY);
 	if (stored != light->properties.end() && std::holds_alternative<std::string>(stored->second)) {
@@ -80,7 +81,7 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 	if (const PropertyInfo *info = r_list.find(TECHNIQUE_PROPERTY)) {
 		r_list.replace(make_choice(*info, chosen.technique_id));
 	}
-	if (const ShadowTechniqueInfo *technique = choose_technique(chosen, {}).info) {
+	if (const ShadowTechniqueInfo *technique = choose_technique(chosen, /*p_override=*/{}).info) {
 		for (const PropertyInfo &info :
 				ShadowRegistry::get_light_properties(technique->id).get_properties()) {
 			r_list.add(info);

@@ -13,8 +13,8 @@
 namespace gnomon {
 
 /// A NodePropertySource. For a light it makes shadow_technique an enum of the registered
-/// techniques (of an example only if the light has it), and adds the properties of the light's
-/// technique and those of all mask filters.
+/// techniques, without examples (ShadowTechniqueInfo::is_example) other than the light's own, and
+/// adds the properties of the light's technique and those of all mask filters.
 void add_light_properties(const Node3D &p_node, PropertyList &r_list);
 
 /// Returns the property of that name that a technique or filter declares, or null.

@@ -21,7 +21,7 @@ constexpr double NEAR_PER_SCENE_SIZE = 1e-8;
 // Keeps the view's extent finite for a cone of zero degrees.
 constexpr float MIN_TANGENT = 1e-4f;
 
-/// Rotation from world axes to view axes; its rows are right, down and forward.
+/// Matrix from world to view space. The rows of its rotation are right, down and forward.
 glm::dmat4 make_view(const glm::dvec3 &p_right, const glm::dvec3 &p_down,
 		const glm::dvec3 &p_forward, const glm::dvec3 &p_origin_world) {
 	const glm::dmat3 rotation = glm::transpose(glm::dmat3(p_right, p_down, p_forward));
@@ -30,9 +30,10 @@ glm::dmat4 make_view(const glm::dvec3 &p_right, const glm::dvec3 &p_down,
 	return view;
 }
 
+/// Factor for the view's extent so that a border of p_border_px texels is free around its content.
 float widen_for_border(uint32_t p_map_size_px, uint32_t p_border_px) {
-	GNOMON_ASSERT(
-			p_map_size_px > 2 * p_border_px, "map of ", p_map_size_px, " px, border ", p_border_px);
+	GNOMON_ASSERT(p_map_size_px > 2 * p_border_px, "map of ", p_map_size_px,
+			" px has no room for two borders of ", p_border_px, " px");
 	return static_cast<float>(p_map_size_px) / static_cast<float>(p_map_size_px - 2 * p_border_px);
 }
 
@@ -58,6 +59,7 @@ LightView build_directional_view(const LightSnapshot &p_light, const LightScene 
 	for_each_corner(bounds, [&](const glm::dvec3 &p_corner) {
 		seen.add(glm::dvec3(view.view_from_world * glm::dvec4(p_corner, 1.0)));
 	});
+	// 1e-3 S: room around the casters, so that the depth range of a flat caster is not 0.
 	const double margin_m = 1e-3 * p_scene.scene.scene_size_m + p_caster_margin_m;
 	// With the origin on the near plane, depths are positive and as small as possible.
 	view.view_from_world[3].z += margin_m - seen.minimum.z;
@@ -225,7 +227,8 @@ glm::mat4 compute_light_from_camera_relative(
 
 shader::LightViewsConstants compute_light_views_constants(const LightSnapshot &p_light,
 		const CameraSnapshot &p_camera, const std::vector<LightView> &p_views) {
-	GNOMON_ASSERT(p_views.size() <= MAX_LIGHT_VIEWS, p_views.size(), " views");
+	GNOMON_ASSERT(p_views.size() <= MAX_LIGHT_VIEWS, "light \"", p_light.name, "\" has ",
+			p_views.size(), " views, must be at most ", MAX_LIGHT_VIEWS);
 	shader::LightViewsConstants constants = {};
 	for (uint32_t index = 0; index < p_views.size(); ++index) {
 		constants.views[index] = p_views[index].compute_constants(p_camera, index);

@@ -20,9 +20,9 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 			p_usage | BufferUsage::COPY_TARGET };
 		return OwnedBuffer(device, device.create_buffer_with_data(desc, bytes));
 	};
+	// Deformed vertices can be read back. The second VERTEX adds nothing.
 	const BufferUsage usage = BufferUsage::VERTEX | BufferUsage::STORAGE |
-			(p_mesh->rest ? BufferUsage::COPY_SOURCE
-						  : BufferUsage::VERTEX); // deformed vertices can be read back
+			(p_mesh->rest ? BufferUsage::COPY_SOURCE : BufferUsage::VERTEX);
 	mesh.positions = upload("positions", usage, std::span<const glm::vec3>(p_mesh->positions_node));
 	mesh.normals = upload("normals", usage, std::span<const glm::vec3>(p_mesh->normals_node));
 	mesh.indices = rest_indices ? rest_indices
@@ -31,7 +31,7 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 	mesh.index_count = static_cast<uint32_t>(p_mesh->indices.size());
 	mesh.mesh = p_mesh;
 	if (p_mesh->rest) {
-		prepare_deform(p_mesh, false);
+		prepare_deform(p_mesh, /*p_has_topology=*/false);
 	}
 	return meshes.emplace(p_mesh->id, std::move(mesh)).first->second;
 }
@@ -59,6 +59,7 @@ const GpuTopology &MeshStore::get_topology(
 	if (p_mesh->rest) {
 		const TopologyBuffer deformed = TopologyBuffer::POSITIONS | TopologyBuffer::NORMALS;
 		const bool has_normals = (p_buffers & TopologyBuffer::NORMALS) != TopologyBuffer::NONE;
+		// The deform pass computes normals from deformed positions and triangles.
 		const TopologyBuffer buffers = has_normals
 				? p_buffers | TopologyBuffer::POSITIONS | TopologyBuffer::TRIANGLES
 				: p_buffers;
@@ -66,7 +67,7 @@ const GpuTopology &MeshStore::get_topology(
 		topology.upload(device, buffers & deformed);
 		if (topology.positions) { // the deform pass computes them from the mesh's positions
 			get(p_mesh);		  // uploads those
-			prepare_deform(p_mesh, true);
+			prepare_deform(p_mesh, /*p_has_topology=*/true);
 		}
 	} else {
 		topology.upload(device, p_buffers);
@@ -84,12 +85,14 @@ void MeshStore::collect_garbage() {
 	}
 }
 
+// Attributes have three floats (VertexAttribute's default format) and a buffer each.
+
 std::vector<VertexAttribute> get_position_attributes() {
-	return { { 0, 0, Format::R32_SFLOAT, 3, 0 } };
+	return { { .location = 0, .buffer_index = 0 } };
 }
 
 std::vector<VertexAttribute> get_position_normal_attributes() {
-	return { { 0, 0, Format::R32_SFLOAT, 3, 0 }, { 1, 1, Format::R32_SFLOAT, 3, 0 } };
+	return { { .location = 0, .buffer_index = 0 }, { .location = 1, .buffer_index = 1 } };
 }
 
 } // namespace gnomon

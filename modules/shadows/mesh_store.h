@@ -27,8 +27,8 @@ struct GpuMesh {
 	std::weak_ptr<const Mesh> mesh;
 };
 
-/// Keeps the GPU buffers of the meshes in use; buffers of a mesh without owners are freed. Deformed
-/// meshes have their own vertices and share the other buffers with their mesh at rest.
+/// Keeps the GPU buffers of meshes; collect_garbage() frees those of meshes that no longer exist.
+/// Deformed meshes have their own vertices and share the other buffers with their mesh at rest.
 class MeshStore {
 public:
 	explicit MeshStore(RenderingDevice &p_device) : device(p_device) {}

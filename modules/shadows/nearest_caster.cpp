@@ -30,7 +30,7 @@ float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view
 	for (uint32_t caster : p_inputs.casters[p_view_index].instances) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[caster];
 		if (!view.may_see(instance)) {
-			continue; // listed only when nothing may be skipped
+			continue; // listed only because Inputs::may_skip is false
 		}
 		const double distance_m = std::max(
 				double(view.near_m), compute_nearest_distance_m(view, p_inputs.light, instance));
@@ -63,6 +63,7 @@ glm::vec2 compute_debug_depth_range(const ShadowTechnique::Inputs &p_inputs) {
 	if (farthest_m <= 0) {
 		return glm::vec2(0.0f, 1.0f); // all maps are empty
 	}
+	// Stored depth is near / distance: white is a third of the farthest caster's distance.
 	return static_cast<float>(p_inputs.views[0].near_m / farthest_m) * glm::vec2(1.0f, 3.0f);
 }
 

@@ -31,7 +31,7 @@ struct ReferenceResult {
 	/// Per pixel, 0..1; 0 without a receiver. With translucent casters, the luminance of the RGB
 	/// visibility.
 	std::vector<float> visibility;
-	float standard_error = 0;	   // of visibility in penumbra pixels; -1: unknown
+	float standard_error = 0; // of visibility in penumbra pixels; -1: unknown
 	uint64_t penumbra_pixel_count = 0;
 	bool is_complete = false; // false when cancelled: the values are not usable
 };
@@ -49,7 +49,8 @@ public:
 };
 
 /// Hash of everything that the light's reference mask depends on, including the camera, except the
-/// number of rays: with the same number, equal hashes mean equal masks. Like the mask, it does not consider layers, see ReferenceRequest.
+/// number of rays: with the same number, equal hashes mean equal masks. Like the mask, it does not
+/// consider layers, see ReferenceRequest.
 uint64_t compute_reference_hash(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, glm::uvec2 p_size_px);
 

@@ -19,7 +19,7 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const CasterFlags &p_casts
 		const LightView &p_view, bool p_may_cull) {
 	CasterList casters;
 	// Field by field: the struct has padding.
-	uint64_t hash = compute_value_hash(p_view.view_from_world, 1);
+	uint64_t hash = compute_value_hash(p_view.view_from_world, /*p_seed=*/1);
 	hash = compute_value_hash(p_view.half_extent, hash);
 	hash = compute_value_hash(p_view.size_px, hash);
 	hash = compute_value_hash(p_view.near_m, hash);
@@ -112,6 +112,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px),
 			BufferUsage::STORAGE | BufferUsage::UNIFORM); // hosts may bind it as either
 	LightView view = make_camera_view(scene->camera, size_px);
+	// make_camera_view ignores the shift; this wider view contains the shifted one.
 	view.half_extent *= 1.0f + glm::abs(scene->camera.shift);
 	receivers = find_visible_receivers(*scene, view);
 	for (const InstanceSnapshot &instance : scene->instances) {
@@ -225,11 +226,12 @@ void ShadowFrame::hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t 
 	const TextureDesc desc = graph.get_desc(p_array);
 	GNOMON_ASSERT(desc.is_array && glm::all(glm::greaterThanEqual(desc.size_px, size_px)) &&
 					p_layer < desc.layer_count,
-			"layer ", p_layer, " of ", desc.is_array ? "an array of " : "no array but ",
-			desc.layer_count, ", ", desc.size_px.x, "x", desc.size_px.y);
+			"hold() needs an array of at least ", size_px.x, "x", size_px.y, " px with layer ",
+			p_layer, "; the texture has ", desc.size_px.x, "x", desc.size_px.y, " px, ",
+			desc.layer_count, " layers and is ", desc.is_array ? "" : "not ", "an array");
 	const bool has_color = desc.format == Format::RGBA16_SFLOAT;
-	GNOMON_ASSERT(has_color || desc.format == Format::R16_SFLOAT, "masks are held as ",
-			get_format_name(desc.format));
+	GNOMON_ASSERT(has_color || desc.format == Format::R16_SFLOAT, "the array of hold() is ",
+			get_format_name(desc.format), ", must be R16_SFLOAT or RGBA16_SFLOAT");
 	shader::HoldPush push = {};
 	push.layer = p_layer;
 	push.no_receiver_value = p_no_receiver_value;
@@ -272,7 +274,8 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 }
 
 RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
-	const ShadowTechnique::Inputs inputs = make_inputs(p_work, {}, {}, p_work.wants_debug_views);
+	const ShadowTechnique::Inputs inputs =
+			make_inputs(p_work, /*p_views=*/{}, /*p_casters=*/{}, p_work.wants_debug_views);
 	TechniquePlan filter_plan(plan);
 	for (size_t index = 0; index < system.filters.size(); ++index) {
 		const MaskFilterInfo &info = MaskFilterRegistry::get_all()[index];
@@ -362,7 +365,7 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	const TechniqueChoice choice = choose_technique(p_light, options.technique_override);
 	system.warn_once(choice.warning);
 	if (!choice.info) {
-		plan.skip("shadow", "no technique is enabled");
+		plan.skip("shadow", "no technique that it could use is enabled");
 		return add_constant_mask(graph, size_px, 1.0f);
 	}
 	if (!choice.warning.empty()) {
@@ -391,8 +394,8 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 		return p_slot.first.first == p_light.name &&
 				p_slot.first.second > translucent.groups.size();
 	});
-	mask = add_technique(
-			work, *slot.technique, find_opaque_casters(seen, translucent, nullptr), "");
+	mask = add_technique(work, *slot.technique,
+			find_opaque_casters(seen, translucent, /*p_group=*/nullptr), /*p_run=*/"");
 	if (!translucent.is_empty()) {
 		system.warn_once(describe_merged(p_light, translucent));
 		mask = add_translucent_casters(work, translucent, mask);

@@ -125,8 +125,9 @@ TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string
 		return { info,
 			info ? ""
 				 : text("Light \"", p_light.name,
-						   "\": no technique is enabled; it casts no shadow. ",
-						   "Enable a module; `gnomon modules` lists them.") };
+						   "\": no technique that can be the default is enabled; it casts no "
+						   "shadow. Enable a module (`gnomon modules` lists them), or set "
+						   "shadow_technique.") };
 	}
 	if (const ShadowTechniqueInfo *info = ShadowRegistry::find(p_light.technique_id)) {
 		return { info, {} };

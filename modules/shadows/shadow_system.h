@@ -58,8 +58,9 @@ private:
 	std::shared_ptr<MeshStore> meshes;
 	std::map<SlotKey, Slot> slots;
 	std::vector<std::unique_ptr<MaskFilter>> filters; // in the registry's order
-	std::set<std::string> warned;
+	std::set<std::string> warned;					  // keys of the warnings that were logged
 	uint64_t frame = 0;
+	// Registry::get_revision() for which slots and filters were made.
 	uint64_t technique_revision = 0;
 	uint64_t filter_revision = 0;
 };

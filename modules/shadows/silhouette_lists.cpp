@@ -37,7 +37,7 @@ std::vector<SilhouetteDispatch> build_dispatches(const SilhouetteCasters &p_cast
 		dispatch.word_count = caster.word_count;
 		dispatch.push = { caster.light_position_node, caster.gpu->edge_count, caster.first_word,
 			caster.first_block, caster.first_in_list, static_cast<uint32_t>(dispatches.size()),
-			caster.vertices_per_edge, 0, 0 };
+			caster.vertices_per_edge, /*padding0=*/0, /*padding1=*/0 };
 		dispatches.push_back(dispatch);
 	}
 	return dispatches;
@@ -103,7 +103,7 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates,
 		const SilhouetteLists &p_targets) {
-	GNOMON_ASSERT(!p_casters.casters.empty(), "edge passes without a caster");
+	GNOMON_ASSERT(!p_casters.casters.empty(), "add_silhouette_passes needs at least one caster");
 	const auto make_buffer = [&](const char *p_name, uint64_t p_count, uint64_t p_item_bytes,
 									 BufferUsage p_usage) {
 		return r_graph.create_buffer(

@@ -20,13 +20,14 @@ struct SilhouetteCaster {
 	const GpuTopology *gpu = nullptr;
 	glm::vec4 light_position_node = glm::vec4(0.0f); // see SilhouettePush
 	uint32_t vertices_per_edge = 0; // vertices that its draw needs for each listed edge
-	// The range of its edges in the buffers that all casters share.
+	// The range of its edges in the buffers that all casters share, see silhouette_shared.h.
 	uint32_t word_count = 0;
 	uint32_t first_word = 0;
 	uint32_t first_block = 0;
 	uint32_t first_in_list = 0;
 };
 
+/// The casters of one light that have edges, and the sizes of their shared buffers.
 struct SilhouetteCasters {
 	std::vector<SilhouetteCaster> casters; // ordered by instance_index
 	uint32_t word_count = 0;
@@ -34,7 +35,7 @@ struct SilhouetteCasters {
 	uint32_t edge_count = 0;
 	uint32_t collapsed_instance_count = 0; // skipped: collapsed to a line or a point
 
-	/// Returns null for an instance without silhouettes.
+	/// Returns null for an instance that is not one of the casters.
 	const SilhouetteCaster *find(uint32_t p_instance_index) const;
 };
 
@@ -52,7 +53,8 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 
 /// Adds passes that find the silhouette edges and compact them; all views of the light share the
 /// lists. There must be at least one caster. A caster whose predicate is 0 is not listed, so its
-/// draw must be predicated too. p_targets: buffers to fill, large enough; none: frame buffers.
+/// draw must be predicated too. p_targets: buffers to fill, large enough for p_casters; empty: the
+/// passes create transient ones.
 SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates = {},
 		const SilhouetteLists &p_targets = {});

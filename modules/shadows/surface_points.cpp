@@ -23,8 +23,9 @@ std::vector<SurfacePoint> read_surfaces(const shader::FrameConstants &p_frame, g
 		}
 		if (depth > 0.0f) {
 			const glm::uvec2 pixel(index % p_size_px.x, index / p_size_px.x);
-			surfaces[index] = { true, compute_position(p_frame, p_size_px, pixel, depth),
-				unpack_normal(packed_normal),
+			// The last value is the pixel size; near / depth is the distance along the view.
+			surfaces[index] = { /*is_valid=*/true,
+				compute_position(p_frame, p_size_px, pixel, depth), unpack_normal(packed_normal),
 				{ glm::unpackHalf1x16(material[0]), glm::unpackHalf1x16(material[1]) },
 				2.0f * p_frame.near_m / depth * tangent / static_cast<float>(p_size_px.y) };
 		}

@@ -10,9 +10,10 @@ namespace {
 /// Bounds of the volume that a caster darkens: a cone from the light's centre, or, for a
 /// directional light, a cylinder along its direction.
 struct ShadowBounds {
-	glm::dvec3 position = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
-	double radius_m = 0;				   // of the caster
-	double cosine = 1;					   // of the cone's half angle
+	/// The cone's axis, unit, away from the light. Directional: the caster's centre.
+	glm::dvec3 axis_or_centre = glm::dvec3(0.0);
+	double radius_m = 0; // of the caster's bounding sphere
+	double cosine = 1;	 // of the cone's half angle
 	double sine = 0;
 	bool is_everywhere = false; // half angle of 90 degrees or more, or the light is inside
 };
@@ -22,7 +23,7 @@ ShadowBounds compute_shadow_bounds(const LightSnapshot &p_light, const Bounds &p
 	const glm::dvec3 centre = 0.5 * (p_bounds.minimum + p_bounds.maximum);
 	shadow.radius_m = 0.5 * p_bounds.get_diagonal();
 	if (p_light.type == LightType::DIRECTIONAL) {
-		shadow.position = centre;
+		shadow.axis_or_centre = centre;
 		return shadow;
 	}
 	const double light_radius = p_light.get_disc_radius();
@@ -30,11 +31,12 @@ ShadowBounds compute_shadow_bounds(const LightSnapshot &p_light, const Bounds &p
 	const double distance = glm::length(to_caster);
 	shadow.is_everywhere = !(shadow.radius_m + light_radius < distance);
 	if (!shadow.is_everywhere) {
-		shadow.position = to_caster / distance;
-		// Seen from the light's rim, the caster exceeds the cone of the centre by the second angle.
+		shadow.axis_or_centre = to_caster / distance;
+		// Rays from the light's rim through the caster leave the cone from the light's centre by up
+		// to the second angle.
 		const double half_rad = std::asin((shadow.radius_m + light_radius) / distance) +
 				std::asin(std::min(1.0, light_radius / (distance - shadow.radius_m)));
-		shadow.is_everywhere = half_rad >= 1.57;
+		shadow.is_everywhere = half_rad >= 1.57; // pi / 2, rounded down
 		shadow.cosine = std::cos(half_rad);
 		shadow.sine = std::sin(half_rad);
 	}
@@ -48,17 +50,17 @@ bool may_overlap(
 		return true;
 	}
 	if (p_light.type == LightType::DIRECTIONAL) {
-		const glm::dvec3 to_left = p_left.position - p_right.position;
+		const glm::dvec3 to_left = p_left.axis_or_centre - p_right.axis_or_centre;
 		const double along = glm::dot(to_left, p_light.get_direction_world());
-		const double across2 = std::max(glm::dot(to_left, to_left) - along * along, 0.0);
+		const double across_squared = std::max(glm::dot(to_left, to_left) - along * along, 0.0);
 		// Between the two, rays deviate by at most half the light's angle.
 		const double radii_m = p_left.radius_m + p_right.radius_m;
 		const double reach_m = radii_m + p_light.get_disc_radius() * (std::abs(along) + radii_m);
-		return across2 <= reach_m * reach_m;
+		return across_squared <= reach_m * reach_m;
 	}
 	// They overlap when the angle between their axes is at most the sum of their half angles, which
 	// is below pi: cos(a + b) = cos a cos b - sin a sin b.
-	return glm::dot(p_left.position, p_right.position) >=
+	return glm::dot(p_left.axis_or_centre, p_right.axis_or_centre) >=
 			p_left.cosine * p_right.cosine - p_left.sine * p_right.sine;
 }
 

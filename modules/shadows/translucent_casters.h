@@ -7,11 +7,11 @@
 
 namespace gnomon {
 
-/// Casters with the same transmittance of which no light ray hits two (unless some were merged, see
-/// TranslucentCasters::merged_count): one run of the technique computes their shadow, which has one
-/// colour.
+/// Casters whose shadow, of one colour, is computed by one run of the technique: they have the same
+/// transmittance, and no light ray hits two of them (except merged ones, see
+/// TranslucentCasters::merged_count).
 struct TranslucentGroup {
-	std::vector<uint32_t> instances;
+	std::vector<uint32_t> instances;		   // indices of SceneSnapshot::instances
 	glm::vec3 transmittance = glm::vec3(0.0f); // per colour, 0..1, at least one below 1
 };
 
@@ -30,7 +30,7 @@ struct TranslucentCasters {
 TranslucentCasters find_translucent_casters(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light);
 
-/// One value per instance: 1 when it casts a shadow.
+/// One value per instance: 1 when it casts a shadow, else 0.
 using CasterFlags = std::vector<uint8_t>;
 
 /// The casters of one run of a technique that only handles opaque casters: the opaque ones, and

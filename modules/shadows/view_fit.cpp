@@ -19,6 +19,7 @@ double compute_fit_reach_m(const LightView &p_view, const LightSnapshot &p_light
 		const SceneSnapshot &p_scene, const VisibleReceivers &p_receivers) {
 	const double widest_m =
 			std::max({ p_light.penumbra_outer_width_m, p_light.penumbra_inner_width_m, 0.0f });
+	// A directional light's R is a tangent, and its penumbra widths correspond to R times S.
 	const double tangent =
 			std::max(double(p_light.get_disc_radius()), widest_m / p_scene.scene_size_m);
 	double farthest_m = p_view.far_m;

@@ -100,6 +100,7 @@ Bounds compute_visible_bounds(const Bounds &p_box, const LightView &p_view,
 	}
 	Bounds bounds;
 	for (int axis = 0; axis < 3; ++axis) {
+		// Bits of a corner's index, see Bounds::get_corner.
 		const int u = 1 << (axis + 1) % 3;
 		const int v = 1 << (axis + 2) % 3;
 		for (const int side : { 0, 1 << axis }) {

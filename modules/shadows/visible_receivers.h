@@ -14,6 +14,7 @@ struct VisibleReceiver {
 	Bounds bounds_world;
 };
 
+/// The receivers in the camera's view, or only those of them that a light may reach.
 struct VisibleReceivers {
 	std::vector<VisibleReceiver> list; // ascending by instance_index
 	Bounds bounds_world;			   // union of the list's bounds

@@ -7,7 +7,7 @@ def get_layer():
 
 
 def get_description():
-    return "The report's sweeps into stiff and extreme cases, and what breaks in them"
+    return "The report's sweeps into extreme cases, and what breaks in them"
 
 
 def can_disable():

@@ -19,7 +19,7 @@ std::shared_ptr<const Mesh> make_sphere_mesh(double p_radius_m) {
 		2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1 };
 	for (int round = 0; round < 2; ++round) {
 		std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-		const auto get_middle = [&](uint32_t p_a, uint32_t p_b) {
+		const auto find_middle = [&](uint32_t p_a, uint32_t p_b) {
 			const auto [entry, is_new] = middles.insert(
 					{ { std::min(p_a, p_b), std::max(p_a, p_b) }, uint32_t(positions.size()) });
 			if (is_new) {
@@ -33,9 +33,9 @@ std::shared_ptr<const Mesh> make_sphere_mesh(double p_radius_m) {
 			const uint32_t a = indices[index];
 			const uint32_t b = indices[index + 1];
 			const uint32_t c = indices[index + 2];
-			const uint32_t ab = get_middle(a, b);
-			const uint32_t bc = get_middle(b, c);
-			const uint32_t ca = get_middle(c, a);
+			const uint32_t ab = find_middle(a, b);
+			const uint32_t bc = find_middle(b, c);
+			const uint32_t ca = find_middle(c, a);
 			finer.insert(finer.end(), { a, ab, ca, b, bc, ab, c, ca, bc, ab, bc, ca });
 		}
 		indices = std::move(finer);
@@ -65,8 +65,8 @@ std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_r
 				}
 			}
 			for (const uint32_t corner : { 0u, 1u, 3u, 4u }) {
-				// In the grid of 3 x 3 points, v is 1 further and u is 3 further. The order of b
-				// and d makes the face point outwards on both sides.
+				// In the grid of 3 x 3 points, the next u is 1 further and the next v is 3 further.
+				// The order of b and d makes the face point outwards on both sides.
 				const uint32_t a = first + corner;
 				const uint32_t b = side > 0 ? a + 1 : a + 3;
 				const uint32_t c = a + 4;
@@ -92,8 +92,8 @@ std::shared_ptr<const Mesh> make_open_mesh() {
 std::shared_ptr<const Mesh> make_degenerate_mesh() {
 	const std::vector<glm::vec3> positions = { { 0, 0, 0 }, { 0.5f, 0, 0 }, { 1, 0, 0 },
 		{ 0.25f, 0, 1e-7f }, { 0, 0, 0 }, { 0, 0, 0.5f } };
-	// On one line, a sliver, one point, two corners at one point, then a face, its twin and its
-	// reverse.
+	// Triangles: on one line, a sliver, one point, two corners at one position, then a face, its
+	// duplicate and its reverse.
 	return make_mesh("odd", positions, std::vector<glm::vec3>(6, glm::vec3(0.0f)),
 			{ 0, 1, 2, 0, 1, 3, 0, 0, 0, 0, 4, 5, 0, 1, 5, 0, 1, 5, 5, 1, 0 });
 }

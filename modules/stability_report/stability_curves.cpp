@@ -14,13 +14,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const double DOUBLED = 2.0; // a point with more than this multiple of the centre's error breaks
+const double MAX_ERROR_RATIO = 2.0; // of a point that does not break, to the centre's error
 const uint64_t MIN_PENUMBRA_PIXEL_COUNT = 40; // the mean error of fewer pixels is unreliable
 // Errors up to this are no break, however small the centre's error is: an 8-bit image does not show
 // them.
 const double MIN_BREAKING_MAE = 1.0 / 256;
-// Fraction of the receivers that may be wrong: hard shadows have edges that are off by a pixel.
-const double MAX_WRONG_FRACTION = 0.02;
+// Maximum wrong_share that is no nonsense: hard shadows have edges that are off by a pixel.
+const double MAX_WRONG_SHARE = 0.02;
 const double NOISE_STANDARD_ERRORS = 2.0; // tolerated noise, in standard errors of the reference
 
 /// Returns whether two configurations are points of the same curve.
@@ -123,16 +123,16 @@ StabilityState classify_stability(
 	if (!p_cell.stability->refusal.empty()) {
 		return StabilityState::REFUSED;
 	}
-	if (p_cell.stability->wrong_share > MAX_WRONG_FRACTION) {
+	if (p_cell.stability->wrong_share > MAX_WRONG_SHARE) {
 		return StabilityState::NONSENSE;
 	}
 	const std::optional<StabilityError> error = get_stability_error(p_cell);
 	const std::optional<StabilityError> center =
 			p_center ? get_stability_error(*p_center) : std::nullopt;
 	if (error && center) {
-		// One of the two may be over all receivers and the other over the penumbra alone. This is
-		// tolerated: an MAE over all receivers is usually the smaller one.
-		const double allowed = std::max(DOUBLED * center->mae, MIN_BREAKING_MAE) +
+		// One of the two errors may be over all receivers and the other over the penumbra alone.
+		// This is tolerated: an MAE over all receivers is usually the smaller one.
+		const double allowed = std::max(MAX_ERROR_RATIO * center->mae, MIN_BREAKING_MAE) +
 				NOISE_STANDARD_ERRORS * p_reference.standard_error;
 		return error->mae > allowed ? StabilityState::DOUBLED : StabilityState::OK;
 	}

@@ -13,8 +13,10 @@ namespace gnomon {
 enum class StabilityState {
 	MISSING, // not measured
 	OK,
-	DOUBLED,  // error above twice that of the centre and 1/256, each plus the reference's noise
-	NONSENSE, // more than 2 % of the receivers are lit instead of dark, or dark instead of lit
+	/// The error exceeds both twice that of the centre and 1/256, each plus two standard errors of
+	/// the reference.
+	DOUBLED,
+	NONSENSE, // more than 2 % of the receivers are wrong, see ReportStability::wrong_share
 	REFUSED,  // the technique drew nothing and threw an Error instead
 	FAILED,	  // values not finite or outside 0..1, a validation message, or another failure
 };
@@ -53,8 +55,8 @@ struct StabilityCurve {
 	std::vector<StabilityPoint> points; // in the order of StabilitySweep::values
 	bool is_complete = true;			// no planned point is MISSING
 	/// The first values that are neither OK nor MISSING, from the centre (inclusive) towards the
-	/// beginning of the curve, and towards its end. Unset if there is none,
-	/// if the centre is not in the report, or if the points are separate cases (has_cases).
+	/// beginning of the curve, and towards its end. Unset if there is none, if the centre is not in
+	/// the report, or if the points are separate cases (StabilitySweep::has_cases).
 	std::optional<double> break_before;
 	std::optional<double> break_after;
 };

@@ -33,7 +33,7 @@ struct StabilityDraft {
 	double light_size_m = LIGHT_SIZE_PER_SCENE_SIZE * SCENE_SIZE_M;
 	glm::dvec3 light_position = LIGHT_POSITION;
 	glm::dvec3 light_target = LIGHT_TARGET;
-	double cone_rad = std::atan(0.95); // half angle of a spot light
+	double cone_rad = std::atan(0.95); // half angle of a spot light, also as in the demo scenes
 	glm::dvec3 camera_target = CAMERA_TARGET;
 	PropertyValues properties; // additional properties of the light
 	std::vector<StabilityBody> bodies;

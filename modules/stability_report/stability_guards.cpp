@@ -10,7 +10,7 @@ namespace {
 /// A scene that once broke a technique, or might: a point of the sweep "guards".
 struct HostileScene {
 	const char *name;							  // label in reports
-	std::function<void(StabilityDraft &)> change; // from the start scene
+	std::function<void(StabilityDraft &)> change; // of the start scene, "as it is"
 };
 
 const std::vector<HostileScene> &get_hostile_scenes() {
@@ -54,6 +54,7 @@ const std::vector<HostileScene> &get_hostile_scenes() {
 				} },
 		{ "coincident casters",
 				[](StabilityDraft &r_draft) {
+					// Has the pose and size of "block".
 					r_draft.add_box("twin", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
 				} },
 		{ "caster flush with its receiver",
@@ -76,7 +77,7 @@ const std::vector<HostileScene> &get_hostile_scenes() {
 				} },
 		{ "no receivers",
 				[](StabilityDraft &r_draft) {
-					r_draft.camera_target = { -3.2, 40, 4.7 };
+					r_draft.camera_target = { -3.2, 40, 4.7 }; // straight above the camera
 				} },
 		{ "beam from behind the light's plane",
 				[](StabilityDraft &r_draft) {
@@ -88,7 +89,7 @@ const std::vector<HostileScene> &get_hostile_scenes() {
 				} },
 		{ "caster pressed flat",
 				[](StabilityDraft &r_draft) {
-					glm::dmat4 &transform = r_draft.bodies[1].world_from_node;
+					glm::dmat4 &transform = r_draft.bodies[1].world_from_node; // "block"
 					transform = glm::scale(transform, glm::dvec3(1, 0, 1));
 				} },
 		// These change only spot lights.

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// The part of the report that measures techniques in stiff and extreme cases (doc/stability.md).
+/// The part of the report that measures techniques in extreme cases (doc/stability.md).
 class StabilityPart : public ReportPart {
 public:
 	std::vector<std::string> list_sweeps() const override;

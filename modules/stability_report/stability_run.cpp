@@ -77,8 +77,9 @@ std::vector<ConditionPoint> find_worst_points(
 	return points;
 }
 
-/// WHERE_NEEDED: if a check of evenly spaced receivers in double shows that float32 is too
-/// inaccurate. ALWAYS: for the second frame, if the first was traced in double.
+/// When correct_reference traces in double. WHERE_NEEDED: if a check of evenly spaced receivers in
+/// double shows that float32 is too inaccurate. ALWAYS: for the second frame, if the first was
+/// traced in double.
 enum class DoubleReference { WHERE_NEEDED, ALWAYS };
 /// Replaces the visibility of a reference, which is traced in float32, by that of DoubleVisibility,
 /// under the condition p_when.
@@ -227,7 +228,9 @@ MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 }
 
 bool StabilityPart::is_unusable(const ReportCell &p_cell) const {
-	const StabilityState state = classify_stability(p_cell, {}, nullptr);
+	// Without the centre, since a doubled error is usable.
+	const StabilityState state =
+			classify_stability(p_cell, /*p_reference=*/{}, /*p_center=*/nullptr);
 	return state == StabilityState::REFUSED || state == StabilityState::NONSENSE;
 }
 

@@ -26,8 +26,8 @@ glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
 	return glm::inverse(glm::lookAtRH(p_position, p_target, up));
 }
 
-/// Returns the scene that all sweeps start from: a ground, a floating box, a floating sphere and a
-/// box in contact with the ground.
+/// Returns the scene that make_stability_scene changes: a ground, a floating box, a floating sphere
+/// and a box in contact with the ground.
 StabilityDraft make_start() {
 	StabilityDraft draft;
 	draft.add_box("ground", { 0, -0.2, 0 }, { 4.2f, 0.2f, 4.2f });
@@ -52,7 +52,8 @@ void change_depth_range(StabilityDraft &r_draft, double p_value) {
 			glm::scale(glm::translate(at_light, glm::dvec3(0, 0, -near_m)), glm::dvec3(near_m)));
 }
 
-/// Adds a plate in front of the light, slightly to the side. p_radii: distance in light radii R.
+/// Adds a plate in front of the light, slightly to the side. p_radii: distance of the plate's
+/// nearest face from the light, in light radii R.
 void change_near_caster(StabilityDraft &r_draft, double p_radii) {
 	const glm::dmat4 at_light = look_at(r_draft.light_position, r_draft.light_target);
 	r_draft.add_box("near", glm::vec3(0.12f, 0.1f, 0.01f),
@@ -64,6 +65,8 @@ void change_near_caster(StabilityDraft &r_draft, double p_radii) {
 void change_slope(StabilityDraft &r_draft, double p_degrees) {
 	const double angle = glm::radians(p_degrees);
 	r_draft.light_target = glm::dvec3(0.0);
+	// 6.3 m from the target. (0.83, 0, 0.5578) has unit length and, seen from above, is almost the
+	// direction from which the light shines in the other sweeps.
 	r_draft.light_position = 6.3 *
 			(std::sin(angle) * glm::dvec3(0.83, 0, 0.5578) + std::cos(angle) * glm::dvec3(0, 1, 0));
 	r_draft.clear_casters();
@@ -80,7 +83,7 @@ void change_end_on(StabilityDraft &r_draft, double p_degrees) {
 					glm::dvec3(0, 1, 0)));
 }
 
-/// A stack of p_count thin plates.
+/// A stack of p_count thin plates, each moved and rotated a little.
 void change_layers(StabilityDraft &r_draft, double p_count) {
 	r_draft.clear_casters();
 	for (int index = 0; index < int(p_count); ++index) {

@@ -19,6 +19,7 @@ const std::vector<LightType> WITH_POSITION = { LightType::SPOT, LightType::OMNI 
 const std::vector<LightType> SPOT = { LightType::SPOT };
 
 std::vector<StabilitySweep> build_sweeps() {
+	// Each: id, quantity, types of light, values, centre, quick values.
 	std::vector<StabilitySweep> sweeps = {
 		{ "light_size", "light radius, S", ALL_TYPES,
 				{ 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1 }, 0.05,
@@ -53,19 +54,23 @@ std::vector<StabilitySweep> build_sweeps() {
 		{ RESOLUTION_GROUP, "width and height of the mask, pixels", SPOT,
 				{ 16, 32, 64, 128, 256, 512, 1024, 2048, 4096 }, 128, { 16, 128 } },
 	};
-	StabilitySweep guards = { "guards", "hostile scenes", ALL_TYPES, {}, 0, {} };
+	StabilitySweep guards = { "guards", "hostile scenes", ALL_TYPES, /*values=*/{}, /*center=*/0,
+		/*quick_values=*/{} };
 	guards.labels = list_hostile_scene_names();
 	for (size_t index = 0; index < guards.labels.size(); ++index) {
 		guards.values.push_back(double(index));
 	}
 	guards.quick_values = guards.values;
 	sweeps.push_back(std::move(guards));
-	sweeps.push_back(
-			{ PROJECT_SCENES_SWEEP, "scenes of the project", ALL_TYPES, {}, -1, {}, {}, true });
+	sweeps.push_back({ .id = PROJECT_SCENES_SWEEP,
+			.quantity = "scenes of the project",
+			.types = ALL_TYPES,
+			.center = -1, // none
+			.has_project_scenes = true });
 	return sweeps;
 }
 
-bool is_generated_knot(const StabilitySweep &p_sweep) {
+bool uses_scaling_scene(const StabilitySweep &p_sweep) {
 	return p_sweep.id == TRIANGLES_GROUP || p_sweep.id == LIGHTS_GROUP;
 }
 
@@ -98,9 +103,9 @@ StabilitySetup make_stability_setup(
 	StabilitySetup result;
 	result.light = STABILITY_LIGHT_NAME;
 	result.size_px = glm::uvec2(get_stability_size_px(p_extent));
-	if (is_generated_knot(p_sweep)) {
+	if (uses_scaling_scene(p_sweep)) {
 		ScalingScene description;
-		description.light_size_m = 0.2;
+		description.light_size_m = 0.2; // 0.05 S, as in the other sweeps
 		if (p_sweep.id == TRIANGLES_GROUP) {
 			description.triangle_count = static_cast<uint32_t>(p_value);
 		} else {

@@ -12,7 +12,8 @@
 namespace gnomon {
 
 /// A sweep: generated scenes in which one quantity varies from harmless to extreme and everything
-/// else is constant. The report shows one curve per technique and light type.
+/// else is constant (exceptions: has_cases). The report shows one curve per technique and light
+/// type.
 struct StabilitySweep {
 	std::string id;				  // "light_size"
 	std::string quantity;		  // name and unit of the values: "light radius, S"

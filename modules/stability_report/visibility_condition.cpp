@@ -25,9 +25,10 @@ DoubleVisibility::DoubleVisibility(const SceneSnapshot &p_scene, const LightSnap
 		scene(p_scene), light(p_light) {
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		const glm::dmat4 node_from_world = glm::inverse(instance.world_from_node);
-		const bool is_flat = !std::isfinite(
+		// A singular transform collapses the caster to a line or a point, which hides nothing.
+		const bool is_singular = !std::isfinite(
 				node_from_world[0][0] + node_from_world[1][1] + node_from_world[2][2]);
-		if (instance.casts_shadow && !is_flat) {
+		if (instance.casts_shadow && !is_singular) {
 			bodies.push_back({ node_from_world, instance.bounds_world,
 					std::make_unique<RayTree>(instance.get_posed_caster_mesh()) });
 		}
@@ -66,7 +67,7 @@ double DoubleVisibility::compute(
 
 bool DoubleVisibility::is_blocked(
 		const glm::dvec3 &p_origin, const glm::dvec3 &p_ray, bool p_is_unbounded) const {
-	const double end = p_is_unbounded ? 1e300 : 1.0;
+	const double end = p_is_unbounded ? 1e300 : 1.0; // in lengths of p_ray
 	for (const Body &body : bodies) {
 		if (!find_box_entry(body.bounds_world, p_origin, p_ray, 0.0, end)) {
 			continue;

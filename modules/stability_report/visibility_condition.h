@@ -13,7 +13,7 @@
 namespace gnomon {
 
 /// Computes the visibility of one light in double precision on the CPU, with 256 rays per point. It
-/// is slow, and meant to separate rounding errors from errors of a method at few points, and for
+/// is slow: meant for telling rounding errors from errors of a method at few points, and for
 /// references that float32 makes too inaccurate. As in the reference technique, the light is a disc
 /// of its radius that faces the point, and the ray origin is offset along the normal by
 /// RECEIVER_OFFSET times S. Unlike there, translucent casters count as opaque. Scene and light must
@@ -51,9 +51,9 @@ struct ConditionPoint {
 	double error = 0;					  // |visibility of the technique - reference|
 };
 
-/// Computes the mean condition of visibility at the points. For each, DoubleVisibility is evaluated
-/// at the point and at 12 displaced positions: meant for a few dozen points. No points: all values
-/// are 0.
+/// Computes how sensitive visibility is to rounding, as the mean over the points. For each,
+/// DoubleVisibility is evaluated at the point and at 12 displaced positions: meant for a few dozen
+/// points. No points: all values are 0.
 VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 		const LightSnapshot &p_light, std::span<const ConditionPoint> p_points);
 

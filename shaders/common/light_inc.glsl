@@ -33,6 +33,7 @@ bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 /// with its range window and smooth cone, without the cosine at the surface. p_to_light: see vector_to_light.
 vec3 illuminance(LightConstants p_light, vec3 p_to_light) {
 	const bool is_directional = p_light.type == LIGHT_TYPE_DIRECTIONAL;
+	// The lower limits only avoid divisions by 0.
 	const float distance2 = max(dot(p_to_light, p_to_light), 1e-12);
 	const float ratio2 = distance2 / max(p_light.range_m * p_light.range_m, 1e-30);
 	const float window = clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);

@@ -49,6 +49,7 @@ MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_norma
 		point.w = r.z > 0.0 ? 1.0 / r.z : 0.0;
 		point.xy = r.xy * point.w;
 		const float height = dot(n, r); // signed distance of the plane from the light
+		// Near 0 the plane passes through the light and is seen edge-on: no finite slope.
 		point.w_slope = abs(height) < 1e-7 ? vec2(0.0) : n.xy / height;
 	}
 	return point;

@@ -1,6 +1,7 @@
-// Tests whether an edge is a silhouette as seen from the light. All shaders and the CPU version (find_silhouette_edges
-// in mesh_tools/tests/silhouette_edges.h) evaluate the same expression: in float32, each product and sum rounded once,
-// with vertices in an order that does not depend on the caller. So all find exactly the same edges.
+// Tests whether an edge is a silhouette as seen from the light. All shaders and the tests' version
+// in C++ (find_silhouette_edges in mesh_tools/tests/silhouette_edges.h) evaluate the same
+// expression: in float32, each product and sum rounded once, with vertices in an order that does
+// not depend on the caller. So all find exactly the same edges.
 #ifndef SILHOUETTE_INC_GLSL
 #define SILHOUETTE_INC_GLSL
 

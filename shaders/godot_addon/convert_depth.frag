@@ -8,7 +8,7 @@ layout(push_constant) uniform Push {
 	ConvertDepthPush push;
 };
 
-// Converts Godot's depth, which is 1 at the near plane and 0 at the far plane, to near / z. 0 stays the background.
+// Converts Godot's depth, which is 1 at the near plane and 0 at the far plane, to near / z. The background stays 0.
 void main() {
 	const float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
 	gl_FragDepth = depth > 0.0 ? (depth + push.offset) / (1.0 + push.offset) : 0.0;

@@ -2,8 +2,9 @@
 #define GODOT_ADDON_SHARED_H
 #include "shared/shared_begin.h"
 
-// Size of the table of lights that materials read, including its first row, which describes the
-// view.
+// Size of the table of lights that materials read (see gnomon.gdshaderinc), including its first
+// row, which describes the view. The row count is a power of two, because a light's row is the last
+// 6 bits of its specular amount.
 #define RECEIVER_ROW_COUNT 64
 #define RECEIVER_COLUMN_COUNT 4
 
@@ -31,7 +32,7 @@ SHARED_SIZE(ConvertDepthPush, 16);
 
 /// Push constants of merge_depth.frag: tolerances as fractions of a surface's depth.
 struct SHARED_ALIGN MergeDepthPush {
-	float surface_tolerance; // largest difference at which Godot drew the reduced mesh in the pixel
+	float surface_tolerance; // up to it the pixel shows the reduced mesh
 	float lod_tolerance;	 // largest difference between a reduced mesh and its full mesh
 	float padding0;
 	float padding1;

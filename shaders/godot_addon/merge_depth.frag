@@ -11,7 +11,7 @@ layout(push_constant) uniform Push {
 };
 
 // Where Godot drew a mesh with reduced triangles (a level of detail), writes the depth of the full mesh, if that covers
-// the pixel too.
+// the pixel at nearly the same depth.
 void main() {
 	const ivec2 pixel = ivec2(gl_FragCoord.xy);
 	const float scene = texelFetch(scene_texture, pixel, 0).r;

@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "receiver_scatter/receiver_inc.glsl"
 
-// Averages each pixel of spread.comp with its neighbours, which took their samples from different sets. The window is
-// one pixel wider and higher than a block, and its outermost pixels count by half. So it is centred on the pixel, and
-// every set has the same weight.
+// Averages each pixel of spread.comp's mask with its neighbours, which took their samples from different sets. The
+// window is one pixel wider and higher than a block, and its outermost pixels count by half. So it is centred on the
+// pixel, and every set has the same weight.
 layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
 
 // Minimum cosine between the normals of pixels that are averaged; 0 across the edge of a box.

@@ -15,7 +15,7 @@ vec3 project(vec4 p_position) {
 	return (frame.clip_from_camera_relative * p_position).xyw;
 }
 
-/// The pixel that shows a point; outside the image where it is behind the camera.
+/// The pixel that shows a projected point; outside the image where it is behind the camera.
 ivec2 find_pixel_of(vec3 p_projected) {
 	if (!(p_projected.z > frame.near_m)) {
 		return ivec2(-1);
@@ -29,12 +29,13 @@ ivec2 find_pixel_of(vec3 p_projected) {
 float find_blur_m2(Receiver p_receiver, int p_block_width) {
 	// Variance of average.comp's window along one axis; 1/12 is that of rounding to a pixel.
 	const float averaged_px2 = p_block_width == 1 ? 0.0 : p_block_width == 2 ? 0.5 : 1.5;
-	// A pixel is 1 / cosine times as long on the plane along the view; limited for grazing views.
+	// A pixel is 1 / cosine times as long on the plane along the view; at most 5 times.
 	const float cosine = max(abs(dot(p_receiver.normal, normalize(p_receiver.position))), 0.2);
 	return (averaged_px2 + 1.0 / 12.0) * (1.0 + 1.0 / (cosine * cosine)) * p_receiver.pixel_size_m *
 			p_receiver.pixel_size_m;
 }
 
+/// Mean of the light at the samples.
 vec3 spread_in_metres(ivec2 p_pixel, Receiver p_receiver) {
 	vec3 axis_x;
 	vec3 axis_y;

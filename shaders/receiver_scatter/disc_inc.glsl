@@ -6,6 +6,7 @@
 #include "receiver_scatter/cells_inc.glsl"
 #include "receiver_scatter/receiver_inc.glsl"
 
+/// Weighted mean of the light at the samples.
 vec3 spread_in_pixels(ivec2 p_pixel, Receiver p_receiver) {
 	const float radius_px = SCATTER_RADIUS_PX * p_receiver.scatter;
 	const uvec2 counts = uvec2(count_rings(p_receiver.scatter), push.sector_count);
@@ -25,6 +26,7 @@ vec3 spread_in_pixels(ivec2 p_pixel, Receiver p_receiver) {
 			}
 			const uvec4 packed = load_pixel(other);
 			const float distance_px = length(offset_px);
+			// Points of a plane at 60 degrees to the image are twice as far apart; 1: rounding.
 			const float tolerance_m = 2.0 * (distance_px + 1.0) * p_receiver.pixel_size_m;
 			if (refuses ? is_same_surface(p_receiver, other, packed, p_receiver.position, tolerance_m)
 						: get_depth(packed) > 0.0) {

@@ -21,6 +21,7 @@ layout(set = 0, binding = SCATTER_BINDING_PIXELS, rgba32ui) uniform writeonly ui
 /// Returns a hash of scatter and scatter distance, 1..0xffff. One in 65,535 pairs of materials has the same key; then
 /// only position and normal distinguish their surfaces.
 uint find_material_key(vec2 p_scatter_and_distance) {
+	// Multipliers: 2^32 / golden ratio (Knuth), and the second prime of xxHash.
 	uint hash = packHalf2x16(p_scatter_and_distance) * 2654435769u;
 	hash = (hash ^ (hash >> 15u)) * 2246822519u;
 	return 1u + (hash >> 16u) % 0xffffu;
@@ -33,7 +34,7 @@ void main() {
 	}
 	const float depth = texelFetch(depth_texture, pixel, 0).r;
 	uvec4 packed = uvec4(0u);
-	if (depth > 0.0) {
+	if (depth > 0.0) { // 0: background
 		const bool is_reached = texelFetch(receivers_texture, pixel, 0).r > 0.0;
 		const vec2 material = texelFetch(material_texture, pixel, 0).rg;
 		const vec3 light = is_reached ? texelFetch(mask_texture, pixel, 0).rgb : vec3(0.0);

@@ -64,6 +64,7 @@ bool load_receiver(ivec2 p_pixel, out Receiver r_receiver) {
 	r_receiver.normal = unpack_normal(packed.y);
 	r_receiver.scatter = min(material.r, 1.0);
 	r_receiver.scatter_distance_m = material.g;
+	// The image is 2 |up_tangent| high at a distance of 1; near_m / depth is the receiver's.
 	r_receiver.pixel_size_m =
 			2.0 * frame.near_m / depth * length(frame.up_tangent.xyz) / float(frame.size_px.y);
 	const float distance_m =

@@ -13,10 +13,11 @@
 #define SCATTER_BINDING_PIXELS 8 // the result of pack.comp
 #define SCATTER_GROUP_SIZE 8
 
-// The pixels of a block of 1, 2 x 2 or 4 x 4 pixels take their samples from as many different sets,
-// and average.comp averages them. The buffer holds the sets of all three block sizes, one after
-// another. Averaging blurs by a pixel or two. So blocks of width 2 and 4 are used only for discs
-// whose radius is at least this many pixels, where the blur is small in comparison.
+// The pixels of a block of 1, 2 x 2 or 4 x 4 pixels take their samples from as many different sets
+// (make_scatter_samples), and average.comp averages them. The buffer holds the sets of all three
+// block sizes, one after another. Averaging blurs by a pixel or two. So blocks of width 2 and 4 are
+// used only for discs whose radius is at least this many pixels, where the blur is small in
+// comparison.
 #define SCATTER_SET_COUNT (1 + 4 + 16)
 #define SCATTER_RADIUS_OF_2_PX 4.0f
 #define SCATTER_RADIUS_OF_4_PX 14.0f
@@ -43,7 +44,7 @@ struct SHARED_ALIGN ReceiverScatterPush {
 	uint sample_count; // per set
 	uint sector_count; // of the disc in pixels
 	uint method;	   // SCATTER_METHOD_*
-	uint refusal;	   // SCATTER_REFUSAL_*: whether samples on other surfaces do not count
+	uint refusal;	   // SCATTER_REFUSAL_*: whether samples on other surfaces are skipped
 };
 SHARED_SIZE(ReceiverScatterPush, 16);
 

@@ -4,7 +4,7 @@
 #include "renderer/renderer_shared.h"
 #include "shared/frame_shared.h"
 
-// Starts a frame's radiance: ambient and emitted light, and the background.
+// Starts a frame's radiance, times the exposure: ambient and emitted light, and the background.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
 layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
@@ -23,7 +23,7 @@ void main() {
 	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
 		return;
 	}
-	vec3 radiance = push.ambient.rgb * 0.6; // background
+	vec3 radiance = push.ambient.rgb * 0.6; // background: 60 % of a white surface's
 	if (texelFetch(depth_texture, pixel, 0).r > 0.0) {
 		const vec4 base_color = texelFetch(base_color_texture, pixel, 0);
 		radiance = push.ambient.rgb * base_color.rgb * base_color.a +

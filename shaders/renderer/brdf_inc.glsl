@@ -4,6 +4,7 @@
 #define BRDF_INC_GLSL
 
 const float PI = 3.14159265359;
+const float MIN_ALPHA = 1e-3; // keeps the highlight of a perfect mirror finite
 const float DIELECTRIC_F0 = 0.04; // reflectance at normal incidence, for an index of refraction of 1.5
 
 /// A surface, as read from the G-buffer.
@@ -59,7 +60,7 @@ float scatter_lobe(ReflectionCosines p_cosines, float p_roughness) {
 
 /// GGX with the height-correlated Smith term: distribution times visibility, without the Fresnel term.
 float ggx_lobe(ReflectionCosines p_cosines, float p_roughness) {
-	const float alpha = max(p_roughness * p_roughness, 1e-3);
+	const float alpha = max(p_roughness * p_roughness, MIN_ALPHA);
 	const float alpha2 = alpha * alpha;
 	const float d_base = p_cosines.n_h * p_cosines.n_h * (alpha2 - 1.0) + 1.0;
 	const float distribution = alpha2 / (PI * d_base * d_base);
@@ -71,10 +72,12 @@ float ggx_lobe(ReflectionCosines p_cosines, float p_roughness) {
 	return distribution * visibility;
 }
 
-/// Phong's lobe around the mirrored light direction as a BRDF, without the cosine, normalised to reflect at most 1
-/// (Lewis 1994). With this exponent the lobe has GGX's width near its centre.
+/// Phong's lobe around the mirrored light direction as a BRDF, without the cosine, normalised to
+/// reflect at most 1 (Lewis 1994). 2 / alpha^2 - 2 is the exponent of the Blinn-Phong distribution
+/// with GGX's maximum; Phong's is a quarter of it, because the angle between r and v is twice that
+/// between n and h.
 float phong_lobe(ReflectionCosines p_cosines, float p_roughness) {
-	const float alpha = max(p_roughness * p_roughness, 1e-3);
+	const float alpha = max(p_roughness * p_roughness, MIN_ALPHA);
 	const float exponent = max(2.0 / (alpha * alpha) - 2.0, 0.0) * 0.25;
 	return (exponent + 2.0) / (2.0 * PI) * pow(max(p_cosines.r_v, 1e-6), exponent);
 }

@@ -16,7 +16,8 @@ layout(push_constant) uniform Push {
 	DebugViewPush push;
 };
 
-// Class 0, "none", is black. The colours are distinguishable with every kind of colour vision (Okabe, Ito 2008).
+// Class 0, "none", is black. All colours but the grey are from Okabe, Ito 2008, who chose them
+// to be distinguishable with every kind of colour vision.
 const vec3 CLASS_COLORS[8] = vec3[8](vec3(0.0), vec3(0.90, 0.62, 0.0), vec3(0.94, 0.89, 0.26),
 		vec3(0.35, 0.35, 0.35), vec3(0.80, 0.47, 0.65), vec3(0.0, 0.45, 0.70),
 		vec3(0.34, 0.71, 0.91), vec3(0.0, 0.62, 0.45));

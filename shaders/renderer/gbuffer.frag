@@ -3,6 +3,7 @@
 #include "common/normal_inc.glsl"
 #include "renderer/gbuffer_inc.glsl"
 
+// Writes the surface at each pixel to the G-buffer, see GBuffer in gbuffer.h.
 layout(set = 0, binding = GBUFFER_BINDING_POSITIONS) readonly buffer Positions {
 	float positions_node[];
 };
@@ -13,7 +14,7 @@ layout(push_constant) uniform Push {
 	InstancePush instance;
 };
 
-layout(location = 0) in vec3 in_normal;
+layout(location = 0) in vec3 in_normal; // world axes; 0 where the mesh has none
 layout(location = 0) out vec4 out_base_color;
 layout(location = 1) out uint out_shading_normal;
 layout(location = 2) out vec4 out_material;

@@ -3,7 +3,8 @@
 #include "renderer/renderer_shared.h"
 #include "shared/frame_shared.h"
 
-layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // see gbuffer_inc.glsl
+// VARIANT_TEXTURED: for surfaces with textures, vertex colours or an alpha cutoff.
+layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // why uniform: gbuffer_inc.glsl
 	FrameConstants frame;
 };
 layout(push_constant) uniform Push {
@@ -12,7 +13,7 @@ layout(push_constant) uniform Push {
 
 layout(location = 0) in vec3 in_position_node;
 layout(location = 1) in vec3 in_normal_node;
-layout(location = 0) out vec3 out_normal;
+layout(location = 0) out vec3 out_normal; // world axes; 0 where the mesh has none
 #ifdef VARIANT_TEXTURED
 layout(location = 2) in vec2 in_first_uv;
 layout(location = 3) in vec2 in_second_uv;
@@ -25,8 +26,8 @@ layout(location = 3) out vec4 out_color;
 
 void main() {
 	const mat4 m = instance.camera_relative_from_node;
-	// The cofactor matrix transforms normals, also if the transform has no inverse. Of a mirroring transform it gives
-	// the opposite normal.
+	// The cofactor matrix transforms normals, also if the transform has no inverse. For a mirroring
+	// transform it gives the opposite normal.
 	const mat3 cofactor =
 			mat3(cross(m[1].xyz, m[2].xyz), cross(m[2].xyz, m[0].xyz), cross(m[0].xyz, m[1].xyz));
 	const vec3 normal = cofactor * in_normal_node * (instance.is_mirrored != 0u ? -1.0 : 1.0);

@@ -50,6 +50,7 @@ vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 	map.xy *= material.normal_scale;
 	const vec3 tangent = in_tangent.xyz - p_normal * dot(p_normal, in_tangent.xyz);
 	const vec3 unit_tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
+	// w is the bitangent's sign as in glTF; a mirroring transform reverses it.
 	const vec3 bitangent = cross(p_normal, unit_tangent) * (in_tangent.w < 0.0 != p_is_mirrored ? -1.0 : 1.0);
 	const vec3 normal = unit_tangent * map.x + bitangent * map.y + p_normal * map.z;
 	const float length2 = dot(normal, normal);

@@ -6,14 +6,14 @@
 
 // gbuffer.frag for devices without gl_PrimitiveID in fragment shaders. It writes no geometric normal, because
 // derivatives are too inaccurate for it at grazing angles.
-layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // see gbuffer_inc.glsl
+layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // why uniform: gbuffer_inc.glsl
 	FrameConstants frame;
 };
 layout(push_constant) uniform Push {
 	InstancePush instance;
 };
 
-layout(location = 0) in vec3 in_normal;
+layout(location = 0) in vec3 in_normal; // world axes; 0 where the mesh has none
 layout(location = 0) out vec4 out_base_color;
 layout(location = 1) out uint out_shading_normal;
 layout(location = 2) out vec4 out_material;

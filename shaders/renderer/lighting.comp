@@ -8,7 +8,7 @@
 #include "renderer/renderer_shared.h"
 #include "shared/mask_shared.h"
 
-// Adds one light, times its visibility mask, to the frame's radiance.
+// Adds one light, times its visibility mask and the exposure, to the frame's radiance.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
 layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
@@ -46,7 +46,7 @@ void main() {
 	const vec3 reflected =
 			reflect_light(surface, unpack_normal(texelFetch(normal_texture, pixel, 0).r),
 					normalize(-position), normalize(to_light));
-	// The exposure is applied before the result is stored as half floats (at most 65504), so that lights of 1e6 cd do
+	// The exposure is applied before the sum is stored as half floats, so that lights of 1e6 cd do
 	// not overflow.
 	const vec3 added = reflected * illuminance(light, to_light) * visibility * push.ambient.a;
 	const vec3 sum = imageLoad(radiance_image, pixel).rgb + added;

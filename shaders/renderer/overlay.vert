@@ -2,7 +2,7 @@
 
 // Draws text and gizmos over the image. Positions are in pixels from the top left.
 layout(push_constant) uniform Push {
-	vec4 clip_per_px; // xy
+	vec4 clip_per_px; // xy: 2 / image size in pixels; zw: unused
 };
 layout(location = 0) in vec2 in_position_px;
 layout(location = 1) in vec4 in_color;

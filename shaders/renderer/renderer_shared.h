@@ -47,7 +47,7 @@ SHARED_SIZE(InstancePush, 112);
 /// Transform of texture coordinates: dot(row_u.xyz, (u, v, 1)) and dot(row_v.xyz, (u, v, 1)) are
 /// the coordinates in the image.
 struct SHARED_ALIGN TextureTransform {
-	vec4 row_u; // a: 1 = uses the second texture coordinates of the mesh
+	vec4 row_u; // a: 1 = use the second texture coordinates of the mesh
 	vec4 row_v; // a: 1 = there is a texture
 };
 SHARED_SIZE(TextureTransform, 32);
@@ -68,7 +68,7 @@ SHARED_SIZE(MaterialConstants, 176);
 
 /// Push constants of ambient.comp and lighting.comp.
 struct SHARED_ALIGN ExposurePush {
-	vec4 ambient; // rgb: radiance of a white surface in ambient light; a: exposure
+	vec4 ambient; // rgb: radiance of a white surface in ambient light, cd/m^2; a: exposure
 };
 SHARED_SIZE(ExposurePush, 16);
 

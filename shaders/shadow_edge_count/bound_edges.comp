@@ -4,7 +4,8 @@
 #include "common/fetch_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Computes the bounds of each bundle of edges in a light's list. One invocation per bundle.
+// Computes the bounds, in space and of distances, of each bundle of EDGE_COUNT_BUNDLE_SIZE edges in
+// a light's list. One invocation per bundle.
 layout(local_size_x = 64) in;
 FETCHED_UVEC4S(FIND_BINDING_EDGES, edges_buffer); // CountEdgeRecord
 FETCHED_UVEC4S(FIND_BINDING_FACES, faces_buffer); // CountFaceRecord
@@ -17,17 +18,19 @@ layout(std430, set = 0, binding = FIND_BINDING_BUNDLES) writeonly buffer Bundles
 
 void main() {
 	const float FAR = 3e38;
-	const float WIDENING = 1.0001; // for rounding of the centre
+	// For rounding of the box: fractions of its half size and of the centre's coordinates.
+	const float WIDENING = 1.0001;
+	const float CENTER_ROUNDING = 1e-6;
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle = gl_GlobalInvocationID.x;
-	const uint end = totals[EDGE_COUNT_TOTAL_EDGES];
-	if (bundle * size >= end) {
+	const uint edge_count = totals[EDGE_COUNT_TOTAL_EDGES];
+	if (bundle * size >= edge_count) {
 		return;
 	}
 	vec3 minimum = vec3(FAR);
 	vec3 maximum = vec3(-FAR);
 	vec2 distances = vec2(FAR, -FAR);
-	for (uint i = bundle * size; i < min((bundle + 1u) * size, end); ++i) {
+	for (uint i = bundle * size; i < min((bundle + 1u) * size, edge_count); ++i) {
 		const CountEdgeRecord edge =
 				CountEdgeRecord(FETCH_UVEC4(edges_buffer, 2u * i), FETCH_UVEC4(edges_buffer, 2u * i + 1u));
 		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
@@ -40,5 +43,5 @@ void main() {
 	}
 	const vec3 center = 0.5 * minimum + 0.5 * maximum;
 	bundles[bundle] = CountEdgeBundle(vec4(center, distances.x),
-			vec4(WIDENING * max(maximum - center, center - minimum) + 1e-6 * abs(center), distances.y));
+			vec4(WIDENING * max(maximum - center, center - minimum) + CENTER_ROUNDING * abs(center), distances.y));
 }

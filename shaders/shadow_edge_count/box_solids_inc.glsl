@@ -15,10 +15,11 @@ const uint MAY_VARY = 4u;
 // that the kind of a block does not depend on the map. Low enough that the views of an omni light stay below llvmpipe's
 // limit of iterations.
 const uint MAX_STEPS = 2048u;
-uint step_count = 0u;
+uint step_count = 0u; // since the includer last set it to 0
 
 /// True if the whole face is in front of all receivers of the box, towards the light, or behind all of them, or if
-/// they see another level of detail.
+/// they see another level of detail. Then it does not pass between them, so only its edges can make their numbers of
+/// solids differ.
 bool is_face_irrelevant(CountBox p_box, uint p_face) {
 	const CountFaceRecord face = load_count_face(p_face);
 	const vec3 a = uintBitsToFloat(face.a_kind.xyz);

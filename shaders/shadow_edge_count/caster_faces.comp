@@ -4,7 +4,8 @@
 #include "shadow_edge_count/caster_positions_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-// Computes the vertices and planes of one caster's faces in light space. One invocation per face.
+// Computes the vertices and planes of one caster's faces in light space, and the distances of the parts of blocks that
+// see them (see CountFaceRecord). One invocation per face.
 layout(local_size_x = 64) in;
 FETCHED_UVEC4S(FIND_BINDING_MESH_FACES, mesh_faces_buffer); // CountMeshFace
 FETCHED_VEC4S(FIND_BINDING_SOURCE_PARTS, source_parts_buffer); // centre and radius, see CountMesh::source_parts
@@ -19,18 +20,19 @@ const float FAR = 3e38;
 
 /// The distance of a block's part (EDGE_COUNT_CHAIN_DISTANCE) from which on the penumbra at a source part of the mesh
 /// has at least this half width. p_source_part: centre and radius in light space. Precise, so that the range of one
-/// level of detail ends exactly where that of the other begins.
+/// level of detail ends exactly where that of the other begins. Derived in "Levels of detail" in
+/// doc/techniques/edge_count.md.
 float find_switch_distance(vec4 p_source_part, float p_half_width) {
 	precise const float reach = p_half_width / push.disc_radius; // directional: in metres, else a fraction
-	precise const float directional = p_source_part.z + p_source_part.w + reach;
-	precise const float point = (length(p_source_part.xyz) + p_source_part.w) / (1.0 - reach);
+	precise const float directional_distance = p_source_part.z + p_source_part.w + reach;
+	precise const float point_light_distance = (length(p_source_part.xyz) + p_source_part.w) / (1.0 - reach);
 	if (p_half_width <= 0.0) {
 		return -FAR;
 	}
 	if ((push.flags & EDGE_COUNT_CASTER_DIRECTIONAL) != 0u) {
-		return reach < FAR ? directional : FAR;
+		return reach < FAR ? directional_distance : FAR;
 	}
-	return reach < 1.0 ? point : FAR;
+	return reach < 1.0 ? point_light_distance : FAR;
 }
 
 /// The distances of the parts that see the face, see CountFaceRecord.
@@ -57,8 +59,8 @@ void main() {
 	const vec4 plane = make_count_plane(a, b, c);
 	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
 	planes[push.first_face + index] = is_mirrored ? -plane : plane;
-	// Mirroring inverts the winding, so two vertices are swapped to match the plane's front.
 	const vec2 distances = find_distances(face.kind & EDGE_COUNT_SOURCE_PART_MASK);
+	// Mirroring inverts the winding, so two vertices are swapped to match the plane's front.
 	faces[push.first_face + index] =
 			CountFaceRecord(uvec4(floatBitsToUint(a), face.kind & ~EDGE_COUNT_SOURCE_PART_MASK),
 					floatBitsToUint(vec4(is_mirrored ? c : b, distances.x)),

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Clears the face lists of one view before they are built. In the first attempt it also chooses the size of their texels;
-// in further ones retry_faces.comp has chosen it.
+// Clears the face lists of one view before they are built. In the first attempt it also chooses the size of their
+// texels; in further ones retry_faces.comp has chosen it.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
@@ -18,8 +18,8 @@ layout(push_constant) uniform Push {
 	CountFaceListPush push;
 };
 
-/// How often the map's size is halved: as often as when the lists fitted last, or once less if a quarter of the nodes was
-/// enough, since texels of half the width need about four times the nodes. 0 if the lists are known to fit.
+/// How often the map's size is halved: as often as when the lists fitted last, or once less if a quarter of the nodes
+/// was enough, since texels of half the width need about four times the nodes. 0 if the lists are known to fit.
 uint choose_first_level() {
 	const uvec2 size_px = light.views[push.view].map_size_px;
 	const uint last_level = uint(findMSB(max(size_px.x, size_px.y))); // one texel

@@ -19,7 +19,8 @@ layout(push_constant) uniform Push {
 };
 
 /// The work group's entry in the list of blocks. Even entries come first, then odd ones (see interleave_work):
-/// neighbours in the list are neighbours in the image and cost about the same, so both halves of the dispatch do.
+/// neighbours in the list are neighbours in the image and take about the same time, so both halves of the dispatch take
+/// about the same time too.
 uint load_block_entry() {
 	const uint index = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
 	return blocks[push.first_block + index];

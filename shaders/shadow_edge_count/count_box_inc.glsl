@@ -2,12 +2,12 @@
 // resolve. It never rejects an edge that contributes.
 //
 // A point q of an edge that hides the point Y of the light's disc from a receiver P is at q = (1 - d) P + d Y, with
-// |Y| <= R and d as in CountReceiver. If the receivers are on one side of a plane, the height of q above it is an upper
-// bound of d: a linear function of q, positive where q may matter (`above`). If they are on one side of a plane through
-// the light's centre, q is at most d R beyond it: also linear, positive where q cannot matter (`outside`). Four such
-// planes bound the box's rectangle.
-// The fifth is the plane through the light's centre and the edge itself. An edge is rejected if one of these functions
-// rejects both its ends: separating axes between the edge and the rectangle, widened by d R.
+// |Y| <= R and d as in CountReceiver; the origin is the light's centre. If the receivers are on one side of a plane,
+// the height of q above it is an upper bound of d: a linear function of q, positive where q may matter (`above`). If
+// they are on one side of a plane through the light's centre, q is at most d R beyond it: also linear, positive where q
+// cannot matter (`outside`). Four such planes bound the box's rectangle in x' and y'. The fifth is the plane through
+// the light's centre and the edge itself. An edge is rejected if one of these functions rejects both its ends:
+// separating axes between the edge and the rectangle, widened by d R.
 #ifndef COUNT_BOX_INC_GLSL
 #define COUNT_BOX_INC_GLSL
 
@@ -88,10 +88,11 @@ float find_tilt(float p_radius, vec3 p_normal, float p_min, float p_longest) {
 /// `above` of a point light: from the receivers' plane; if that is not flat or is tilted too much towards the disc,
 /// from a plane across the view; if that fails too, 1, which d never exceeds.
 vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds, vec2 p_w_range) {
-	const float MAX_TILT = 0.7;
+	const float MAX_TILT = 0.7; // above it, the bound, which is divided by 1 - tilt, is too loose
 	const vec2 far = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
 	const float min_w = p_w_range.x;
 	const float longest = min_w > 0.0 ? sqrt(1.0 + dot(far, far)) / min_w : 1e37;
+	// The receivers' plane w = slope.(x', y') + range.x is n.P = 1. No receiver has n.P > 1, so n.q <= 1 - d + d tilt.
 	const vec3 own_normal = p_bounds.slope.x * p_view.axis_x.xyz + p_bounds.slope.y * p_view.axis_y.xyz +
 			p_bounds.range.x * p_view.axis_z.xyz;
 	const float own_min = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(min_w, 1e-37);
@@ -113,6 +114,7 @@ vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBou
 vec4 find_below(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds, vec2 p_w_range) {
 	const vec2 far = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
 	const float longest = sqrt(1.0 + dot(far, far)) / max(p_w_range.x, 1e-37);
+	// As in find_above: n.P >= minimum for all receivers, so n.q >= (1 - d) minimum - d tilt.
 	const vec3 normal = p_bounds.slope.x * p_view.axis_x.xyz + p_bounds.slope.y * p_view.axis_y.xyz +
 			p_bounds.range.x * p_view.axis_z.xyz;
 	const float minimum = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(p_w_range.x, 1e-37);
@@ -121,10 +123,10 @@ vec4 find_below(CountLightConstants p_light, CountViewConstants p_view, CountBou
 											: vec4(vec3(0.0), -COUNT_FAR);
 }
 
-/// CountBox::smooth_fraction: the d from which on the image of an edge on the disc moves by at most
-/// CountLightConstants::interpolation, in R, between receivers of the box. If a receiver moves by h across the light's
-/// direction, the image moves by h (1 - d) / d. If it moves along that direction by a fraction f of its distance, the
-/// image moves by less than f R / d. Directional: by h / d and, with f in metres, by f R / d.
+/// CountBox::smooth_fraction: the d from which on the projection of an edge onto the disc moves by at most
+/// CountLightConstants::interpolation, in R, from the middle of the box to its border. If a receiver moves by h across
+/// the light's direction, the projection moves by h (1 - d) / d. If it moves along that direction by a fraction f of
+/// its distance, the projection moves by less than f R / d. Directional: by h / d and, with f in metres, by f R / d.
 float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
 	const float half_size = 0.5 * length(p_bounds.maximum - p_bounds.minimum);
 	const float half_range = 0.5 * (p_w_range.y - p_w_range.x);
@@ -139,7 +141,7 @@ float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds, ve
 
 /// `above` of a directional light, whose d is in metres.
 vec4 find_above_directional(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
-	const float MAX_TILT = 0.7;
+	const float MAX_TILT = 0.7; // see find_above
 	const float tilt = p_light.disc_radius * length(p_bounds.slope);
 	const bool is_flat = p_bounds.range.y - p_bounds.range.x <= p_w_range.y - p_w_range.x;
 	return is_flat && tilt < MAX_TILT
@@ -185,6 +187,7 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 		box.outside[3] = vec4((minimum.y * z - y) * inversesqrt(1.0 + minimum.y * minimum.y), 0.0);
 	}
 	for (int i = 0; i < 4; ++i) {
+		// q may be d R beyond a plane, and d <= above.
 		box.outside[i] -= box.radius * box.above;
 	}
 	return box;
@@ -245,6 +248,8 @@ bool is_edge_in_reach(CountBox p_box, vec3 p_a, vec3 p_b) {
 	const float side_distance = find_min_distance(p_box, a, b);
 	const vec2 widening = p_box.radius * max(vec2(above_a, above_b), 0.0);
 	const vec2 depth = vec2(dot(p_box.view.axis_z.xyz, a), dot(p_box.view.axis_z.xyz, b));
+	// With n the unit normal of the fifth plane, which contains q: (1 - d) |n.P| = d |n.Y| <= d R. With h the distance
+	// of P along the view's axis: |n.P| >= h side_distance and (1 - d) h >= depth - d R. d R is at most the widening.
 	const vec2 beyond = IS_DIRECTIONAL ? vec2(side_distance) - widening
 											 : (depth - widening) * side_distance - widening;
 	return is_in_reach && (beyond.x <= 0.0 || beyond.y <= 0.0);

@@ -53,9 +53,9 @@ CountEdgeKind make_count_kind(uint p_face0, uint p_face1) {
 
 /// Signed weight of an edge: the change of the number of solids across it. A closed part counts as one solid from its
 /// front to its back. In a part that is not closed (double-sided) each face counts as one, so that a silhouette edge
-/// between two of its faces weighs 2; edges without a second face are in such parts only. p_is_in_front0, p_is_in_front1: the
-/// viewpoint is in front of the first and of the second face (for an inconsistent edge: of the second face's negated
-/// plane).
+/// between two of its faces weighs 2; edges without a second face are in such parts only. p_is_in_front0,
+/// p_is_in_front1: the viewpoint is in front of the first and of the second face (for an inconsistent edge: of the
+/// second face's negated plane).
 int count_sum_weights(bool p_is_in_front0, bool p_is_in_front1, CountEdgeKind p_kind) {
 	const int first = p_is_in_front0 ? 1 : -1;
 	const int sum = first - (p_is_in_front1 ? 1 : -1);

@@ -131,8 +131,8 @@ void count_sectors(CountSectors p_sectors, inout CountState r_state) {
 #endif
 }
 
-/// Moves the ends of two segments of (X, d), component by component, along them until d is in p_min..p_max. Some d of
-/// each segment must be. r_x, r_y, r_d: the ends. p_inverse: 1 / (p_other_d - r_d).
+/// Moves the ends of two segments of (X, d), component by component, along them until d is in p_min..p_max. The result
+/// is meaningless for a segment that has no such point. r_x, r_y, r_d: the ends. p_inverse: 1 / (p_other_d - r_d).
 void cut_count_offsets(vec2 p_other_x, vec2 p_other_y, vec2 p_inverse, float p_min, float p_max, inout vec2 r_x,
 		inout vec2 r_y, inout vec2 r_d) {
 	const vec2 d = clamp(r_d, p_min, p_max);
@@ -143,8 +143,8 @@ void cut_count_offsets(vec2 p_other_x, vec2 p_other_y, vec2 p_inverse, float p_m
 	r_d = d;
 }
 
-/// The regions of the light beyond two edges, each from (X, d) p_a to p_b. p_weights: the edges' weights as seen by the
-/// receiver; if one is 0, its region is empty.
+/// The regions of the light beyond two edges, each from p_a to p_b in light space. p_weights: the edges' weights as
+/// seen by the receiver; if one is 0, its region is empty.
 CountSectors find_edge_sectors(CountReceiver p_receiver, vec3 p_a0, vec3 p_b0, vec3 p_a1, vec3 p_b1, ivec2 p_weights) {
 	const vec3 a0 = count_offset(p_receiver, p_a0);
 	const vec3 b0 = count_offset(p_receiver, p_b0);
@@ -165,6 +165,7 @@ CountSectors find_edge_sectors(CountReceiver p_receiver, vec3 p_a0, vec3 p_b0, v
 	const vec2 inverse_length = 1.0 / (b_d - a_d);
 	cut_count_offsets(vec2(b0.x, b1.x), vec2(b0.y, b1.y), inverse_length, minimum, maximum, a_x, a_y, a_d);
 	cut_count_offsets(vec2(a0.x, a1.x), vec2(a0.y, a1.y), -inverse_length, minimum, maximum, b_x, b_y, b_d);
+	// The ends on the disc, X / (d R), with one division for both.
 	const vec2 inverse = p_receiver.inverse_radius / (a_d * b_d);
 	const vec2 scale_a = b_d * inverse;
 	const vec2 scale_b = a_d * inverse;
@@ -214,6 +215,7 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const vec2 to = (is_in_front ? enter.xy : leave.xy) * p_receiver.inverse_radius;
 	const bool is_valid =
 			is_counted && any(is_in) && !all(is_in) && is_in_distance_range(p_receiver.part_distance, p_face);
+	// The second of the two edges is unused.
 	const DiscEdges edges = DiscEdges(vec2(from.x), vec2(from.y), vec2(to.x), vec2(to.y));
 	count_sectors(make_count_sectors(edges, bvec2(is_between), ivec2(1), bvec2(is_valid, false)), r_state);
 }

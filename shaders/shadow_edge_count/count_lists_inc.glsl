@@ -36,7 +36,7 @@ vec4 load_count_plane(uint p_face) {
 	return FETCH_VEC4(planes_buffer, p_face);
 }
 
-/// The number of faces that may cut the light's disc.
+/// The number of faces that may cut the light's disc. 0 if no caster comes near it: then no pass has written a total.
 uint find_cut_face_count() {
 	return light.max_cut_face_count == 0u ? 0u : min(totals[EDGE_COUNT_TOTAL_CUT_FACES], light.max_cut_face_count);
 }

@@ -27,6 +27,7 @@ uvec2 find_direction_bins(vec2 p_x, vec2 p_y) {
 /// Indices in the mask table of the points of the unit disc that are farther than p_offset (0..1) from the centre along
 /// a direction, which need not be unit.
 uvec2 find_count_mask_indices(vec2 p_x, vec2 p_y, vec2 p_offset) {
+	// 0.9999: offset 1 is in the last row.
 	const uvec2 row = uvec2(float(EDGE_COUNT_OFFSET_COUNT) * clamp(p_offset, 0.0, 0.9999));
 	return find_direction_bins(p_x, p_y) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
 }
@@ -46,7 +47,7 @@ vec2 count_half_angles(vec2 p_x, vec2 p_y) {
 	return mix(angle, COUNT_PI - angle, lessThan(p_x, vec2(0.0)));
 }
 
-/// The angles of two directions in units of 2 pi / 64, plus an offset that makes them positive for every sample set.
+/// The angles of two directions in units of 2 pi / 64, plus 65, so that find_count_sector rounds a positive number up.
 vec2 find_count_angles(vec2 p_x, vec2 p_y) {
 	const vec2 half_angle = count_half_angles(p_x, abs(p_y));
 	const vec2 angle = mix(half_angle, 2.0 * COUNT_PI - half_angle, lessThan(p_y, vec2(0.0)));
@@ -54,24 +55,25 @@ vec2 find_count_angles(vec2 p_x, vec2 p_y) {
 	return angle * (sectors / (2.0 * COUNT_PI)) + 1.0 + sectors;
 }
 
-/// Index of the first point of a sample set whose angle is not below p_angle (see find_count_angles). Points are ordered
-/// by angle, one in each of 64 equal sectors. In a sector the points of all sets are evenly spaced, see DiscMasks.
+/// Index of the first point of a sample set whose angle is not below p_angle (see find_count_angles). Points are
+/// ordered by angle, one in each of 64 equal sectors. In a sector the points of all sets are evenly spaced, see
+/// DiscMasks.
 int find_count_sector(float p_angle, uint p_sample_set) {
 	return int(p_angle - (float(p_sample_set) + 0.5) / float(COUNT_SAMPLE_SET_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
 }
 
 /// Mask of the points with an index below p_index, 0..63.
-uvec2 count_points_before(int p_index) {
+uvec2 find_points_before(int p_index) {
 	const uint bits_before = (1u << (p_index & 31)) - 1u;
 	return p_index < 32 ? uvec2(bits_before, 0u) : uvec2(0xffffffffu, bits_before);
 }
 
-/// Mask of a sample set's points between two angles (see find_count_angles), counter-clockwise. Two wedges with a common
-/// border have no point in common and miss none.
+/// Mask of a sample set's points between two angles (see find_count_angles), counter-clockwise. Two wedges with a
+/// common border have no point in common and miss none.
 uvec2 find_count_wedge(float p_from, float p_to, uint p_sample_set) {
 	const int from = find_count_sector(p_from, p_sample_set);
 	const int to = find_count_sector(p_to, p_sample_set);
-	const uvec2 between = count_points_before(from) ^ count_points_before(to);
+	const uvec2 between = find_points_before(from) ^ find_points_before(to);
 	return from > to ? ~between : between;
 }
 
@@ -226,6 +228,7 @@ CountChanges sum_changes(PointCounters p_sums, uvec2 p_hidden_differs) {
 	s2 |= is_large;
 	s3 |= is_large;
 	CountChanges changes;
+	// Expanded: the sum over all points of (s0 + 2 s1 + 4 s2 + 8 s3)^2, with bits s0 to s3.
 	changes.square = count_points(s0) + 4 * (count_points(s1) + count_points(s0 & s1)) +
 			8 * count_points(s0 & s2) +
 			16 * (count_points(s2) + count_points(s0 & s3) + count_points(s1 & s2)) +

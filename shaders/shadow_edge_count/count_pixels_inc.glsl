@@ -43,6 +43,7 @@ CountPoint load_count_point(ivec2 p_pixel) {
 	point.position = (light_from_camera * vec4(pixel.position, 1.0)).xyz;
 	const CountViewConstants view = load_count_view(point.view);
 	const mat3 light_from_view = mat3(view.axis_x.xyz, view.axis_y.xyz, view.axis_z.xyz);
+	// In the view's axes: a product with the matrix on the right applies its transpose.
 	const vec3 r = VIEW_COUNT == 1u ? point.position : point.position * light_from_view;
 	const vec3 normal_light = mat3(light_from_camera) * pixel.normal;
 	const vec3 n = VIEW_COUNT == 1u ? normal_light : normal_light * light_from_view;

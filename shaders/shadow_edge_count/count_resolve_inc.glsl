@@ -20,12 +20,13 @@ const uint SUBGROUP_SIZE =
 /// The blocks have no edge lists: each subgroup tests all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
+// A texel has the masks of one sample set, or of two.
 uvec4 load_count_masks(uint p_index, uint p_pair) {
 	return texelFetch(masks_buffer, int(p_index * uint((COUNT_SAMPLE_SET_COUNT + 1) / 2) + p_pair));
 }
 
 // List entries (see COUNT_EDGE_MASK) of the edges that some receiver of a subgroup may have to count. Each subgroup has
-// its own slice. There is one for every four invocations, the smallest subgroup.
+// its own slice. There is a slice for every four invocations, the smallest size of a subgroup.
 const uint SLICE_SIZE = 64u;
 shared uint chosen_edges[SLICE_SIZE * COUNT_GROUP_SIZE / 4];
 
@@ -112,6 +113,7 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 			needed = has_room ? needed : uvec4(0u);
 			const uint end = is_valid && has_room ? p_end : 0u;
 			uint i = gl_SubgroupInvocationID;
+			// Each call tests SUBGROUP_SIZE edges of the bundle: one call is enough for 16 invocations or more.
 			do {
 				choose_edge_of_bundle(p_box, first_bundle + lane, i, end, choice);
 				if (SUBGROUP_SIZE < size) {
@@ -144,6 +146,7 @@ bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const float scaled_distance = abs(dot(p_to_light, cross(a, b)));
 	const bool is_outside_disc =
 			scaled_distance > inverse_distance * (radius * direction_length + ROUNDING * length_a * length_b);
+	// Along its line, the edge starts past the disc, or ends before it.
 	const bool is_beyond = min(d_a, d_b) > 0.0 &&
 			(dot(a, edge_direction) > direction_length * (radius * d_a + ROUNDING * length_a) ||
 					dot(b, edge_direction) < -direction_length * (radius * d_b + ROUNDING * length_b));
@@ -172,7 +175,7 @@ struct LoadedRound {
 	LoadedEdge batch3;
 };
 
-/// Bit masks of the edges of a round, for the invocation's receiver.
+/// Bit masks of the edges of a round, for the invocation's receiver. An edge's bit is its slot, 0..31.
 struct CountEdgeMasks {
 	uint own; // edges that it has to count
 	uint is_negative; // their weight is negative
@@ -364,7 +367,8 @@ void count_round(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks 
 	} while (i < max_count);
 }
 
-/// The bounds of the receivers of a subgroup for which p_is_selected is true.
+/// The bounds of the receivers of a subgroup for which p_is_selected is true. p_slope: of the plane that their range
+/// refers to.
 CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_selected, vec2 p_slope) {
 	const float range = p_point.warped.z - dot(p_slope, p_point.warped.xy);
 	return CountBounds(subgroup_min(p_is_selected ? p_point.warped.xy : vec2(COUNT_FAR)),
@@ -381,6 +385,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	result.pixel = ivec2(find_block_corner(p_block) + p_pixel);
 	result.edge_count = 0u;
 	const bool is_receiver = is_in_image(result.pixel) && is_receiver_pixel(result.pixel);
+	// Replaced if there is a receiver, else not counted.
 	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), vec2(0.0));
 	if (is_receiver) {
 		point = load_count_point(result.pixel);

@@ -34,12 +34,13 @@ uvec2 find_counted_pixel(uint p_index) {
 /// Polynomials of degree 0 to 3 at a row or column p_line of the block, orthonormal over the four counted ones. Their
 /// variable u is -1 at the first line and 1 at the last; the counted lines have u = +-1 and +-NEAR.
 vec4 find_basis(uint p_line) {
-	const float HALF = 3.5;
+	const float HALF = 3.5; // lines from the middle of the block to the first one
 	const float NEAR = 1.5 / HALF;
 	const float SQUARE = NEAR * NEAR;
 	const float SUM = 1.0 + SQUARE; // half the sum of u^2 over the lines
 	const float RATIO = (1.0 + SQUARE * SQUARE) / SUM; // of the sums of u^4 and u^2: u^3 - RATIO u is orthogonal to u
-	const float CUBIC = (1.0 - RATIO) * (1.0 - RATIO) + SQUARE * (SQUARE - RATIO) * (SQUARE - RATIO); // half its square
+	// Half the sum of the squares of u^3 - RATIO u over the lines.
+	const float CUBIC = (1.0 - RATIO) * (1.0 - RATIO) + SQUARE * (SQUARE - RATIO) * (SQUARE - RATIO);
 	const float u = float(p_line) / HALF - 1.0;
 	return vec4(0.5, u * inversesqrt(2.0 * SUM), (u * u - 0.5 * SUM) / (1.0 - SQUARE),
 			u * (u * u - RATIO) * inversesqrt(2.0 * CUBIC));

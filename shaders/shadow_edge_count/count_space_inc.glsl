@@ -9,7 +9,7 @@
 /// The light is directional. A constant, since software drivers would execute the code for other lights too.
 layout(constant_id = EDGE_COUNT_CONSTANT_IS_DIRECTIONAL) const bool IS_DIRECTIONAL = false;
 
-const float COUNT_MAX_D = 3e38;
+const float COUNT_MAX_D = 3e38; // no limit
 
 /// A receiver in light space, and the light's disc, which is turned to face it.
 struct CountReceiver {
@@ -19,12 +19,12 @@ struct CountReceiver {
 	// tangents).
 	vec3 disc_x;
 	vec3 disc_y;
-	vec3 to_light;
+	vec3 to_light; // towards the light, of length 1 / distance; directional: a unit vector
 	float inverse_radius; // 1 / R; a light with R = 0 has no penumbra, and no edges are counted
 	float min_d;		  // edges count only where d is above this: nearer to the light than the receiver
 	float max_d;		  // and where d is below this: in front of the light
 	float near_light_limit;	  // points with a larger dot(to_light, point) are nearer to the light than to the receiver
-	float part_distance;	  // of its part, see EDGE_COUNT_CHAIN_DISTANCE; selects levels of detail
+	float part_distance;	  // of its part of a block (EDGE_COUNT_CHAIN_DISTANCE); selects levels
 };
 
 float count_cross(vec2 p_a, vec2 p_b) {
@@ -96,7 +96,8 @@ bool is_count_in_front(vec4 p_plane, vec3 p_point) {
 	return side > 0.0;
 }
 
-/// True if the face is of the level of detail that receivers of a part with this distance see.
+/// True if the face is of the level of detail that receivers of a block's part at this distance
+/// see, see CountFaceRecord.
 bool is_in_distance_range(float p_part_distance, CountFaceRecord p_face) {
 	return p_part_distance >= uintBitsToFloat(p_face.b_first_distance.w) &&
 			p_part_distance < uintBitsToFloat(p_face.c_end_distance.w);

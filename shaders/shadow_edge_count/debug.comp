@@ -10,7 +10,8 @@
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DArray
 		debug_image;
 
-// Writes the counts for the debug views.
+// Writes the layers of the debug image (EDGE_COUNT_DEBUG_*): the number of edges and of solids that
+// each pixel counts, and the kind of its block.
 void main() {
 	load_count_constants();
 	const CountPixel pixel = count_pixel();

@@ -4,7 +4,8 @@
 #include "common/pcss_inc.glsl"
 #include "shadow_edge_count/count_blocks_inc.glsl"
 
-// Resolves blocks that have more edges than the budget with percentage-closer soft shadows.
+// Resolves blocks that have more edges than CountLightConstants::budget with percentage-closer soft
+// shadows.
 layout(set = 0, binding = COUNT_BINDING_DEPTH_MAP) uniform texture2DArray map_texture;
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 

@@ -1,6 +1,6 @@
 // The light's faces, for the passes that list them. Those that may cut the light's disc as seen by some receiver have a
-// list of their own: each receiver tests all of them, so they are in no texel's list. So close to the light they may
-// cover half of the map, or no texel if they pass through the centre.
+// list of their own: each receiver tests all of them, so they are in no texel's list. So close to
+// the light a face may cover half of the map, or no texel if its plane contains the light's centre.
 #ifndef LIGHT_FACES_INC_GLSL
 #define LIGHT_FACES_INC_GLSL
 
@@ -15,7 +15,8 @@ CountFaceRecord load_face(uint p_face) {
 			FETCH_UVEC4(faces_buffer, first + 2u));
 }
 
-/// True if the face's bounds come within R of the light's centre. False if no caster's bounds do.
+/// True if the face's bounds come within R of the light's centre. Always false if no caster's
+/// bounds do: then max_cut_face_count is 0.
 bool is_cut_face(CountLightConstants p_light, CountFaceRecord p_face) {
 	const float WIDENING = 1.001; // for rounding
 	const vec3 a = uintBitsToFloat(p_face.a_kind.xyz);

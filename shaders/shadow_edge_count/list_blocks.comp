@@ -18,6 +18,9 @@
 // bundles of edges that may matter to the tile. If the tile has no more parts than blocks, it tests the edges of these
 // bundles against the tile, and the remaining ones against the box of each part. Otherwise it tests the bundles against
 // each part's box, and then the edges of the remaining ones. It does this for each light view.
+//
+// Loops test at their ends, for the reason in count_resolve_inc.glsl: an iteration without anything
+// to do has no effect.
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) readonly buffer Boxes {
 	CountBlockBox boxes[];
@@ -156,7 +159,7 @@ BoxPair find_tile_pair(uvec2 p_tile, uint p_view, uint p_parts) {
 }
 
 // Bundles that may matter to the tile, in order. candidates: edges of them that may matter to the tile, or bundles that
-// may matter to one part.
+// may matter to one part. What exceeds the size of an array is processed in a further round.
 const uint MAX_NEEDED_BUNDLES = 512u;
 shared uint needed_bundles[MAX_NEEDED_BUNDLES];
 const uint MAX_CANDIDATES = 1024u;
@@ -250,7 +253,6 @@ void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 	const uint begin = r_chain.edge_count % size;
 	const uint end = begin + subgroupBallotBitCount(used);
 	uint chunk = r_chain.chunk;
-	// The chain needs another chunk.
 	const bool needs_chunk = end > begin && (begin == 0u || end > size);
 	if (needs_chunk) {
 		if (subgroupElect()) {
@@ -431,6 +433,7 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 			atomicOr(block_solids[block], has_edges ? 0u : solids);
 			atomicAnd(blocks_are_smooth[block], has_edges && solids == MAY_VARY ? 0u : 1u);
 		}
+		// The steps of has_no_separating_face, and of count_solids, which walks one of its lists.
 		iteration_count += 2u * subgroup_max(step_count) + 1u;
 		step_count = 0u;
 		first += GROUP_SIZE;
@@ -500,7 +503,7 @@ void list_view(uvec2 p_tile, uint p_view) {
 
 /// Adds a block to the list of its kind. The order is arbitrary and does not affect the mask.
 void add_block(uint p_entry, uint p_kind) {
-	const uint first = 3u * p_kind;
+	const uint first = 3u * p_kind; // of the three arguments of the kind's dispatch
 	const uint slot = atomicAdd(dispatches[first], 1u);
 	blocks[p_kind * light.block_count.x * light.block_count.y + slot] = p_entry;
 	dispatches[first + 1u] = 1u;
@@ -533,12 +536,13 @@ void main() {
 		if (block != NO_BLOCK) {
 			const uint edge_count = block_edge_counts[i];
 			const uint solids = block_solids[i];
-			const bool is_whole = iteration_count < MAX_ITERATIONS;
+			const bool is_tested = iteration_count < MAX_ITERATIONS; // all edges of the tile
 			uint kind = uint(blocks_are_smooth[i] != 0u ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
-			kind = is_whole && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);
+			kind = is_tested && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);
 			kind = edge_count > light.budget ? uint(EDGE_COUNT_BLOCKS_FILTERED) : kind;
+			// At most one of SOME_ARE_LIT and SOME_ARE_DARK, and not MAY_VARY.
 			const bool is_even = light.max_edge_count > 0u && solids <= SOME_ARE_DARK;
-			kind = is_whole && edge_count == 0u && find_cut_face_count() == 0u
+			kind = is_tested && edge_count == 0u && find_cut_face_count() == 0u
 					? uint(is_even ? EDGE_COUNT_BLOCKS_EVEN : EDGE_COUNT_BLOCKS_PLAIN)
 					: kind;
 			const bool is_dark = kind == uint(EDGE_COUNT_BLOCKS_EVEN) && solids == SOME_ARE_DARK;

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/light_faces_inc.glsl"
 
-// Lists the faces that may cut the light's disc. A single work group tests every face, so that the list has their
-// order.
+// Lists the faces that may cut the light's disc. A single work group tests every face, so that the
+// list is in the order of the faces.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
 layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;

@@ -54,7 +54,7 @@ float find_camera_distance(CountPoint p_point) {
 
 /// True if distances from the camera differ so much that the receivers are sorted by distance.
 bool needs_sorting(vec2 p_camera_range) {
-	const float MIN_SORTED_RANGE_SIZES = 0.05; // of S
+	const float MIN_SORTED_RANGE_SIZES = 0.05; // in units of the scene size S
 	return p_camera_range.y - p_camera_range.x > MIN_SORTED_RANGE_SIZES * light.scene_size_m;
 }
 
@@ -209,7 +209,7 @@ void main() {
 			minimum = is_selected[i] ? min(minimum, distance_m) : minimum;
 			maximum = is_selected[i] ? max(maximum, distance_m) : maximum;
 		}
-		write_part(block, view, points, is_selected);
+		write_part(block, view, points, is_selected); // if sorted, write_sorted replaces it
 		camera_range = vec2(subgroup_min(minimum), subgroup_max(maximum));
 		is_deep = is_deep || needs_sorting(camera_range);
 		parts |= 1u << view;

@@ -18,7 +18,7 @@ layout(push_constant) uniform Push {
 	CountFaceListPush push;
 };
 
-const uint MAX_LEVEL = 31u;
+const uint MAX_LEVEL = 31u; // halves a map of any size down to one texel
 
 void main() {
 	const uint total = totals[EDGE_COUNT_TOTAL_NODES + push.view];

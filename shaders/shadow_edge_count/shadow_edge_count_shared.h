@@ -39,8 +39,8 @@ struct SHARED_ALIGN CountFaceRecord {
 SHARED_SIZE(CountFaceRecord, 48);
 
 // A node of a texel's face list: the face's index, in the high bits the cells that its bounds
-// overlap, and the next node. A texel has 4 x 4 cells: the bits from EDGE_COUNT_NODE_CELLS_SHIFT on
-// are their columns, then their rows.
+// overlap, and the next node, counted from 1; 0 at the end of the list. A texel has 4 x 4 cells:
+// the bits from EDGE_COUNT_NODE_CELLS_SHIFT on are their columns, then their rows.
 #define EDGE_COUNT_NODE_CELLS_SHIFT 24
 #define EDGE_COUNT_NODE_CELLS_PER_SIDE 4
 
@@ -89,8 +89,8 @@ struct SHARED_ALIGN CountMeshFace {
 	uint a;
 	uint b;
 	uint c;
-	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its source part:
-			   // the part, before the alpha test, of the mesh that this one was cut out of
+	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its source part: the
+			   // part to which it belonged before the alpha test cut holes into the mesh
 };
 SHARED_SIZE(CountMeshFace, 16);
 
@@ -208,7 +208,7 @@ SHARED_SIZE(CountBlockBox, 32);
 // one part, and their positions change evenly from pixel to pixel. If sorted, the words from
 // EDGE_COUNT_RECEIVERS_ORDER on list the pixels in order, one byte each: the index for
 // find_pixel_in_block, and the part.
-#define EDGE_COUNT_PARTS_MASK 0x3fu
+#define EDGE_COUNT_PARTS_MASK 0x3fu // EDGE_COUNT_MAX_VIEWS bits
 #define EDGE_COUNT_VIEW_SHIFT 8
 #define EDGE_COUNT_VIEW_MASK 7u
 #define EDGE_COUNT_IS_SMOOTH 0x20000000u
@@ -216,7 +216,7 @@ SHARED_SIZE(CountBlockBox, 32);
 #define EDGE_COUNT_IS_PARTLY_LIT 0x80000000u
 #define EDGE_COUNT_RECEIVERS_PARTS 0
 #define EDGE_COUNT_RECEIVERS_ORDER 1
-#define EDGE_COUNT_RECEIVERS_WORDS 17
+#define EDGE_COUNT_RECEIVERS_WORDS 17 // 1, and 64 pixels in 16 words
 #define EDGE_COUNT_ORDER_PIXEL_MASK 63u
 #define EDGE_COUNT_ORDER_PART_SHIFT 6
 
@@ -262,13 +262,13 @@ SHARED_SIZE(CountBlockBox, 32);
 	5 // a list of edges so far away that the mask is smooth, see count_smooth_inc.glsl
 #define EDGE_COUNT_BLOCK_KINDS 6
 #define EDGE_COUNT_BLOCK_IS_DARK                                                                   \
-	0x80000000u // flag of a block in the list of EDGE_COUNT_BLOCKS_EVEN
-#define EDGE_COUNT_DISPATCH_CHUNKS 18
+	0x80000000u						  // flag of a block in the list of EDGE_COUNT_BLOCKS_EVEN
+#define EDGE_COUNT_DISPATCH_CHUNKS 18 // index: 3 arguments for each of 6 kinds precede it
 #define EDGE_COUNT_DISPATCH_WORDS 19
 
 // Layers of the debug image.
 #define EDGE_COUNT_DEBUG_EDGES 0
-#define EDGE_COUNT_DEBUG_SOLIDS 1
+#define EDGE_COUNT_DEBUG_SOLIDS 1 // in front of the light's centre, see sum_crossings
 #define EDGE_COUNT_DEBUG_BLOCKS 2
 #define EDGE_COUNT_DEBUG_LAYERS 3
 

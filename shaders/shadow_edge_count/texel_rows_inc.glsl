@@ -13,8 +13,8 @@ struct TexelRows {
 	int last_column;
 	// The face's sides as lines in the map's plane: dot(side, (x', y', 1)) >= 0 inside.
 	vec3 sides[3];
-	vec2 half_extent;
-	vec2 size; // of the map in texels
+	vec2 half_extent; // of the map, see CountViewConstants
+	vec2 size;		  // of the map in texels
 	// Bounds of the face in texels.
 	vec2 minimum;
 	vec2 maximum;
@@ -65,7 +65,7 @@ TexelRows make_texel_rows(CountLightConstants p_light, CountViewConstants p_view
 	minimum = is_in_front ? minimum - COUNT_ROUNDING_PX : vec2(0.0);
 	maximum = is_in_front ? maximum + COUNT_ROUNDING_PX : rows.size;
 	// Entirely outside one of the map's sides, or behind the light: the face covers nothing.
-	const vec2 bound = 1.001 * p_view.half_extent;
+	const vec2 bound = 1.001 * p_view.half_extent; // widened for rounding
 	const vec2 max_low = max(a.xy + bound * a.z, max(b.xy + bound * b.z, c.xy + bound * c.z));
 	const vec2 min_high = min(a.xy - bound * a.z, min(b.xy - bound * b.z, c.xy - bound * c.z));
 	const bool is_outside = any(lessThan(max_low, vec2(0.0))) || any(greaterThan(min_high, vec2(0.0))) ||
@@ -101,9 +101,9 @@ ivec2 find_columns(TexelRows p_rows, int p_row) {
 		const vec3 side = p_rows.sides[i];
 		// The upper bound of the side's function in the row is side.x * x' + bound.
 		const float bound = side.z + max(side.y * y.x, side.y * y.y);
-		const float at = -bound / side.x;
-		minimum = side.x > 0.0 ? max(minimum, at) : minimum;
-		maximum = side.x < 0.0 ? min(maximum, at) : maximum;
+		const float zero_x = -bound / side.x; // the x' where it is 0
+		minimum = side.x > 0.0 ? max(minimum, zero_x) : minimum;
+		maximum = side.x < 0.0 ? min(maximum, zero_x) : maximum;
 		is_empty = is_empty || (side.x == 0.0 && bound < 0.0);
 	}
 	const float first = (minimum / p_rows.half_extent.x * 0.5 + 0.5) * p_rows.size.x - COUNT_ROUNDING_PX;

@@ -9,7 +9,8 @@ struct SHARED_ALIGN ShadowPcssPush {
 	uint tap_count;		// of the blocker search, and of the filter
 	float light_radius; // R in metres; directional: tangent of half the angular distance
 	float padding;
-	float nearest_w[8]; // per view, at most 6: maximum w of its casters, see LightViewConstants
+	float nearest_w[8]; // per view: upper bound of its casters' w, see LightViewConstants; of the
+						// 8, which fill the struct's alignment, at most 6 are used
 };
 SHARED_SIZE(ShadowPcssPush, 48);
 

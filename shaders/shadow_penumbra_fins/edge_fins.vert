@@ -30,11 +30,11 @@ layout(constant_id = FINS_CONSTANT_HAS_INNER) const bool HAS_INNER = true;
 
 void main() {
 	const uint half_count = (HAS_OUTER ? 1u : 0u) + (HAS_INNER ? 1u : 0u);
-	const uint per_edge = FIN_HALF_CORNER_COUNT * half_count;
-	const uint first = HAS_OUTER ? FIN_FIRST_OUTER_CORNER : FIN_FIRST_INNER_CORNER;
+	const uint vertices_per_edge = FIN_HALF_CORNER_COUNT * half_count;
+	const uint first_corner = HAS_OUTER ? FIN_FIRST_OUTER_CORNER : FIN_FIRST_INNER_CORNER;
 	const TopologyEdge edge =
-			edges[edge_list[push.first_in_list + uint(gl_VertexIndex) / per_edge]];
-	const uint corner_index = first + uint(gl_VertexIndex) % per_edge;
+			edges[edge_list[push.first_in_list + uint(gl_VertexIndex) / vertices_per_edge]];
+	const uint corner_index = first_corner + uint(gl_VertexIndex) % vertices_per_edge;
 	const uint corner = FIN_CORNERS[corner_index];
 	const uint vertex = (corner & 1u) != 0u ? edge.b : edge.a;
 	gl_Position = fin_position_clip(

@@ -10,6 +10,7 @@
 const uint FIN_ON_EDGE = 0u;
 const uint FIN_OUTSIDE = 2u;
 const uint FIN_INSIDE = 4u;
+const uint FIN_OFFSET_MASK = 6u; // bits 1 and 2
 const uint FIN_CORNERS[12] = uint[12](
 	0u, 1u, 1u | FIN_OUTSIDE, 1u | FIN_OUTSIDE, FIN_OUTSIDE, 0u,
 	1u, 0u, FIN_INSIDE, FIN_INSIDE, 1u | FIN_INSIDE, 1u);
@@ -19,7 +20,7 @@ const uint FIN_FIRST_INNER_CORNER = FIN_HALF_CORNER_COUNT;
 
 /// Transition parameter theta of a corner: 1 at X', 0.5 on the edge, 0 at X''.
 float fin_theta(uint p_corner) {
-	const uint side = p_corner & 6u;
+	const uint side = p_corner & FIN_OFFSET_MASK;
 	return side == FIN_OUTSIDE ? 1.0 : side == FIN_INSIDE ? 0.0 : 0.5;
 }
 
@@ -42,7 +43,7 @@ vec3 fin_normal_view(FinsPush p_push, vec3 p_normal_node) {
 vec4 fin_position_clip(FinsViewConstants p_view, FinsPush p_push, uint p_corner,
 		vec3 p_position_node, vec3 p_normal_node) {
 	precise vec3 position = (p_push.view_from_node * vec4(p_position_node, 1.0)).xyz;
-	const uint side = p_corner & 6u;
+	const uint side = p_corner & FIN_OFFSET_MASK;
 	if (side != FIN_ON_EDGE) {
 		const float offset_m =
 				side == FIN_OUTSIDE ? p_view.outer_width_m : -p_view.inner_width_m;

@@ -4,7 +4,8 @@
 #include "shadow_penumbra_fins/penumbra_inc.glsl"
 
 // Sun et al. 2010, sections 2.1.2 and 2.1.3: discards fragments of fins whose edge is hidden from the light, and writes
-// visibility, class (outer or inner) and depth of the others.
+// visibility, class (outer or inner) and depth of the others. Stored depths are reversed (1 near ..
+// 0 far); in the comments, z, Z1 and Z2 are the paper's distances.
 layout(location = 0) in float in_theta;
 layout(location = 1) flat in uint in_is_outer;
 layout(location = 0) out vec2 out_color;
@@ -19,7 +20,7 @@ layout(constant_id = FINS_CONSTANT_CURVE) const int CURVE = FINS_CURVE_SINE;
 
 void main() {
 	const ivec3 texel = ivec3(gl_FragCoord.xy, view.layer);
-	const float stored = clamp(gl_FragCoord.z, 0.0, 1.0);
+	const float stored = clamp(gl_FragCoord.z, 0.0, 1.0); // as in the depth layers
 	const float layer_1 = texelFetch(layer_1_texture, texel, 0).r;
 	const bool is_outer = in_is_outer != 0u;
 	const float distance_m = fin_distance(view, stored);

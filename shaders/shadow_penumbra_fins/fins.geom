@@ -6,7 +6,7 @@
 // Sun et al. 2010, section 2.1.1: finds the silhouette edges of one triangle from its neighbours and
 // emits their fins.
 layout(triangles_adjacency) in;
-layout(triangle_strip, max_vertices = 36) out;
+layout(triangle_strip, max_vertices = 36) out; // 3 edges with up to 12 corners
 layout(location = 0) in vec3 in_position_node[];
 layout(location = 1) in vec3 in_normal_node[];
 layout(location = 2) flat in uint in_vertex[];

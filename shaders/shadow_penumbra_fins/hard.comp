@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/bindings_inc.glsl"
 
-// Resolves the mask for r = t = 0. Without fins only cases 2 and 3 remain, which is a plain shadow map.
+// Resolves the mask when the widths of outer and inner fins are 0 (r = t = 0). Only CASE_LIT and
+// CASE_UMBRA_NO_FIN of resolve_inc.glsl remain, which is a plain shadow map.
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {

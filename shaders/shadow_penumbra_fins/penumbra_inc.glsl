@@ -13,7 +13,8 @@ const float PENUMBRA_CLASS_TOLERANCE = 1e-3;
 const float PENUMBRA_EDGE_VISIBILITY = 0.3; // of the sine curve, on the silhouette: inner fins below, outer above
 
 /// Visibility as a function of theta (Sun et al. 2010, section 2.1.3). Theta is 0 at the inner end, 0.5 on the edge and
-/// 1 at the outer end. p_starts_dark: there is no inner half, so the outer half begins with visibility 0 (outer_fins).
+/// 1 at the outer end. p_starts_dark: there is no inner half, so the outer half begins with
+/// visibility 0 (technique outer_fins).
 float penumbra_transition(float p_theta, bool p_is_outer, int p_curve, bool p_starts_dark) {
 	const float theta = clamp(p_theta, p_is_outer ? 0.5 : 0.0, p_is_outer ? 1.0 : 0.5);
 	if (p_curve == FINS_CURVE_LINEAR) {
@@ -32,6 +33,7 @@ float penumbra_edge_visibility(int p_curve) {
 }
 
 /// Converts a stored depth of a light view (1 near .. 0 far) to the distance along the view in metres.
+/// Finite for 0, too.
 float fin_distance(FinsViewConstants p_view, float p_stored) {
 	return p_view.is_orthographic != 0u ? p_view.view_far_m - p_stored / p_view.depth_scale
 										: p_view.depth_scale / max(p_stored, 1e-30);

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/resolve_inc.glsl"
 
+// Writes the mask of fins, see resolve_inc.glsl.
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {

@@ -8,7 +8,8 @@
 #include "shadow_penumbra_fins/penumbra_inc.glsl"
 
 layout(set = 0, binding = RESOLVE_BINDING_LAYER_3) uniform texture2DArray layer_3_texture;
-layout(set = 0, binding = RESOLVE_BINDING_COLOR) uniform sampler2DArray color_texture; // linear
+// Linear; R visibility, G class (see penumbra_inc.glsl).
+layout(set = 0, binding = RESOLVE_BINDING_COLOR) uniform sampler2DArray color_texture;
 layout(set = 0, binding = RESOLVE_BINDING_PENUMBRA_DEPTH) uniform texture2DArray penumbra_depth_texture;
 layout(constant_id = FINS_CONSTANT_HAS_INNER) const bool HAS_INNER = true;
 layout(constant_id = FINS_CONSTANT_LAYER_COUNT) const uint LAYER_COUNT = 3u;
@@ -21,7 +22,7 @@ const uint CASE_LIT = 2u;
 const uint CASE_UMBRA_NO_FIN = 3u;
 const uint CASE_UMBRA_OUTER_FIN = 4u; // hidden by layer 1, so the outer fin does not matter
 const uint CASE_INNER_PENUMBRA = 5u;
-const uint CASE_UMBRA_BEHIND = 6u;
+const uint CASE_UMBRA_BEHIND = 6u; // behind the third layer
 
 struct FinsResult {
 	float visibility;
@@ -62,15 +63,15 @@ FinsResult resolve_point(LightViewConstants p_view, MapPoint p_point) {
 	if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(p_view.size_px)))) {
 		return FinsResult(1.0, CASE_LIT);
 	}
-	const ivec3 fetched = ivec3(texel, p_view.layer);
+	const ivec3 layer_texel = ivec3(texel, p_view.layer);
 	const vec2 color = textureLod(color_texture,
 			vec3(position_px / vec2(p_view.size_px), float(p_view.layer)), 0.0).rg;
 	const bool is_all_outer = color.g >= PENUMBRA_CLASS_OUTER - PENUMBRA_CLASS_TOLERANCE;
 	const bool is_before_layer_1 = compare_texel(p_view, p_point, texel,
-										   texelFetch(layer_1_texture, fetched, 0).r) > 0.5;
-	const bool has_fin = texelFetch(penumbra_depth_texture, fetched, 0).r > 0.0;
+										   texelFetch(layer_1_texture, layer_texel, 0).r) > 0.5;
+	const bool has_fin = texelFetch(penumbra_depth_texture, layer_texel, 0).r > 0.0;
 	const bool is_before_layer_3 = !HAS_INNER || LAYER_COUNT < 3u ||
-			compare_texel(p_view, p_point, texel, texelFetch(layer_3_texture, fetched, 0).r) > 0.5;
+			compare_texel(p_view, p_point, texel, texelFetch(layer_3_texture, layer_texel, 0).r) > 0.5;
 	// The class was interpolated between outer texels and others. The paper does not treat such receivers separately:
 	// it treats them as lit when they are before layer 1, which leaves white specks along the silhouette, and does not
 	// test them against the third layer, which leaves grey lines in the umbra.

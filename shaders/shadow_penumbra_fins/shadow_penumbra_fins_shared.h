@@ -3,7 +3,7 @@
 #include "shared/map_resolve_shared.h"
 #include "shared/shared_begin.h"
 
-#define FINS_MAX_LAYERS 3
+#define FINS_MAX_LAYERS 3 // depth layers
 
 // peel.frag, peel_flag.frag and layers.frag
 #define PEEL_BINDING_PREVIOUS_LAYER 0
@@ -34,7 +34,9 @@
 #define FINS_CONSTANT_CURVE 3
 #define FINS_CONSTANT_STARTS_DARK 4 // no inner fins: the visibility of outer fins begins at 0
 #define LAYERS_CONSTANT_WIDTH_PX 5
-#define LAYERS_CONSTANT_TEXEL_COUNT 6
+#define LAYERS_CONSTANT_TEXEL_COUNT 6 // of one layer
+
+// Values of FINS_CONSTANT_CURVE
 #define FINS_CURVE_SINE 0
 #define FINS_CURVE_LINEAR 1
 

@@ -16,7 +16,7 @@ layout(push_constant) uniform Push {
 	PlanePush push;
 };
 
-const float MIN_COSINE = 0.9999; // minimum cosine between the pixel's normal and the plane's
+const float MIN_COSINE = 0.9999; // between the pixel's normal and the plane's: at most 0.8 degrees
 
 void main() {
 	const ivec2 pixel = ivec2(gl_FragCoord.xy);

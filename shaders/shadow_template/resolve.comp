@@ -5,7 +5,7 @@
 #include "common/map_resolve_inc.glsl"
 #include "shadow_template/shadow_template_shared.h"
 
-// Compares the receiver with one texel of the light's depth map. Replace this by your own technique.
+// Compares the receiver with one texel of the light's depth map. Replace it with your own technique.
 layout(set = 0, binding = DEPTH_MAP_BINDING_MAP) uniform texture2DArray map_texture;
 layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
 layout(push_constant) uniform Push {
@@ -18,7 +18,7 @@ float find_visibility(ivec2 p_pixel) {
 	}
 	uint view;
 	const MapPoint point = load_map_point(p_pixel, view);
-	if (is_trivially_lit(point, view, 0u)) {
+	if (is_trivially_lit(point, view, /*p_empty_views=*/0u)) {
 		return 1.0;
 	}
 	return mix(1.0, lookup_hard(map_texture, light_views.views[view], point), push.strength);

@@ -61,8 +61,8 @@ uint test_box(uint p_view, CullingBox p_box) {
 	const CullingView view = constants.views[p_view];
 	const mat3 axes = mat3(view.view_from_relative);
 	const vec3 center = (view.view_from_relative * vec4(p_box.center_m.xyz, 1.0)).xyz;
-	const vec3 size = p_box.half_extent_m.xyz;
-	vec3 half_size = abs(axes[0]) * size.x + abs(axes[1]) * size.y + abs(axes[2]) * size.z;
+	const vec3 box_half = p_box.half_extent_m.xyz; // along the world's axes
+	vec3 half_size = abs(axes[0]) * box_half.x + abs(axes[1]) * box_half.y + abs(axes[2]) * box_half.z;
 	const vec3 reach = abs(center) + half_size;
 	half_size += GROWTH * max(max(reach.x, reach.y), reach.z);
 	const vec3 low = center - half_size;
@@ -88,7 +88,7 @@ uint test_box(uint p_view, CullingBox p_box) {
 			vec2 corner_min = vec2(1e30);
 			vec2 corner_max = vec2(-1e30);
 			for (uint i = 0u; i < 8u; ++i) {
-				const vec3 corner = center + axes * (size * (vec3(i & 1u, i >> 1u & 1u, i >> 2u) * 2.0 - 1.0));
+				const vec3 corner = center + axes * (box_half * (vec3(i & 1u, i >> 1u & 1u, i >> 2u) * 2.0 - 1.0));
 				corner_min = min(corner_min, corner.xy / corner.z);
 				corner_max = max(corner_max, corner.xy / corner.z);
 			}

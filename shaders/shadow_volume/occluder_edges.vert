@@ -20,9 +20,9 @@ layout(push_constant) uniform Push {
 // Half a texel's diagonal is 0.71; the rest allows for the faces, whose rasterisation rounds differently.
 const float HALF_WIDTH_PX = 1.5;
 const float VIEW_CLIP_LIMIT = 1.1; // edges are clipped at this multiple of the view's extent
-// Edges are clipped at this reversed depth. Those just before the near plane (1) are still drawn, because a face that
-// crosses the near plane may cover the same texel. A face that gets nearer than this within a texel hides nothing there
-// anyway.
+// Edges are clipped at this reversed depth. Edges slightly nearer than the near plane (depth 1) are still drawn,
+// because a face that crosses the near plane may cover the same texel. A face that gets nearer than this within a texel
+// hides nothing there anyway.
 const float MAX_DEPTH = 2.0;
 // Largest distance from a point on the edge to any point of the texels that the widened edge covers, including the
 // error of interpolating the depth along it.
@@ -37,7 +37,7 @@ vec4 project(uint p_vertex) {
 /// Largest change of depth between two points of a face that are REACH_PX texels apart; 1 if it cannot be computed.
 float compute_depth_change(vec4 p_a, vec4 p_b, vec4 p_c) {
 	// z = slope . (x, y, w) in homogeneous coordinates at each corner, also for corners behind the light
-	mat3 rows;
+	mat3 rows; // stored as columns, hence the transpose below
 	vec3 depths;
 	const vec4 corners[3] = vec4[3](p_a, p_b, p_c);
 	for (int i = 0; i < 3; ++i) {
@@ -52,7 +52,7 @@ float compute_depth_change(vec4 p_a, vec4 p_b, vec4 p_c) {
 	return length(slope.xy) * 2.0 / float(CULLING_MAP_SIZE_PX) * REACH_PX;
 }
 
-/// Reversed depth, 0..1; points before the near plane are at 1.
+/// Reversed depth, 0..1; points nearer than the near plane are at 1.
 float get_depth(vec4 p_clip) {
 	return p_clip.z >= p_clip.w ? 1.0 : max(p_clip.z / p_clip.w, 0.0);
 }
@@ -91,6 +91,7 @@ void main() {
 	}
 	const vec4 begin = mix(a, b, edge_range.x);
 	const vec4 end = mix(a, b, edge_range.y);
+	// Of two triangles. Bit 0: at the edge's end; bit 1: on its other side.
 	const uint corner = uint[6](0u, 1u, 2u, 2u, 1u, 3u)[index % 6u];
 	const bool is_at_end = (corner & 1u) != 0u;
 	float depth = 0.0;

@@ -28,10 +28,10 @@ const float ROUNDING_PX = 1.0 / 256.0;
 const float MAX_SHIFT = 0.5; // maximum shift, as a fraction of the distance to the camera
 
 /// Height over the surface, in multiples of the receiver offset, of the position whose depth is tested against volumes.
-/// Near the moved receiver, every point of the light's ray through it has its shadow, but only positions on the
-/// pixel's view ray project to this pixel. So the position is the point of the view ray nearest to the light's ray. The
-/// volumes' camera is moved by one offset along VOLUMES_OFFSET_AXIS, so relative to it volumes and the light's ray are
-/// moved back by one offset. For a receiver whose normal is that axis, both rays then meet in the receiver itself.
+/// Near the moved receiver, all points of the light's ray through it have the same visibility, but only positions on
+/// the pixel's view ray project to this pixel. So the position is the point of the view ray nearest to the light's ray.
+/// The volumes' camera is moved by one offset along VOLUMES_OFFSET_AXIS, so relative to it volumes and the light's ray
+/// are moved back by one offset. For a receiver whose normal is that axis, both rays then meet in the receiver itself.
 float find_height(vec3 p_normal, vec3 p_to_camera, vec3 p_to_light) {
 	vec3 camera_move = vec3(0.0);
 	camera_move[VOLUMES_OFFSET_AXIS] = 1.0;

@@ -7,6 +7,7 @@
 // triangle has caps (a robust one also when it is back-facing, with the opposite winding). Each silhouette edge that
 // the triangle owns has a side (robust: two sides, if the edge has two faces).
 layout(triangles_adjacency) in;
+// 42: 2 caps of 3 vertices, and 3 edges with 2 sides of 6.
 layout(triangle_strip, max_vertices = 42) out;
 layout(location = 0) in vec3 in_position_node[];
 layout(location = 1) flat in uint in_vertex[];
@@ -51,9 +52,9 @@ void main() {
 	if (is_facing || is_robust) {
 		const uint b = is_facing ? 2u : 4u;
 		const uint c = is_facing ? 4u : 2u;
-		emit_triangle(0u, b, c, false);
+		emit_triangle(0u, b, c, /*p_is_far=*/false);
 		if (HAS_FAR_CAP) {
-			emit_triangle(0u, c, b, true);
+			emit_triangle(0u, c, b, /*p_is_far=*/true);
 		}
 	}
 	const uint found = find_owned_silhouettes(push.light_position_node, flags, ids, positions);

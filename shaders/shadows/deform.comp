@@ -35,6 +35,7 @@ void main() {
 	const vec3 normal = vec3(dot(cross(rows.y.xyz, rows.z.xyz), morphed_normal),
 			dot(cross(rows.z.xyz, rows.x.xyz), morphed_normal),
 			dot(cross(rows.x.xyz, rows.y.xyz), morphed_normal));
+	// Scaled first, so that the square of the length neither underflows nor overflows.
 	const float max_component = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
 	const vec3 unit = max_component > 0.0 ? normalize(normal / max_component) : rest_normal;
 	normals[first] = unit.x;

@@ -22,13 +22,15 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-	const float ZERO_RATIO = 1e-6; // of the sum of areas: normals whose sum is shorter cancel
+	// Normals cancel when their sum is shorter than this fraction of the sum of their lengths, as
+	// in topology.cpp (ZERO_NORMAL_RATIO).
+	const float ZERO_RATIO = 1e-6;
 	const uint vertex = gl_GlobalInvocationID.x;
 	if (vertex >= push.vertex_count) {
 		return;
 	}
 	vec3 sum = vec3(0.0);
-	float area = 0.0;
+	float length_sum = 0.0;
 	const uint end = faces[vertex + 1u];
 	for (uint i = faces[vertex]; i < end; ++i) {
 		const uint first = 3u * faces[i];
@@ -36,8 +38,8 @@ void main() {
 		const vec3 normal = cross(welded_positions[triangles[first + 1u]].xyz - a,
 				welded_positions[triangles[first + 2u]].xyz - a);
 		sum += normal;
-		area += length(normal);
+		length_sum += length(normal); // twice the face's area
 	}
 	const float size = length(sum);
-	normals[vertex] = vec4(size > ZERO_RATIO * area ? sum / size : vec3(0.0), 0.0);
+	normals[vertex] = vec4(size > ZERO_RATIO * length_sum ? sum / size : vec3(0.0), 0.0);
 }

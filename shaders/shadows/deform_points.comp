@@ -30,7 +30,8 @@ void main() {
 	}
 	const DeformPoint point = points[vertex];
 	const vec3 a = load_corner(point.corners.x);
-	// Relative to one corner, so that a point at rest keeps its position exactly.
+	// Relative to one corner: the sum of the rounded weights is only nearly 1, which would move
+	// points far from the origin.
 	const vec3 position = a + point.weights.y * (load_corner(point.corners.y) - a) +
 			point.weights.z * (load_corner(point.corners.z) - a);
 	positions[3u * vertex] = position.x;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/shadows_shared.h"
 
+// Draws casters into depth maps.
 layout(push_constant) uniform Push {
 	DepthPush push;
 };

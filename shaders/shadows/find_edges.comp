@@ -3,8 +3,8 @@
 #include "common/silhouette_inc.glsl"
 #include "shared/silhouette_shared.h"
 
-// Marks one caster's silhouette edges. One invocation writes the word of 32 edges and adds the number of silhouettes in
-// it to the count of the word's block.
+// Marks one caster's silhouette edges. Each invocation writes one word, with a bit for each of 32
+// edges, and adds the number of silhouette edges in it to the count of the word's block.
 layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];

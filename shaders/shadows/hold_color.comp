@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/hold_inc.glsl"
 
+// For an array with colours, into which a mask with one channel is copied as grey.
 layout(set = 0, binding = HOLD_BINDING_RESULT, rgba16f) uniform writeonly image2DArray result_image;
 
 void main() {

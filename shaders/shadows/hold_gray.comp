@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/hold_inc.glsl"
 
+// For an array with one channel, into which a coloured mask is copied as its luminance.
 layout(set = 0, binding = HOLD_BINDING_RESULT, r16f) uniform writeonly image2DArray result_image;
 
 void main() {

@@ -13,6 +13,7 @@ layout(push_constant) uniform Push {
 	HoldPush push;
 };
 
+/// A mask with one channel gives grey.
 vec3 load_visibility(ivec2 p_pixel) {
 	const vec4 mask = texelFetch(mask_texture, p_pixel, 0);
 	const vec3 visibility = IS_COLORED != 0u ? mask.rgb : mask.rrr;

@@ -34,6 +34,7 @@ void main() {
 	const uint word_index = gl_GlobalInvocationID.x;
 	const uint word_count = (push.edge_count + SILHOUETTE_EDGES_PER_WORD - 1u) / SILHOUETTE_EDGES_PER_WORD;
 	const uint first_word = gl_WorkGroupID.x * SILHOUETTE_WORDS_PER_BLOCK;
+	// Index, within the caster's part of the list, of the word's next silhouette edge.
 	uint index = find_list_index(SILHOUETTE_WORDS_PER_BLOCK, push.first_block,
 			push.first_block + gl_WorkGroupID.x, push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
@@ -45,6 +46,7 @@ void main() {
 		++index;
 	}
 	if (word_index + 1u == word_count) {
+		// After the last word, index is the number of the caster's silhouette edges.
 		draws[push.draw_index] = SilhouetteDraw(index * push.vertices_per_edge, 1u, 0u, 0u);
 	}
 }

@@ -32,7 +32,8 @@
 #define DEFORM_BINDING_RESULT 5
 #define DEFORM_BINDING_NORMAL_RESULT 6
 // Bindings of deform_points.comp, deform_welded.comp and deform_normals.comp, which read deformed
-// positions.
+// positions. SOURCES: what each vertex is computed from, that is, a point on a triangle, a vertex,
+// or a range of faces.
 #define MOVE_BINDING_POSITIONS 0
 #define MOVE_BINDING_SOURCES 1
 #define MOVE_BINDING_RESULT 2

@@ -4,10 +4,11 @@
 #include "shadows/shadows_shared.h"
 #include "shared/mask_shared.h"
 
-// Colours a mask by a group of translucent casters. The group covers the fraction of the light by which the mask of the
-// opaque casters plus the group is darker than the mask of the opaque casters alone. Its transmittance times that
-// fraction comes through. This is exact for one group. Several groups are multiplied as if they covered light
-// independently, which is exact where each covers all of it or nothing.
+// Colours a mask by a group of translucent casters. Of the light that the opaque casters let
+// through, the group hides the fraction 1 - both / opaque, and transmits its transmittance times
+// that fraction. `both`: the visibility with the opaque casters and the group, `opaque`: without
+// the group. This is exact for one group. Several groups are multiplied as if they hid light
+// independently, which is exact where each hides all of it or nothing.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(set = 0, binding = TINT_BINDING_OPAQUE) uniform texture2D opaque_texture;
 layout(set = 0, binding = TINT_BINDING_BOTH) uniform texture2D both_texture;

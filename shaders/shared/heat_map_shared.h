@@ -3,7 +3,7 @@
 #ifndef HEAT_MAP_SHARED_H
 #define HEAT_MAP_SHARED_H
 
-#define HEAT_MAP_RANGE 0.25f
+#define HEAT_MAP_RANGE 0.25f	// of the absolute error; visibility is 0..1
 #define HEAT_MAP_NO_RECEIVER 96 // grey level, 0..255; no error has a grey colour
 
 #endif

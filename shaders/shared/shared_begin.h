@@ -1,6 +1,6 @@
 // Opens a header that C++ and GLSL both compile: the same struct, written once. Only float, int,
 // uint, vec2, uvec2, vec4, uvec4 and mat4 members; sizes are multiples of 16 (std430 and std140
-// agree).
+// agree). Without an include guard, because each such header includes it.
 #ifdef __cplusplus
 #include <glm/glm.hpp>
 

@@ -127,7 +127,7 @@ TEST_CASE("[GPU][Accuracy] no technique is further from the reference than when 
 			AccuracyScene scene(accuracy_case, entry.at("settings"));
 			const MaskImage mask = scene.render(fixture, id, size_px);
 			const MaskMetrics metrics = compute_mask_metrics(reference, mask);
-			CHECK(metrics.penumbra.pixel_count > 200);
+			CHECK(metrics.penumbra.pixel_count > 200); // the means need many pixels
 			CHECK(metrics.receiver.mae <= entry.at("receiver_mae").get<double>());
 			CHECK(metrics.penumbra.mae <= entry.at("penumbra_mae").get<double>());
 			CHECK(metrics.umbra_over <= entry.value("umbra_over", 1.0));
@@ -161,7 +161,8 @@ TEST_CASE("[GPU][Accuracy] hard shadows differ from rays to the light's centre i
 			AccuracyScene scene(hard_case, limits.at("hard_settings"));
 			const MaskMetrics metrics =
 					compute_mask_metrics(reference, scene.render(fixture, id, size_px));
-			CHECK(metrics.receiver.pixel_count > 10000);
+			CHECK(metrics.receiver.pixel_count > 10000); // the mean needs many receivers
+			// Hard shadows are 0 or 1, so their MAE is the fraction of wrong receivers.
 			CHECK(metrics.receiver.mae <= entry.at("wrong_share").get<double>());
 		}
 	}
@@ -175,13 +176,13 @@ TEST_CASE("[GPU][Accuracy] every technique gives valid masks of every scene that
 			CAPTURE(info.id);
 			if (!info.is_reference) { // render() checks the mask
 				AccuracyScene scene(accuracy_case, nlohmann::json::object());
-				scene.render(fixture, info.id, 48);
+				scene.render(fixture, info.id, /*p_size_px=*/48);
 			}
 		}
 	}
 }
 
-TEST_CASE("[GPU][Accuracy] canary: a light twice as large is seen as an error") {
+TEST_CASE("[GPU][Accuracy] canary: a light of twice the size gives a large error") {
 	if (!has_reference()) {
 		return;
 	}
@@ -191,5 +192,6 @@ TEST_CASE("[GPU][Accuracy] canary: a light twice as large is seen as an error") 
 	const MaskImage reference = render_reference(fixture, limits, accuracy_case);
 	const MaskMetrics metrics = compute_mask_metrics(
 			reference, render_reference(fixture, limits, accuracy_case, { { "light_size", 0.8 } }));
-	CHECK(metrics.penumbra.mae > 0.05); // more than twice the error of good techniques
+	// Far above the limits of edge_count (0.0061) and of 64 views (0.020) in this case.
+	CHECK(metrics.penumbra.mae > 0.05);
 }

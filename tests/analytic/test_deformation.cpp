@@ -89,8 +89,8 @@ struct RawFile {
 	}
 };
 
-/// Returns the value of an animation channel at p_time (s). p_width: numbers per value. With
-/// CUBICSPLINE a key has three parts: in-tangent, value and out-tangent.
+/// Returns the value of an animation channel at p_time (s), as in glTF 2.0, appendix C. p_width:
+/// numbers per value. With CUBICSPLINE a key has three parts: in-tangent, value and out-tangent.
 std::vector<double> evaluate(
 		const RawFile &p_file, const Json &p_sampler, double p_time, size_t p_width) {
 	const auto times = p_file.read(p_sampler["input"]);
@@ -99,6 +99,7 @@ std::vector<double> evaluate(
 		flat.insert(flat.end(), row.begin(), row.end());
 	}
 	const std::string kind = p_sampler.value("interpolation", "LINEAR");
+	// Of a key's parts, the one at values_per_key / 2 is the value.
 	const size_t values_per_key = kind == "CUBICSPLINE" ? 3 : 1;
 	const auto get = [&](size_t p_key, size_t p_part, size_t p_i) {
 		return flat[(p_key * values_per_key + p_part) * p_width + p_i];
@@ -272,7 +273,7 @@ std::vector<glm::dvec3> read_gpu(
 
 /// Checks at ten times from 0 to p_duration_s that vertices from the GPU and the CPU are within
 /// 1e-5 of the mesh's diagonal from the expected positions, and that the instance's bounds contain
-/// them. p_name: the node's name in the engine. p_node: its name in the file.
+/// them. p_name: the node's name in the engine. p_node: its name in the file, "" if it has none.
 void check_file(MaskFixture &r_fixture, const char *p_path, const std::string &p_name,
 		const char *p_node, double p_duration_s) {
 	const RawFile file(p_path);

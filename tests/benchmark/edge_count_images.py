@@ -41,6 +41,7 @@ class Image:
             size = "light_angular_distance=%.6f" % (2 * math.degrees(math.atan(self.radius_fraction)))
         else:
             size = "light_size=%g" % (self.radius_fraction * SCENE_SIZE_M)
+        # Widths of -1 are derived from the light's size.
         arguments = [word for setting in (size, "penumbra_outer_width=-1", "penumbra_inner_width=-1") for word in ("--set", setting)]
         return arguments + (["--light", self.light] if self.light else [])
 

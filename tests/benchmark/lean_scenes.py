@@ -99,10 +99,11 @@ def make_room(folder):
 def make_quads(folder):
     """Single quads side by side: there is no second depth layer behind the first."""
     document, material = begin()
+    facing_up = (-0.5**0.5, 0.0, 0.0, 0.5**0.5)  # rotated by -90 degrees about X
     quad = document.add_mesh("Quad", make_quad(0.18, 0.18), material)
     for index in range(100):
         position = (0.4 * (index % 10 - 4.5), 0.5, 0.4 * (index // 10 - 4.5))
-        document.add_node("Quad %d" % index, position, (-0.5**0.5, 0.0, 0.0, 0.5**0.5), mesh=quad)
+        document.add_node("Quad %d" % index, position, facing_up, mesh=quad)
     add_spot(document, "Light", (0.3, 6.0, 0.2))
     return save(document, "quads", folder)
 

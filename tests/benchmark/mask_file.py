@@ -27,7 +27,7 @@ def read_text(data, position):
 
 
 def undo_prediction(packed):
-    """Undo OpenEXR's ZIP predictor, which stores each byte as its difference to the previous one, and even bytes before odd ones."""
+    """Undo OpenEXR's ZIP predictor, which stores each byte as its difference to the previous one plus 128, and even bytes before odd ones."""
     data = bytearray(packed)
     for i in range(1, len(data)):
         data[i] = (data[i - 1] + data[i] - 128) & 255
@@ -42,7 +42,7 @@ def load_mask(path):
     """Load a ZIP-compressed OpenEXR file with the float channels Y and receiver. Raises ValueError for other channels."""
     with open(path, "rb") as file:
         data = file.read()
-    position, attributes = 8, {}
+    position, attributes = 8, {}  # after magic number and version
     while data[position]:
         name, position = read_text(data, position)
         _, position = read_text(data, position)
@@ -55,14 +55,15 @@ def load_mask(path):
     while attributes["channels"][cursor]:
         name, cursor = read_text(attributes["channels"], cursor)
         channels.append((name, struct.unpack_from("<i", attributes["channels"], cursor)[0]))
-        cursor += 16
+        cursor += 16  # pixel type, linearity, subsampling in x and y
     if channels != [("Y", FLOAT), ("receiver", FLOAT)] or attributes["compression"][0] != ZIP_COMPRESSION:
         raise ValueError("%s is no mask of `gnomon visibility`" % path)
     block_count = -(-mask.height // LINES_PER_BLOCK)
+    # A table of the blocks' offsets follows the header's final zero byte.
     for offset in struct.unpack_from("<%dQ" % block_count, data, position + 1):
         first, size = struct.unpack_from("<ii", data, offset)
         line_count = min(LINES_PER_BLOCK, mask.height - (first - top))
-        packed, raw_size_bytes = data[offset + 8 : offset + 8 + size], 8 * mask.width * line_count
+        packed, raw_size_bytes = data[offset + 8 : offset + 8 + size], 8 * mask.width * line_count  # two floats per pixel
         block = array.array("f")
         block.frombytes(packed if size == raw_size_bytes else undo_prediction(zlib.decompress(packed)))
         if sys.byteorder != "little":

@@ -31,6 +31,7 @@ MOVING = ("Figure", "Flag")
 TECHNIQUES = ("edge_count", "pcss", "views", "jittered_pcf", "penumbra_fins", "shadow_volume", "planar", "shadow_map")
 TIMED = ("edge_count", "pcss", "penumbra_fins", "shadow_volume")
 RINGS, SIDES = 350, 100  # 69,800 triangles
+UNSIGNED_BYTE, UNSIGNED_INT, FLOAT = 5121, 5125, 5126  # glTF component types
 
 
 def make_still_scene(folder):
@@ -91,7 +92,7 @@ def measure_errors(techniques):
                     row = (error["penumbra"]["mae"], error["receiver"]["wrong"] * 1e5, wrong / len(receivers) * 1e5)
                     before = maxima.get((light, technique), (0, 0, 0))
                     maxima[light, technique] = tuple(map(max, before, row))
-                    print("%.2f s, %s, %s: MAE %.4f, wrong %.1f, of %d that move %.1f" % (
+                    print("%.2f s, %s, %s: MAE %.4f, wrong per 100,000 %.1f, of the %d moving receivers %.1f" % (
                         time_s, light, technique, row[0], row[1], len(receivers), row[2]), flush=True)
     lines = ["| technique | %s |" % " | ".join(LIGHTS), "|---" * (1 + len(LIGHTS)) + "|"]
     for technique in techniques:
@@ -131,7 +132,8 @@ class Document:
 
 
 def make_tube(path, is_skinned):
-    """Write a tube of 69,800 triangles that is rotated by its node, or by the root joint of a skin of 20 joints."""
+    """Write a tube of 69,800 triangles that is rotated by its node, or by the root joint of a skin of 20 joints.
+    The program adds a light, a camera and a ground, which the file lacks."""
     document = Document()
     joint_count = 20
     points, normals, joints, weights = [], [], [], []
@@ -151,11 +153,11 @@ def make_tube(path, is_skinned):
         for side in range(SIDES):
             a, b = ring * SIDES + side, ring * SIDES + (side + 1) % SIDES
             indices += [a, a + SIDES, b, b, a + SIDES, b + SIDES]
-    attributes = {"POSITION": document.add("f", 5126, "VEC3", points, 3), "NORMAL": document.add("f", 5126, "VEC3", normals, 3)}
+    attributes = {"POSITION": document.add("f", FLOAT, "VEC3", points, 3), "NORMAL": document.add("f", FLOAT, "VEC3", normals, 3)}
     if is_skinned:
-        attributes["JOINTS_0"] = document.add("B", 5121, "VEC4", joints, 4)
-        attributes["WEIGHTS_0"] = document.add("f", 5126, "VEC4", weights, 4)
-    primitive = {"attributes": attributes, "indices": document.add("I", 5125, "SCALAR", indices, 1)}
+        attributes["JOINTS_0"] = document.add("B", UNSIGNED_BYTE, "VEC4", joints, 4)
+        attributes["WEIGHTS_0"] = document.add("f", FLOAT, "VEC4", weights, 4)
+    primitive = {"attributes": attributes, "indices": document.add("I", UNSIGNED_INT, "SCALAR", indices, 1)}
     document.json["meshes"] = [{"name": "tube", "primitives": [primitive]}]
     nodes = document.json["nodes"]
     nodes.append({"name": "Tube", "mesh": 0, **({"skin": 0} if is_skinned else {})})
@@ -168,11 +170,11 @@ def make_tube(path, is_skinned):
         inverse_binds += [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -step * joint, 0, 1]
     if is_skinned:
         document.json["skins"] = [{"joints": list(range(1, joint_count + 1)),
-                                   "inverseBindMatrices": document.add("f", 5126, "MAT4", inverse_binds, 16)}]
+                                   "inverseBindMatrices": document.add("f", FLOAT, "MAT4", inverse_binds, 16)}]
     moved = 1 if is_skinned else 0  # the root joint or the mesh's node: both give the same shape at the same position
     angle = 0.3
-    times = document.add("f", 5126, "SCALAR", [0.0, 1.0], 1)
-    rotations = document.add("f", 5126, "VEC4", [0, 0, 0, 1, math.sin(angle / 2), 0, 0, math.cos(angle / 2)], 4)
+    times = document.add("f", FLOAT, "SCALAR", [0.0, 1.0], 1)
+    rotations = document.add("f", FLOAT, "VEC4", [0, 0, 0, 1, math.sin(angle / 2), 0, 0, math.cos(angle / 2)], 4)
     document.json["animations"] = [{
         "samplers": [{"input": times, "output": rotations}],
         "channels": [{"sampler": 0, "target": {"node": moved, "path": "rotation"}}]}]

@@ -6,7 +6,8 @@
 Errors are those of one light at a time, compared with 2304 rays per receiver, at 512 x 512 pixels, for light radii of 2, 10 and 30 % of
 the scene size S; in courtyard for a sun of 2 degrees and a lamp of 0.1 m. --times: medians of five runs of 7 frames in which everything
 moves, compared with the same scene with opaque cards and with pcss; all runs of a scene alternate, and each ratio is the median of the
-runs' ratios. --unseen: errors with textures and seeds for which the outlines were not tuned; --scenes has no effect on them.
+runs' ratios. --unseen: errors with textures and seeds for which the outlines were not tuned; --scenes has no effect on them,
+nor has --techniques on --times.
 """
 
 import argparse
@@ -161,7 +162,7 @@ def make_unseen(name, folder):
         for suffix in (".gltf", ".bin"):
             shutil.copy(os.path.join(SCENES, "leaf" + suffix), folder)
         png = make_plasma(random.Random(5), 96)
-        if name == "binary":
+        if name == "binary":  # the factor of 100 makes the edge so steep that hardly any alpha is between 0 and 1
             png = make_mask_png(128, lambda u, v: 100.0 * get_leaf_depth("oval", u - 0.5, 0.5 - v), lambda _u, _v: (0.4, 0.6, 0.2))
         with open(os.path.join(folder, "leaf_card.png"), "wb") as file:
             file.write(png)

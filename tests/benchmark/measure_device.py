@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times these techniques (TECHNIQUES) on this machine's device at screen resolutions, and compares masks with the reference.
+"""Times the techniques of TECHNIQUES on this machine's device at screen resolutions, and compares their masks with the reference.
 
     measure_device.py [--write] [--out FILE.json] [--device NAME] [--scenes A,B] [--sizes 1920x1080,3840x2160]
     measure_device.py --from FILE.json [--write]   writes the tables of an earlier run's --out, measures nothing

@@ -46,7 +46,7 @@ BASELINE = ("shadow_map", ("shadow_map_size=16",))
 MB = 1e6
 MOTION_SCENES = ("kitbash", "rigging")
 MOTION_FRAMES = 6
-MOTION_M = ("0.004", "0.0", "0.003")  # x, y and z per frame
+MOTION_M = ("0.004", "0.0", "0.003")  # movement of the light per frame: 5 mm
 MOTION_SAMPLES = 256
 SHOWN_PASSES = 3
 
@@ -101,6 +101,7 @@ def trace(image, size, samples, out):
 
 
 def count_wrong(found):
+    """Return the number of receivers with an error above 0.2. found: result of compare(), here and below."""
     return round(found["receiver"]["wrong"] * found["pixels"])
 
 
@@ -194,7 +195,7 @@ def measure_maps(images, folder, _rounds):
         report_progress("maps of %s: %.5f" % (image.name, differences[image.name]))
     goals = Goals()
     what = "greatest difference between maps of %d and %d" % MAP_SIZES
-    goals.add_worst(what, round(1 / 255, 4), differences, "%.5f")
+    goals.add_worst(what, round(1 / 255, 4), differences, "%.5f")  # one step of an 8-bit mask
     return goals.format()
 
 
@@ -307,9 +308,9 @@ def compute_rmse(errors, pixels):
 
 
 def measure_motion(images, folder, _rounds):
-    """Measure the temporal error: the RMSE over penumbra pixels of the frame-to-frame change minus that of the reference. For
-    a reference of few samples that is scrambled differently in each frame it is sqrt(2) times its RMSE in one frame,
-    because its errors in two frames are independent."""
+    """Measure the temporal error: the RMSE, over penumbra pixels, of the difference between the mask's change from one frame to
+    the next and the reference's change. It is compared with that of a reference of few samples whose pattern is random in
+    each frame: sqrt(2) times its RMSE in one frame, because its errors in two frames are independent."""
     reference_id = find_reference()
     techniques = {
         "reference": (reference_id, ("%s_samples=%d" % (reference_id, FINE_SAMPLES),)),

@@ -21,13 +21,13 @@ from editor_case import EditorCase  # noqa: E402
 
 START_COUNT = 5
 START_GOAL_S = 2.0
-DRAG_COUNT = 4  # mouse drags, of DRAG_STEPS steps each
+DRAG_COUNT = 4  # mouse drags, of DRAG_STEPS steps each (editor_case.py)
 
 
 class EditorBenchmark(EditorCase):
     validation_arguments = ()
 
-    def runTest(self):
+    def runTest(self):  # unittest needs it to create an instance
         pass
 
     def start_once(self):
@@ -42,7 +42,7 @@ class EditorBenchmark(EditorCase):
     def drag_size(self, is_traced=False):
         """Drag a light's size. Return the duration in ms of each frame that changed the scene since the editor started."""
         for _ in range(DRAG_COUNT):
-            if is_traced:
+            if is_traced:  # the first round of the reference, with 16 rays per pixel, is done
                 self.wait_for(lambda state: state["error"]["is_tracing"] and state["error"]["rays"] >= 16)
             self.drag("property light_size", 2)
             self.rest()

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Measures depth peeling and fins as the source paper does and writes the tables of doc/benchmarks.md.
+"""Measures depth peeling and fins as Sun et al. 2010 do, and writes the tables of doc/benchmarks.md.
 
     measure_fins.py [--rounds N] [--write]
 
-Sun, Lü, Liu, Wu 2010 give their times as ratios: of three depth layers to one shadow map, and of a frame with
+The paper (Sun, Lü, Liu, Wu 2010) gives its times as ratios: of three depth layers to one shadow map, and of a frame with
 all fins to a frame with outer fins only. Each round measures all variants of a triangle count one after the other, so that
 the machine's load affects both times of a ratio alike. The tables show medians over the rounds.
 Without --write the tables are only printed. Build first: scons.
@@ -27,7 +27,7 @@ from shapes import make_box, make_torus_knot  # noqa: E402
 
 GNOMON = os.path.abspath(os.environ.get("GNOMON", driver.PROGRAM))
 
-# Triangles -> the paper's ratio.
+# Triangles -> the paper's ratio: three depth layers / one shadow map, and frame with all fins / with outer fins only.
 PAPER_PEELING = {2000: 1.92, 7700: 2.12, 30000: 2.19, 69000: 2.86, 97000: 2.72}
 PAPER_FRAME = {30000: 1.45, 7700: 1.38, 46000: 1.46}
 
@@ -36,7 +36,7 @@ WIDTHS_M = (0.1, 0.1)  # outer and inner penumbra width, r and t
 LIGHT = ("light_size=0.4", "penumbra_outer_width=%g" % WIDTHS_M[0], "penumbra_inner_width=%g" % WIDTHS_M[1])
 SEGMENTS_PER_SIDE = 500 / 30  # of the study's knot: segments along it per segment around it
 
-# How fins are made does not depend on how layers are found, so the same two variants measure both methods of each.
+# Fins are made after the layers and independently of them, so two variants suffice to time two methods of each.
 VARIANTS = {
     "outer": ("outer_fins",),
     "peels": ("penumbra_fins", "technique.penumbra_fins.peeling=passes", "technique.penumbra_fins.method=compute"),

@@ -26,7 +26,7 @@ class Rule:
         self.name = name
         self.scene = scene  # function that writes the scene into a folder and returns its path
         self.line = line  # text of the frame plan while the rule applies
-        self.technique = technique
+        self.technique = technique  # None: that of the scene's lights, edge_count
         self.settings = settings
         self.is_still = is_still  # whether nothing moves between frames
 
@@ -44,13 +44,13 @@ RULES = (
     Rule("filter where blocks have few edges", lean_scenes.make_balls, "edges: skipped, all casters together", "edge_count",
          ("edge_count_budget=65536",)),
     Rule("caps where z-pass is safe", lean_scenes.make_knots, "casters: skipped, z-pass is safe", "shadow_volume"),
-    Rule("maps at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved", "shadow_map", (), True),
+    Rule("maps at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved", "shadow_map", is_still=True),
     Rule("depth layers and fins at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved",
-         "penumbra_fins", (), True),
+         "penumbra_fins", is_still=True),
     Rule("edges and layers at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved", "edge_count",
-         (), True),
+         is_still=True),
     Rule("silhouette edges at rest", lean_scenes.make_knots, "find edges, casters: 10: skipped, cached", "shadow_volume",
-         ("technique.shadow_volume.extrusion=compute",), True),
+         ("technique.shadow_volume.extrusion=compute",), is_still=True),
 )  # fmt: skip
 
 

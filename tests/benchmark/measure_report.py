@@ -76,8 +76,9 @@ def build_study(report):
     """Build the table of mean errors over the study's scenes, over all receivers and over those with the whole light above
     their horizon."""
     errors = {}
-    best = {}
+    best = {}  # (technique, configuration) -> smallest errors of its settings
     for cell in report["cells"]:
+        # The group "matrix" has the project's scenes, without scaling and stability.
         at = report["configurations"][cell["configuration"]]
         if at["group"] != "matrix" or at["scene"] not in STUDY_SCENES or cell["status"] != "ok":
             continue

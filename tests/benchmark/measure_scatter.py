@@ -104,7 +104,7 @@ def is_soft(fine, x, y):
 def measure_resolutions(folder):
     lines = ["| s | method | mean change, all receivers | mean change, soft pixels | p99 of the change, soft pixels |", "|---|---|---|---|---|"]
     for scene, scatter in SCENES:
-        for name, settings in (METHODS[1], METHODS[4]):
+        for name, settings in (METHODS[1], METHODS[4]):  # 48 samples, in pixels and in metres
             masks = []
             for size_px in (SIZE_PX, 4 * SIZE_PX):
                 path = os.path.join(folder, "mask.exr")

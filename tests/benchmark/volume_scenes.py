@@ -1,4 +1,7 @@
-"""Scenes for the measurements of shadow volumes. They are generated because they are too large to be committed."""
+"""Scenes for the measurements of shadow volumes, and save(), which other benchmarks also use.
+
+They are generated because they are too large to be committed.
+"""
 
 import math
 import os
@@ -36,6 +39,7 @@ def make_yard(caster_count, has_walls, folder):
         for row in range(ROW_COUNT):
             for part in range(WALLS_PER_ROW):
                 x = 0.45 * YARD_M - row * YARD_M / ROW_COUNT
+                # 2 half lengths would leave no gaps between the walls.
                 z = (part - 0.5 * (WALLS_PER_ROW - 1)) * 2.3 * WALL_HALF[2]
                 document.add_object("Wall %d.%d" % (row, part), wall, material, (x, WALL_HALF[1] + 0.01, z))
     ball = document.add_mesh("Ball", make_icosphere(1, 0.12), material)

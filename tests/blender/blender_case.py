@@ -41,7 +41,7 @@ def run_blender(folder, *arguments, **environment):
 def load_gltf(path):
     with open(path, "rb") as file:
         data = file.read()
-    if data[:4] == b"glTF":
+    if data[:4] == b"glTF":  # a GLB file: 12 bytes of header, then length, type and data of the JSON chunk
         length = struct.unpack("<I", data[12:16])[0]
         data = data[20 : 20 + length]
     return json.loads(data)

@@ -59,7 +59,10 @@ def build_scene(lights=("Key", "Fill", "Sun"), has_camera=True):
 
 
 def change(changes):
-    """Apply changes: [object, attribute or custom property, value]. The prefix "data." selects the object's light data."""
+    """Apply changes: [object, attribute or custom property, value].
+
+    A custom property is written as ["name"]. The prefix "data." selects the object's light data.
+    """
     for name, path, value in changes:
         owner = bpy.data.objects[name]
         if path.startswith("data."):
@@ -174,12 +177,13 @@ def install(out, program):
     preferences = bpy.context.preferences.addons["gnomon_shadows"].preferences
     light = bpy.data.lights.new("Lamp", "POINT")
     light.gnomon_technique = "own_id"
-    lists = []
+    lists = []  # of ids, with the program and with one that does not exist
     for path in (program, os.path.join(os.path.dirname(out), "gone")):
         preferences.program = path
         lists.append([name for name, _ in module.search_techniques(light, bpy.context, "")])
     was_registered = hasattr(bpy.types, "GNOMON_PT_shadow") and "gnomon" in dir(bpy.ops.export_scene)
-    light.gnomon_technique, light.gnomon_outer_width = "", -0.5  # both mean the default (any negative width is -1), so nothing may be stored
+    # Both mean the default (any negative width is -1), so nothing may be stored.
+    light.gnomon_technique, light.gnomon_outer_width = "", -0.5
     stored_properties = dict(light.items())
     bpy.ops.preferences.addon_disable(module="gnomon_shadows")
     is_still_registered = hasattr(bpy.types, "GNOMON_PT_shadow") or hasattr(bpy.types.Light, "gnomon_technique")
@@ -214,7 +218,7 @@ def draw_panel(out):
             bpy.ops.wm.quit_blender()
             return None
         light.data.type = states.pop(0)
-        return 0.5
+        return 0.5  # seconds until Blender calls it again
 
     bpy.app.timers.register(step, first_interval=1.0)
 
@@ -234,6 +238,7 @@ def render_scales(out):
             scene.render.image_settings.file_format = "OPEN_EXR"
             scene.render.filepath = out + ".exr"
             bpy.ops.render.render(write_still=True)
+            # The red values of the RGBA pixels.
             images[kind + " " + variant] = list(bpy.data.images.load(out + ".exr").pixels)[::4]
     write(out, images)
 

@@ -9,6 +9,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from blender_case import BlenderTest, find_lights, load_gltf  # noqa: E402
 from command_line_case import find_technique, load_json  # noqa: E402
 
+# What export_by_hand() sets on Key, Fill and Sun, in the engine's units (0.1 rad in degrees).
 BY_HAND = ("light_size=0.5", "light_size=0.4", "light_angular_distance=5.729577951")
 
 
@@ -26,7 +27,7 @@ class ExportedFile(BlenderTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.soft = find_technique("is_default")
+        cls.default_technique = find_technique("is_default")
         cls.other = find_selectable_technique()
         changes = [
             ["Key", "data.gnomon_technique", cls.other],
@@ -36,11 +37,11 @@ class ExportedFile(BlenderTest):
         ]
         cls.scene = cls.make("scene.gltf", changes=changes)
         cls.blend = cls.scene + ".blend"
-        # Techniques may use r and t instead of the size, so sizes are tested in a scene without them.
+        # Techniques may use penumbra widths instead of the size, so this scene has none.
         cls.sizes = cls.make("sizes.gltf", changes=[["Fill", "scale", [3.0, 3.0, 3.0]]])
 
     def check_lights(self, path):
-        lights = find_lights(load_gltf(path))
+        lights = find_lights(load_gltf(path))  # name -> (the node's extras, the light)
         own = {"shadow_technique": self.other, "penumbra_outer_width": 0.25, "penumbra_inner_width": 0.125}
         self.assertEqual(lights["Key"][1]["extras"], {"light_size": 0.35, "shadow_enabled": True, **own})
         self.assertEqual(lights["Fill"][1]["extras"], {"light_size": 0.2, "shadow_enabled": False})
@@ -65,15 +66,15 @@ class ExportedFile(BlenderTest):
             ("Sun", "light_angular_distance=6", "light_angular_distance=6.2"),
         ):
             with self.subTest(light=light):
-                mask = self.hash_mask(self.sizes, self.soft, light)
-                self.assertEqual(mask, self.hash_mask(self.sizes, self.soft, light, same))
-                self.assertNotEqual(mask, self.hash_mask(self.sizes, self.soft, light, other))
+                mask = self.hash_mask(self.sizes, self.default_technique, light)
+                self.assertEqual(mask, self.hash_mask(self.sizes, self.default_technique, light, same))
+                self.assertNotEqual(mask, self.hash_mask(self.sizes, self.default_technique, light, other))
 
     def test_the_engine_uses_the_technique_and_the_shadow_that_blender_has(self):
         image = self.run_gnomon("run", self.scene)
         key, fill = "light.Key.shadow_technique=", "light.Fill.shadow_enabled="
         self.assertEqual(image, self.run_gnomon("run", self.scene, "--set", key + self.other, "--set", fill + "false"))
-        self.assertNotEqual(image, self.run_gnomon("run", self.scene, "--set", key + self.soft))
+        self.assertNotEqual(image, self.run_gnomon("run", self.scene, "--set", key + self.default_technique))
         self.assertNotEqual(image, self.run_gnomon("run", self.scene, "--set", fill + "true"))
 
     def test_a_technique_that_reads_the_widths_has_those_of_blender(self):
@@ -94,6 +95,7 @@ class ExportedFile(BlenderTest):
         for light in ("Key", "Fill"):
             plain, scaled, larger = (images[light + " " + name] for name in ("plain", "scaled", "larger"))
             self.assertLess(compute_mean_difference(plain, scaled), 1e-5, "Cycles")
+            # 100 times the limit above.
             self.assertGreater(compute_mean_difference(plain, larger), 1e-3, "Cycles")
 
 
@@ -104,15 +106,16 @@ class ExportedProperties(BlenderTest):
             ["Fill", '["radius"]', 0.6],  # another name of light_size
             ["Sun", 'data.["light_angular_distance"]', 2],
         ]
+        # name -> (the node's extras, the light)
         lights = find_lights(load_gltf(self.make("typed.gltf", changes=changes)))
         self.assertEqual(lights["Key"][1]["extras"]["light_size"], 0.7)
         self.assertEqual(lights["Fill"][0], {"radius": 0.6})
         self.assertNotIn("light_size", lights["Fill"][1]["extras"])
         self.assertEqual(lights["Sun"][1]["extras"]["light_angular_distance"], 2)
-        soft = find_technique("is_default")
-        mask = self.hash_mask(self.path("typed.gltf"), soft, "Fill")
-        self.assertEqual(mask, self.hash_mask(self.path("typed.gltf"), soft, "Fill", "light_size=0.6"))
-        self.assertNotEqual(mask, self.hash_mask(self.path("typed.gltf"), soft, "Fill", "light_size=0.2"))
+        technique = find_technique("is_default")
+        mask = self.hash_mask(self.path("typed.gltf"), technique, "Fill")
+        self.assertEqual(mask, self.hash_mask(self.path("typed.gltf"), technique, "Fill", "light_size=0.6"))
+        self.assertNotEqual(mask, self.hash_mask(self.path("typed.gltf"), technique, "Fill", "light_size=0.2"))
 
     def test_instances_export_their_lights_and_hidden_lights_are_not_exported(self):
         blend, _ = self.call("save_instances", "instances.blend")
@@ -144,13 +147,13 @@ class ExportedProperties(BlenderTest):
 
     def test_properties_typed_by_hand_need_no_add_on(self):
         scene, _ = self.call("export_by_hand", "hand.gltf")
-        soft = find_technique("is_default")
+        technique = find_technique("is_default")
         for light, same in zip(("Key", "Fill", "Sun"), BY_HAND):
             with self.subTest(light=light):
-                mask = self.hash_mask(scene, soft, light)
-                self.assertEqual(mask, self.hash_mask(scene, soft, light, same))
+                mask = self.hash_mask(scene, technique, light)
+                self.assertEqual(mask, self.hash_mask(scene, technique, light, same))
                 name = same.split("=", maxsplit=1)[0]
-                self.assertNotEqual(mask, self.hash_mask(scene, soft, light, name + "=0.1"))
+                self.assertNotEqual(mask, self.hash_mask(scene, technique, light, name + "=0.1"))
 
 
 class BadInput(BlenderTest):
@@ -183,7 +186,7 @@ class BadInput(BlenderTest):
 
     def test_an_angle_beyond_the_engines_range_is_named(self):
         blend = self.build("wide.blend", changes=[["Sun", "data.angle", 2.0]])
-        self.assert_refused(blend, "wide.glb", '"Sun"', "114.59", "0..90")
+        self.assert_refused(blend, "wide.glb", '"Sun"', "114.59", "0..90")  # 2 rad in degrees
 
     def test_a_name_that_is_no_gltf_is_refused(self):
         self.assert_refused(self.good, "scene.obj", '"scene.obj"', ".gltf", ".glb")

@@ -73,6 +73,7 @@ class AddOn(BlenderTest):
         found = self.call_for_json("install", "found.json", program=GNOMON)
         self.assertTrue(found["file"].startswith(self.folder))
         ids = [item["id"] for item in load_json("techniques", "--json")]
+        # own_id is used in the file. It is all that is listed if the program does not exist.
         self.assertEqual(found["lists"], [ids + ["own_id"], ["own_id"]])
         self.assertEqual((found["was_there"], found["is_there"]), (True, False))
         self.assertEqual(found["left"], {})
@@ -80,7 +81,7 @@ class AddOn(BlenderTest):
 
 class WithDisplay(BlenderTest, DisplayTest):
     def setUp(self):
-        self.items = self.path("items.json")
+        self.items = self.path("items.json")  # the editor writes its state there
 
     def test_the_panel_is_drawn_for_every_type_of_light(self):
         out, result = self.call("draw_panel", "drawn.json", mode=(), environment={"DISPLAY": self.display})

@@ -3,6 +3,6 @@
 
 int main(int p_argument_count, char **) {
 	std::vector<int> values(4, p_argument_count);
-	volatile int index = 4; // volatile: the compiler must not see the error
-	return values.data()[index] == 12345;
+	volatile int index = 4;				  // volatile: the compiler must not see the error
+	return values.data()[index] == 12345; // any number: the value must be used
 }

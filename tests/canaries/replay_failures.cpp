@@ -32,7 +32,7 @@ void cause_failure(std::string_view p_word, const uint8_t *p_data, size_t p_size
 	} else if (p_word == "slow") {
 		std::this_thread::sleep_for(std::chrono::hours(1));
 	} else if (p_word == "large") {
-		const volatile size_t size = size_t(3) << 30;
+		const volatile size_t size = size_t(3) << 30; // 3 GiB; the replay allows 1 GiB
 		escaped_pointer = std::make_unique<uint8_t[]>(size).get();
 	} else {
 		fail("Word \"", p_word, "\" is unknown, as documented.");

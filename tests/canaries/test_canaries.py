@@ -26,20 +26,21 @@ def main():
         sources = glob.glob(os.path.join(FOLDER, sanitizer + "_*.cpp"))
         if not sources:
             failed += 1
-            print("FAILED: there is no canary for sanitizer %s" % sanitizer)
+            print("FAILED: sanitizer %s has no canary. Add tests/canaries/%s_NAME.cpp" % (sanitizer, sanitizer))
         for source in sorted(sources):
             name = os.path.splitext(os.path.basename(source))[0]
             program = os.path.join(ROOT, "bin", "canary_%s.release_%s" % (name, "_".join(sanitizers)))
             if not os.path.isfile(program):
                 failed += 1
-                print("FAILED: %s is not built" % program)
+                print("FAILED: %s is not built. Run scons sanitize=%s canaries" % (program, sys.argv[1]))
                 continue
             result = subprocess.run([program], capture_output=True, text=True, check=False, timeout=120)
             if result.returncode != 0 and REPORTS[sanitizer] in result.stderr:
                 passed += 1
             else:
                 failed += 1
-                print("FAILED: sanitizer %s did not notice %s" % (sanitizer, name))
+                code = result.returncode
+                print("FAILED: sanitizer %s did not report %s, which ended with %d" % (sanitizer, name, code))
     print("%d passed, %d failed, 0 skipped" % (passed, failed))
     return 1 if failed else 0
 

@@ -12,20 +12,21 @@ import run_engine  # noqa: E402
 
 class SliceTest(unittest.TestCase):
     def test_every_test_is_in_one_slice(self):
-        for count in (1, 2, 7, 579):
+        for count in (1, 2, 7, 579):  # fewer tests than slices, and many more
             for parts in (1, 2, 3, 8):
                 with self.subTest(count=count, parts=parts):
                     numbers = [n for first, last in run_engine.split(count, parts) for n in range(first, last + 1)]
                     self.assertEqual(numbers, list(range(1, count + 1)))
 
     def test_failures_crashes_and_bad_exit_codes_are_added_up(self):
+        # (exit code, output) of each slice; the sum is [passed, failed, skipped].
         good = (0, "text\n3 passed, 0 failed, 1 skipped\n")
         self.assertEqual(run_engine.add_up([good, good]), [6, 0, 2])
         self.assertEqual(run_engine.add_up([good, (1, "1 passed, 2 failed, 0 skipped\n")]), [4, 2, 1])
         self.assertEqual(run_engine.add_up([good, (-11, "half a line")]), [3, 1, 1])
         self.assertEqual(run_engine.add_up([good, (3, "2 passed, 0 failed, 0 skipped\n")]), [5, 1, 1])
 
-    def test_a_program_without_tests_is_refused(self):
+    def test_a_program_that_prints_no_number_of_tests_is_refused(self):
         with tempfile.NamedTemporaryFile("w", suffix=".sh", delete=False) as script:
             script.write("#!/bin/sh\necho nothing\n")
         os.chmod(script.name, 0o755)

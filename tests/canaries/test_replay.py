@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Gives the replay of fuzz inputs one failure of each kind, and fails if the replay misses one or reports a good input.
+"""Runs the replay of fuzz inputs (tests/fuzz/replay.cpp) on replay_failures.cpp, which fails in
+another way for each input. It is a failure if the replay misses one or reports a good input.
 
     test_replay.py SUFFIX        of bin/canary_replay.SUFFIX, as scons names it: release_address_undefined
 
@@ -13,7 +14,7 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FAILURES = ("overflow", "undefined", "exception", "assertion", "leak", "slow", "large")
-GOOD = ("documented", "fine")  # words that the reader does not know: it refuses them with its documented Error
+GOOD = ("documented", "fine")  # unknown words, which are refused with the documented Error
 
 
 def main():
@@ -37,13 +38,15 @@ def main():
         summary = "%d passed, %d failed, 0 skipped" % (len(GOOD), len(FAILURES))
         if result.returncode != 1 or result.stdout.splitlines()[-1:] != [summary]:
             failed += 1
-            print("FAILED: the replay ended with %d and %s" % (result.returncode, result.stdout.splitlines()[-1:]))
+            found = (result.returncode, result.stdout.splitlines()[-1:])
+            print("FAILED: (exit code, last line) is %s, must be %s" % (found, (1, [summary])))
         empty = os.path.join(folder, "empty")
         os.mkdir(empty)
         if subprocess.run([program, empty], capture_output=True, check=False, timeout=120).returncode != 2:
             failed += 1
             print("FAILED: the replay takes an empty corpus for a good one")
-    print("%d passed, %d failed, 0 skipped" % (len(FAILURES) + len(GOOD) + 2 - failed, failed))
+    count = len(FAILURES) + len(GOOD) + 2  # the words, the summary and the empty corpus
+    print("%d passed, %d failed, 0 skipped" % (count - failed, failed))
     return 1 if failed else 0
 
 

@@ -12,5 +12,5 @@ int main() {
 	std::thread other(count_up);
 	count_up();
 	other.join();
-	return shared_count == 12345;
+	return shared_count == 12345; // any number: the value must be used
 }

@@ -4,5 +4,5 @@
 int main() {
 	volatile int value = std::numeric_limits<int>::max();
 	value = value + 1;
-	return value == 12345;
+	return value == 12345; // any number: the value must be used
 }

@@ -27,6 +27,7 @@ WINDOW_HEIGHT_PX = {"desktop": 900, "phone": 844}
 TIMEOUT_S = 90.0
 # Chromium refuses screenshots that are taller than its largest texture.
 MAX_SCREENSHOT_HEIGHT_PX = 16000
+# A script that returns the page's state. The page's report.js sets data-ready and data-overflow.
 PROBE = """(() => { const root = document.documentElement; return {
     ready: root.dataset.ready || "", overflow_px: root.scrollWidth - root.clientWidth,
     reported_overflow_px: root.dataset.overflow || "", width_px: root.clientWidth, height_px: root.scrollHeight,
@@ -145,7 +146,7 @@ class Browser:
         return result["result"].get("value")
 
     def open(self, url, width_px, height_px, is_phone=False, scheme="light"):
-        """Open a page and wait until it reports that it is ready or failed, or until TIMEOUT_S is over."""
+        """Open a page and wait until it is ready, failed, or threw, or TIMEOUT_S is over."""
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width_px,
@@ -198,15 +199,16 @@ def check_page(path, expected_plot_count=None, screenshot_folder=None):
     one per scaling curve with a point, two per light of an animated scene, and one per stability sweep with an error. If a
     folder is given, screenshots of the whole page are written there."""
     problems = []
+    # "#all" draws all plots at once, not only those near the window.
     url = pathlib.Path(path).resolve().as_uri() + "#all"
     with Browser() as browser:
         for kind, width_px in WIDTHS_PX.items():
             browser.problems = []
-            browser.open(url, width_px, WINDOW_HEIGHT_PX[kind], kind == "phone")
+            browser.open(url, width_px, WINDOW_HEIGHT_PX[kind], is_phone=kind == "phone")
             state = browser.evaluate(PROBE)
             found = find_problems(state, expected_plot_count) + browser.problems
             if state["width_px"] != width_px:
-                found.append("the window is %d pixels wide" % state["width_px"])
+                found.append("the window is %d pixels wide, expected %d" % (state["width_px"], width_px))
             problems += ["%s: %s" % (kind, text) for text in found]
             if screenshot_folder:
                 os.makedirs(screenshot_folder, exist_ok=True)

@@ -88,6 +88,7 @@ class CommandLineTest(unittest.TestCase):
         text += b" " * (-len(text) % 4)
         with open(self.path("contact_box.bin"), "rb") as file:
             binary = file.read()
+        # 0x4E4F534A and 0x004E4942: the chunk types "JSON" and "BIN".
         chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
@@ -101,7 +102,7 @@ class CommandLineTest(unittest.TestCase):
         """Run `visibility` with a small size and the fallback technique. Return the finished process. The output is mask.exr."""
         return run("visibility", scene, "--technique", self.get_fallback(), "--out", self.path("mask.exr"), *SMALL, *arguments, **environment)
 
-    fallback = None
+    fallback = None  # queried once for all tests
 
     def get_fallback(self):
         if CommandLineTest.fallback is None:
@@ -109,7 +110,9 @@ class CommandLineTest(unittest.TestCase):
         return CommandLineTest.fallback
 
     def assert_refused(self, result, *words, code=1):
-        """Assert the exit code, exactly one ERROR line that contains all the words, and that the folder has only files of inputs()."""
+        """Assert the exit code, exactly one ERROR line that contains all the words, and that the
+        folder has only files of inputs(). code: 1: bad input or a failed device, 2: wrong usage.
+        """
         lines = result.stderr.splitlines()
         errors = [line for line in lines if line.startswith("ERROR: ")]
         self.assertEqual(result.returncode, code, result.stderr)

@@ -31,10 +31,11 @@ class EditorCase(DisplayTest):
         super().setUp()
         self.project = self.path("project")
         shutil.copytree(os.path.join(ROOT, "demo_project"), self.project, ignore=shutil.ignore_patterns("out", "third_party"))
+        # A path. In CommandLineTest, self.scene is the content of a file.
         self.scene = os.path.join(self.project, "scenes", "three_lights.gltf")
         self.items = self.path("items.json")
 
-    validation_arguments = ("--validation",)
+    validation_arguments = ("--validation",)  # empty in subclasses that measure or show times
 
     def open_editor(self, *arguments, project=None, **options):
         """Start the editor and wait until it shows an image. project: a path, "" for none. options: as for start()."""
@@ -45,6 +46,7 @@ class EditorCase(DisplayTest):
         self.wait_for(lambda state: state["images"] >= 1)
 
     def get_state(self):
+        """Return what the editor wrote to --items, see EditorContext::describe_items."""
         try:
             return load(self.items)
         except (OSError, ValueError):  # not written yet
@@ -111,7 +113,11 @@ class EditorCase(DisplayTest):
         return subprocess.run([*command, "+repage", "-depth", "8", "rgb:-"], env=environment, capture_output=True, check=True).stdout
 
     def compute_changed_fraction(self, one, other):
-        """Return the fraction of the bytes of two images that differ by more than 8."""
+        """Return the fraction of the bytes of two images that differ by more than 8 of 255.
+
+        Tests require less than 0.001 of an unchanged viewport. Their lower limits for changes
+        depend on how many pixels change.
+        """
         self.assertEqual(len(one), len(other))
         return sum(abs(a - b) > 8 for a, b in zip(one, other)) / len(one)
 

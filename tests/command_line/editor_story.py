@@ -11,7 +11,7 @@ from editor_case import LIGHT, load
 from display_case import TIMEOUT_S
 
 REFERENCE_RAYS = 256  # per pixel, enough for a meaningful error
-SOFT_MAE = 0.02
+MAX_SOFT_MAE = 0.02  # penumbra MAE of the default technique
 
 
 def make_hard(case):
@@ -29,12 +29,14 @@ def find_game(scene):
                 words = file.read().split(b"\0")
         except OSError:
             continue
+        # The shell that starts the game has the same words.
         if b"run" in words and scene.encode() in words and not words[0].endswith(b"sh"):
             return int(name)
     return None
 
 
 def wait_until(condition):
+    """Wait for a condition, for at most TIMEOUT_S; the caller checks whether it holds."""
     end = time.monotonic() + TIMEOUT_S
     while not condition() and time.monotonic() < end:
         time.sleep(0.05)
@@ -66,8 +68,9 @@ def run_story(case, take_screenshot):
     case.click("tab Error")
     error = case.wait_for(lambda state: state["error"]["rays"] >= REFERENCE_RAYS)["error"]
     case.assertEqual(error["light"], LIGHT)
-    case.assertLess(error["penumbra_mae"], SOFT_MAE)
+    case.assertLess(error["penumbra_mae"], MAX_SOFT_MAE)
     case.choose("against", find_technique("is_fallback"))
+    # The line is between the images of the two techniques.
     case.wait_for(lambda state: "line" in state["items"])
     case.rest()
     take_screenshot("editor_error")
@@ -82,11 +85,11 @@ def run_story(case, take_screenshot):
     case.press("key", "F5")
     wait_until(lambda: find_game(case.scene) is not None)
     game = find_game(case.scene)
-    case.assertIsNotNone(game, "the game runs")
-    case.press("search", "--sync", "--pid", str(game))
-    time.sleep(3.0)
+    case.assertIsNotNone(game, "the game did not start")
+    case.press("search", "--sync", "--pid", str(game))  # waits for its window
+    time.sleep(3.0)  # it draws frames
     take_screenshot("editor_game")
-    case.assertEqual(find_game(case.scene), game, "it still runs")
+    case.assertEqual(find_game(case.scene), game, "the game ended by itself")
     os.kill(game, signal.SIGTERM)
     wait_until(lambda: find_game(case.scene) is None)
     case.focus(case.process)

@@ -23,7 +23,7 @@ def get_record_path(folder, record):
 
 
 def stop_after(path):
-    """Return environment variables with which the program's device hangs for ever once the file exists."""
+    """Return environment variables with which the device hangs, with no timeout, once a file exists."""
     return {"GNOMON_INJECT_FAULT": "hang@file:" + path, "GNOMON_DEVICE_TIMEOUT_S": "0"}
 
 

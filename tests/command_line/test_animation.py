@@ -50,7 +50,7 @@ class AnimationTest(CommandLineTest):
         self.assertNotEqual(self.make_mask("--at", "1.7"), moved)
 
     def test_headless_frames_are_sixtieths_of_a_second(self):
-        shown = self.draw("--frames", "7")
+        shown = self.draw("--frames", "7")  # the first frame is at 0 s, the last one at 6/60 s
         self.assertEqual(self.draw("--at", "0.1"), shown)
         self.assertEqual(self.draw("--frames", "4", "--speed", "2"), shown)
         self.assertEqual(self.draw("--frames", "7", "--at", "0.2", "--speed", "-1"), shown)
@@ -60,6 +60,7 @@ class AnimationTest(CommandLineTest):
     def test_the_project_sets_the_animation(self):
         walk = self.draw("--at", "1.5")
         self.assertEqual(self.draw("--at", "1.5", scene=self.make_project('animation="Walk"')), walk)
+        # A name that the scene lacks stands for its first animation, an empty name for none.
         self.assertEqual(self.draw("--at", "1.5", scene=self.make_project('animation="Run"')), walk)
         still = self.draw("--frames", "20", scene=self.make_project('animation=""'))
         self.assertEqual(self.draw("--frames", "1", scene=self.make_project('animation=""')), still)

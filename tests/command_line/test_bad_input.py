@@ -52,7 +52,7 @@ class BadScenes(CommandLineTest):
         self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
 
     def test_an_index_beyond_the_vertices_is_refused(self):
-        view = self.scene["bufferViews"][2]
+        view = self.scene["bufferViews"][2]  # the indices of the ground
         with open(self.path("contact_box.bin"), "r+b") as file:
             file.seek(view["byteOffset"])
             file.write(struct.pack("<I", 4000000000))
@@ -100,7 +100,7 @@ class BadScenes(CommandLineTest):
         self.assertIn("materials[0] has alphaMode BLEND", result.stderr)
 
     def test_a_light_that_lights_nothing_in_view_is_reported(self):
-        self.find_node("Light")["translation"] = [0, -50, 0]
+        self.find_node("Light")["translation"] = [0, -50, 0]  # far below the scene
         self.find_node("Light").pop("rotation", None)
         result = self.compute_mask(self.write_scene(self.scene))
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -159,6 +159,7 @@ class BadImages(CommandLineTest):
     """Such images are reported with one error line. The scene is drawn without the image, or with its readable part."""
 
     def compute_card_errors(self, card):
+        """Compute a mask of a make_seeds.Card (a textured quad) and return the ERROR lines."""
         make_seeds.write_gltf(card.document, bytes(card.packed), self.path("changed"))
         result = self.compute_mask(self.path("changed.gltf"))
         self.assert_mask(result)
@@ -239,6 +240,7 @@ class BadArguments(CommandLineTest):
                     "visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", self.path("mask.exr"),
                     "--size", size,
                 )  # fmt: skip
+                # 2 if the parser of the command line refuses it, 1 if the command does.
                 self.assertIn(result.returncode, (1, 2))
                 self.assert_refused(result, "--size", size, code=result.returncode)
 
@@ -291,6 +293,7 @@ class BadArguments(CommandLineTest):
 
     def test_comparing_files_that_are_no_masks_is_refused(self):
         self.assert_refused(run("compare", self.path("gone.exr"), self.path("gone.exr")), "gone.exr")
+        # Text, and bytes that begin almost like a PNG.
         for text in ("hello", "\x7fPNG\r\n\x1a\n" + 100 * " "):
             notes = self.write("notes.txt", text)
             self.assert_refused(run("compare", notes, notes), "notes.txt", "not an OpenEXR file")

@@ -11,6 +11,7 @@ from display_case import TIMEOUT_S  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
 from report_case import ReportCase, get_record_path, load_report  # noqa: E402
 
+# $GNOMON_INJECT_FAULT -> texts of the error message.
 FAULTS = {
     "device_lost": ("The device was lost", "Restart the program"),
     "device_lost@pass:receivers": ("The device was lost", "receivers' (last pass", "Restart the program"),
@@ -86,6 +87,7 @@ class FailingReports(ReportCase):
         self.assertIn("Out of device memory", cell["message"])
 
     def check_lost(self, fault, **limit):
+        """Let the device fail before the last configuration's cells; earlier cells must stay."""
         scenes = "contact_box,sphere"
         plan = self.plan("report", scenes=scenes)
         last = len(plan["configurations"]) - 1

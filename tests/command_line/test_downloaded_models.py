@@ -24,6 +24,7 @@ MIN_FRACTION = 0.01  # of the receivers: at least so many must be lit, and so ma
 
 
 def find_file(ending):
+    """Return the path of the package's file with this ending. If it is missing, skip the test."""
     try:
         return find_package_file(PACKAGE, ending)
     except MeshUnavailable as error:
@@ -31,6 +32,7 @@ def find_file(ending):
 
 
 def find_hidden(mask):
+    """Return the indices of the receiver pixels that see less than half of the light."""
     pixels = enumerate(zip(mask.visibility, mask.receiver))
     return {index for index, (value, receiver) in pixels if receiver >= 0.5 and value < 0.5}
 
@@ -75,6 +77,7 @@ class DownloadedModels(CommandLineTest):
         os.mkdir(out)
         before = self.hash_files()
         image, mask_path = os.path.join(out, "image.png"), os.path.join(out, "mask.exr")
+        # With --precision 100 the report times as few frames as it can.
         commands = (
             ("run", path, "--headless", "--capture", image, *SIZE),
             ("visibility", path, "--technique", find_technique("is_default"), "--out", mask_path, *SIZE),
@@ -98,6 +101,7 @@ class DownloadedModels(CommandLineTest):
 
     def check_mask(self, mask):
         receivers = [value for value, receiver in zip(mask.visibility, mask.receiver) if receiver >= 0.5]
+        # The ground and the model fill much of the image.
         self.assertGreater(len(receivers), 0.3 * SIZE_PX * SIZE_PX)
         self.assertGreater(sum(value > 0.99 for value in receivers), MIN_FRACTION * len(receivers))
         self.assertGreater(sum(value < 0.01 for value in receivers), MIN_FRACTION * len(receivers))
@@ -115,6 +119,7 @@ class DownloadedModels(CommandLineTest):
         for name in ("BoxTextured.gltf", "BoxTextured0.bin", "CesiumLogoFlat.png"):
             shutil.copy(os.path.join(source, name), self.folder)
         self.check_model(self.path("BoxTextured.gltf"))
+        # The shadow is also within an image that is higher than wide.
         mask = self.path("narrow.exr")
         result = run(
             "visibility", self.path("BoxTextured.gltf"), "--technique", self.get_fallback(), "--out", mask, "--size", "48x96"

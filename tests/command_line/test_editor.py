@@ -11,7 +11,7 @@ from editor_case import EditorCase, load  # noqa: E402
 
 
 class EditorTest(EditorCase):
-    def test_the_story_from_opening_to_the_game(self):
+    def test_the_main_workflow_from_opening_to_the_game(self):
         editor_story.run_story(self, lambda name: None)
 
     def test_a_light_is_changed_undone_saved_and_read_again(self):
@@ -67,6 +67,7 @@ class EditorTest(EditorCase):
         first = self.capture_viewport()
         self.click("tab Modules")
         positions = self.wait_for(lambda state: any(name.startswith("module shadow_") for name in state["items"]))["items"]
+        # The topmost module of a technique.
         name = min((name for name in positions if name.startswith("module shadow_")), key=lambda name: positions[name][1])
         module = name.split()[1]
         for word, listed in (("Disabled", True), ("Enabled", False)):

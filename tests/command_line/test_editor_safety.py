@@ -61,7 +61,8 @@ class EditorSafetyTest(EditorCase):
     def test_a_full_disk_is_reported_and_nothing_is_lost(self):
         whole = self.read_scene()
         self.assertGreater(len(whole), FULL_DISK_BYTES)
-        self.open_editor(preexec_fn=fill_disk, restore_signals=False)  # SIGXFSZ stays ignored
+        # The editor inherits from Python that SIGXFSZ is ignored, so that its writes fail instead.
+        self.open_editor(preexec_fn=fill_disk, restore_signals=False)
         self.change_light()
         self.press("key", "ctrl+s")
         self.wait_for(lambda state: "Cannot write" in state["status"])

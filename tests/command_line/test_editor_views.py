@@ -8,8 +8,9 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from command_line_case import ROOT, find_technique  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
+from editor_story import REFERENCE_RAYS  # noqa: E402
 
-SOFT_MAE = 0.05  # of the penumbra: a soft shadow is below, a hard one far above
+MAX_SOFT_MAE = 0.05  # of the penumbra: a soft shadow is below, a hard one far above
 TONE_MAP = os.path.join("renderer", "tone_map.comp")
 
 
@@ -18,13 +19,13 @@ class EditorViewsTest(EditorCase):
         self.open_editor()
         self.select_light()
         self.click("tab Error")
-        soft = self.wait_for(lambda state: state["error"]["rays"] >= 256)["error"]
+        soft = self.wait_for(lambda state: state["error"]["rays"] >= REFERENCE_RAYS)["error"]
         self.assertEqual(soft["light"], "Spot")
         self.assertGreater(soft["penumbra_mae"], 0.0)
-        self.assertLess(soft["penumbra_mae"], SOFT_MAE)
+        self.assertLess(soft["penumbra_mae"], MAX_SOFT_MAE)
         self.choose("property shadow_technique", find_technique("is_fallback"))
-        hard = self.wait_for(lambda state: state["error"]["penumbra_mae"] > 2.0 * SOFT_MAE)["error"]
-        self.assertGreaterEqual(hard["rays"], 256)  # the reference is the same, and was not traced again
+        hard = self.wait_for(lambda state: state["error"]["penumbra_mae"] > 2.0 * MAX_SOFT_MAE)["error"]
+        self.assertGreaterEqual(hard["rays"], REFERENCE_RAYS)  # the reference is the same, and was not traced again
         screenshot = self.capture_viewport()
         self.click("image error")  # a click shows it in the viewport
         self.assertGreater(self.compute_changed_fraction(screenshot, self.capture_viewport()), 0.2)
@@ -74,13 +75,14 @@ class EditorViewsTest(EditorCase):
 
     def test_two_techniques_are_side_by_side(self):
         self.open_editor()
+        # The images of the two techniques meet at a line in the middle, which the screenshots omit.
         left, right = self.capture_viewport(0.0, 0.49), self.capture_viewport(0.51, 1.0)
         self.choose("against", find_technique("is_fallback"))
         self.wait_for(lambda state: "line" in state["items"])
         self.assertLess(self.compute_changed_fraction(left, self.capture_viewport(0.0, 0.49)), 0.001)
         self.assertGreater(self.compute_changed_fraction(right, self.capture_viewport(0.51, 1.0)), 0.0005)
         before = self.get_state()["items"]["line"][0]
-        self.drag("line", -12)
+        self.drag("line", -12)  # pixels per step, to the left: farther than the 50 required below
         self.wait_for(lambda state: state["items"]["line"][0] < before - 50)
         self.assertGreater(self.compute_changed_fraction(left, self.capture_viewport(0.0, 0.49)), 0.001)
         self.choose("against", "one technique")

@@ -23,7 +23,7 @@ from command_line_case import (
 
 class GoodCommands(CommandLineTest):
     def test_models_without_camera_and_light_are_staged(self):
-        with open(os.path.join(ROOT, CONTACT_BOX), encoding="utf-8") as file:
+        with open(CONTACT_BOX, encoding="utf-8") as file:
             model = json.load(file)
         for node in model["nodes"]:
             node.pop("camera", None)
@@ -31,7 +31,7 @@ class GoodCommands(CommandLineTest):
         for key in ("cameras", "extensions", "extensionsUsed"):
             model.pop(key, None)
         path = self.path("model.gltf")
-        folder = os.path.dirname(os.path.join(ROOT, CONTACT_BOX))
+        folder = os.path.dirname(CONTACT_BOX)
         for buffer in model["buffers"]:
             name = buffer["uri"]
             if not name.startswith("data:"):
@@ -88,12 +88,13 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(same["receiver"]["wrong"], 0)
         with open(times, encoding="utf-8") as file:
             cost = json.load(file)
+        # assertLessEqual of sets: the first is a subset of the second.
         self.assertLessEqual(
             {"device", "driver", "threads", "frames", "triangles", "edges", "passes", "total", "bytes"}, set(cost)
         )
         self.assertEqual(set(cost["total"]), {"gpu_ms", "gpu_ms_p90", "wall_ms", "wall_ms_p90"})
         self.assertEqual(cost["frames"], 20)
-        self.assertEqual(cost["triangles"], 24)
+        self.assertEqual(cost["triangles"], 24)  # of two boxes
         self.assertTrue(cost["passes"])
         for item in cost["passes"]:
             self.assertLessEqual({"name", "gpu_ms", "wall_ms"}, set(item))
@@ -108,7 +109,7 @@ class GoodCommands(CommandLineTest):
             self.assert_mask(self.compute_mask(CONTACT_BOX, "--time", times, *words))
             with open(times, encoding="utf-8") as file:
                 passes[name] = {item["name"] for item in json.load(file)["passes"]}
-        self.assertLess(passes["still"], passes["moving"])
+        self.assertLess(passes["still"], passes["moving"])  # a proper subset
         result = self.compute_mask(CONTACT_BOX, "--still")
         self.assertEqual(result.returncode, 2)
         self.assertIn("--time", result.stderr)
@@ -134,6 +135,7 @@ class GoodCommands(CommandLineTest):
         self.assertGreater(found["whole"]["draws"], found["lean"]["draws"])
         # call_ms covers the frame and the program's CPU work for it.
         self.assertGreater(found["lean"]["call_ms"], 0.5 * found["lean"]["frame"]["wall_ms"])
+        # A light's passes are named LIGHT: PASS.
         self.assertGreater(len({item["name"].split(": ")[0] for item in found["lean"]["passes"]}), 2)
 
     def test_only_headless_runs_are_timed(self):
@@ -175,6 +177,7 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         masks = sorted(name for name in os.listdir(self.folder) if name.endswith(".exr"))
         self.assertEqual(masks, ["mask.0000.exr", "mask.0001.exr", "mask.0002.exr"])
+        # The mask can be read.
         found = load_json("compare", self.path(masks[0]), self.path(masks[0]))
         self.assertEqual(found["penumbra"]["mae"], 0)
 
@@ -210,6 +213,7 @@ class GoodCommands(CommandLineTest):
             file.write("[project]\nname=\"Test\"\n[defaults]\nantialiasing=3\n")
         self.assertEqual(capture(), images[2])
         self.assertEqual(capture("--antialiasing", "1"), images[0])
+        # Debug views are not antialiased.
         self.assertEqual(capture("--debug-view", "mask"), capture("--debug-view", "mask", "--antialiasing", "1"))
         with open(os.path.join(folder, "project.cfg"), "w", encoding="utf-8") as file:
             file.write("[project]\nname=\"Test\"\n[defaults]\nantialiasing=9\n")

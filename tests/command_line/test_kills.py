@@ -1,6 +1,7 @@
 """Programs that are killed while they write, at random times and as soon as a file appears: nothing is lost or left.
 
-Each program is killed a few times, the editor not at all. GNOMON_KILL_COUNT, which tests/run_tests.sh --full sets, sets how often.
+GNOMON_KILL_COUNT, which tests/run_tests.sh --full sets, controls the number of kills. Without it
+each program is killed a few times, the editor not at all.
 """
 
 import glob
@@ -18,7 +19,7 @@ from command_line_case import GNOMON, SCENES, full_run_only, find_technique, run
 from editor_case import EditorCase, load  # noqa: E402
 from report_case import PROJECT, QUICK, ReportCase, drop_times, get_record_path, load_report, stop_after  # noqa: E402
 
-SEED = 20100901
+SEED = 20100901  # of the random numbers; any number
 TIMEOUT_S = 180
 MAX_DELAY_S = 1.5  # about as long as the programs run
 REPORT = ("--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *QUICK)
@@ -37,7 +38,7 @@ def list_unfinished(folder):
 def kill_at_random(process, folders, generator, max_skipped=3, stop=None):
     """Kill a process: with probability 1/2 when it begins to write a file in one of the folders, else at a random time.
 
-    max_skipped: how many files it may begin before, at most. stop: a file at which the process hangs, or None.
+    max_skipped: how many files it may begin before that, at most. stop: a file at which the process hangs, or None.
     Return True if it was killed, False if it had ended before.
     """
     delay_s = generator.uniform(0, MAX_DELAY_S)
@@ -50,7 +51,7 @@ def kill_at_random(process, folders, generator, max_skipped=3, stop=None):
         seen |= begun
         skipped_count -= len(begun)
         if skipped_count < 0 or (waits_for_file and stop and os.path.exists(stop)):
-            time.sleep(generator.choice((0, 0, 0.001)))
+            time.sleep(generator.choice((0, 0, 0.001)))  # kills at once or a little later
             break
         time.sleep(0 if begun else 0.001)
     process.send_signal(signal.SIGKILL)
@@ -77,14 +78,14 @@ class KilledReports(ReportCase):
                     [GNOMON, *arguments], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
                 )
                 was_killed = kill_at_random(process, (out, cache), generator, stop=stop)
-                self.assertTrue(was_killed or stop is None, "it continued after it should hang")
+                self.assertTrue(was_killed or stop is None, "it ended although its device should hang")
                 errors = process.stderr.read()
                 process.stderr.close()
                 self.assertNotIn("damaged", errors)
                 self.assertNotIn("ERROR", errors)
                 killed_count += was_killed
                 left_count += len(list_unfinished(out))
-                self.assertLessEqual(len(list_unfinished(out)), 3, "one for each folder at most")
+                self.assertLessEqual(len(list_unfinished(out)), 3, "unfinished files accumulate")
                 if not was_killed:  # it had finished: go on with a new report in another folder
                     self.assert_same(out, whole)
                     done_count += 1
@@ -106,7 +107,7 @@ class KilledReports(ReportCase):
         generator = random.Random(SEED + 1)
         environment = {**os.environ, "GNOMON_CACHE_DIR": self.path("cache")}
         for index in range(get_kill_count(4)):
-            command = self.trace(16 + index)
+            command = self.make_trace_command(16 + index)
             with self.subTest(kill=index, seed=SEED):
                 process = subprocess.Popen(
                     [GNOMON, *command], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
@@ -117,13 +118,13 @@ class KilledReports(ReportCase):
                 self.assertNotIn("damaged", errors)
                 self.assertNotIn("ERROR", errors)
                 self.assertLessEqual(len(list_unfinished(self.path("cache"))), 1)
-        result = run(*self.trace(15), GNOMON_CACHE_DIR=self.path("cache"))
+        result = run(*self.make_trace_command(15), GNOMON_CACHE_DIR=self.path("cache"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotIn("damaged", result.stderr)
         self.assertEqual(list_unfinished(self.path("cache")), [])
 
-    def trace(self, sample_count):
-        """Return a command that traces a reference which no other command caches."""
+    def make_trace_command(self, sample_count):
+        """Return a command that traces a reference; each sample count has its own cache entry."""
         reference = find_technique("is_reference")
         settings = ("--set", "%s_samples=%d" % (reference, sample_count))
         scene = os.path.join(SCENES, "sphere.gltf")
@@ -136,7 +137,7 @@ class KilledEditor(EditorCase):
         generator = random.Random(SEED + 2)
         folder = os.path.dirname(self.scene)
         sizes = [self.get_size()]
-        for index in range(get_kill_count(1, 20)):
+        for index in range(get_kill_count(default=1, divisor=20)):
             with self.subTest(kill=index, seed=SEED):
                 self.open_editor()
                 if "button Discard" in self.get_state()["items"]:

@@ -16,6 +16,7 @@ from report_case import PROJECT, SMALL_REFERENCE, ReportCase, drop_times, load_r
 class Reports(ReportCase):
     def test_a_report_has_all_cells_with_errors_and_times(self):
         report = self.load_done("report", self.small("report"))
+        # In the order of the project, which differs from that of --scenes.
         self.assertEqual([item["id"] for item in report["configurations"]][:2], ["sphere/Light/0.2", "sphere/Light/0.8"])
         self.assertEqual(len(report["configurations"]), 4)
         self.assertEqual((report["failed_count"], report["missing_count"]), (0, 0))
@@ -23,7 +24,7 @@ class Reports(ReportCase):
             self.assertEqual(cell["status"], "ok")
             self.assertTrue(0.0 <= cell["error"]["all"]["penumbra"]["mae"] < 0.6)
             self.assertLessEqual(cell["error"]["whole_light"]["pixels"], cell["error"]["all"]["pixels"])
-            self.assertTrue(5 <= cell["time"]["frames"] <= 20)
+            self.assertTrue(5 <= cell["time"]["frames"] <= 20)  # timing may end early
             self.assertGreater(cell["time"]["cost_ms"], 0.0)
             self.assertGreater(cell["bytes"], 0)
             if cell["technique"] == self.get_fallback():
@@ -74,6 +75,7 @@ class Reports(ReportCase):
     def test_one_scene_file_is_a_report_too(self):
         scene = os.path.join(SCENES, "contact_box.gltf")
         result = self.report("report", "--techniques", self.get_fallback(), project=scene)
+        # One configuration for each of the default light sizes.
         self.assertEqual(len(self.load_done("report", result)["configurations"]), 3)
 
     def test_light_types_and_scaling_curves_are_measured_when_requested(self):
@@ -96,7 +98,7 @@ class Reports(ReportCase):
         self.assertEqual({cell["setting"] for cell in report["cells"]}, {"default"})
         self.assertEqual({cell["time"]["frames"] for cell in report["cells"]}, {2})
 
-    def test_own_sizes_of_a_sun_are_those_of_the_file(self):
+    def test_own_sizes_are_those_of_the_file(self):
         report = self.load_done("report", self.report(
             "report", "--scenes", "three_lights", "--sizes", "own", "--techniques", self.get_fallback(),
         ))  # fmt: skip
@@ -129,7 +131,7 @@ class Reports(ReportCase):
         warnings = [line[len("WARNING: ") :] for line in lines if line.startswith("WARNING: ")]
         counted = [line.split(" times: ", 1)[1] for line in warnings if re.match(r"\d+ times: ", line)]
         self.assertGreater(len(counted), 0, lines)  # such large lights exceed the limits of some techniques
-        for line in counted:
+        for line in counted:  # also printed without its number, when it was first logged
             self.assertEqual(warnings.count(line), 1)
 
     def test_the_budget_names_the_least_error_within_it(self):
@@ -141,6 +143,7 @@ class Reports(ReportCase):
             least = min(item["error"]["all"]["penumbra"]["mae"] for item in cells)
             self.assertEqual(report["cells"][choice["cell"]]["error"]["all"]["penumbra"]["mae"], least)
         result = self.small("report", "--budget", "1e-6", "--resume")
+        # Each choice lacks its "cell".
         self.assertEqual([list(item) for item in self.load_done("report", result)["budget"]["choices"]], [["configuration"]] * 4)
         self.assertIn("nothing is that quick", result.stdout)
 

@@ -34,7 +34,7 @@ class WindowTest(DisplayTest):
     def is_as_headless(self, name, rectangle):
         shown, drawn = self.crop(name, rectangle), self.crop("headless.png", rectangle)
         self.assertEqual(len(shown), len(drawn))
-        self.assertGreater(len(set(drawn)), 30)
+        self.assertGreater(len(set(drawn)), 30)  # it is not a uniform area
         # The window's camera is stored as angles, so pixels on edges may differ slightly.
         return sum(abs(a - b) > 8 for a, b in zip(shown, drawn)) < len(drawn) // 100
 
@@ -44,7 +44,7 @@ class WindowTest(DisplayTest):
         self.assertEqual(read_png_size(self.path("window.png")), (700, 260))
         self.draw_headless(size)
         self.assertTrue(self.is_as_headless("window.png", CLEAR_RECT))
-        self.assertFalse(self.is_as_headless("window.png", TEXT_RECT), "the text covers it")
+        self.assertFalse(self.is_as_headless("window.png", TEXT_RECT), "the text is missing")
 
     def test_the_window_shows_what_a_headless_run_draws_once_its_text_is_off(self):
         size = ("--size", "700x260")
@@ -81,7 +81,7 @@ class WindowTest(DisplayTest):
         time.sleep(1.0)
         self.press("search", "--name", WINDOW_NAME, "windowsize", "200", "150")
         time.sleep(1.0)
-        self.assertIsNone(process.poll(), "still running")
+        self.assertIsNone(process.poll(), "the window ended")
         self.press("search", "--name", WINDOW_NAME, "key", "Escape")
         self.finish(process)
 

@@ -54,7 +54,7 @@ def interpolate_rotations(a, b, fraction):
     cosine = sum(p * q for p, q in zip(a, b))
     sign = -1.0 if cosine < 0.0 else 1.0
     angle = math.acos(min(abs(cosine), 1.0))
-    if angle < 1e-9:
+    if angle < 1e-9:  # below, sin(angle) is a divisor
         return a
     first, second = math.sin((1.0 - fraction) * angle), sign * math.sin(fraction * angle)
     return tuple((first * p + second * q) / math.sin(angle) for p, q in zip(a, b))
@@ -66,7 +66,10 @@ def normalize(values):
 
 
 def interpolate(times, rows, interpolation, is_rotation, time):
-    """Return the value at `time` (s), which is the first or last key's outside of `times`."""
+    """Return the value at `time` (s), which is the first or last key's outside of `times`.
+
+    rows: the value of each key, or for CUBICSPLINE its in-tangent, value and out-tangent.
+    """
     is_cubic = interpolation == "CUBICSPLINE"
     values = rows[1::3] if is_cubic else rows
     if time <= times[0]:
@@ -105,8 +108,10 @@ class Poser:
                 target, times = channel["target"], [time for (time,) in self.read(sampler["input"])]
                 rows = self.read(sampler["output"])
                 if target["path"] == "weights":
-                    size = len(rows) // len(times) // (3 if sampler.get("interpolation") == "CUBICSPLINE" else 1)
-                    rows = [tuple(value for (value,) in rows[first : first + size]) for first in range(0, len(rows), size)]
+                    rows_per_key = 3 if sampler.get("interpolation") == "CUBICSPLINE" else 1
+                    target_count = len(rows) // len(times) // rows_per_key
+                    firsts = range(0, len(rows), target_count)
+                    rows = [tuple(value for (value,) in rows[first : first + target_count]) for first in firsts]
                 self.channels.append((target["node"], target["path"], times, rows, sampler.get("interpolation", "LINEAR")))
 
     def read(self, accessor):

@@ -17,11 +17,11 @@ import gltf_writer  # noqa: E402
 import make_foliage_scenes  # noqa: E402
 
 ANIMATION = "Walk"
-LOOP_S = 6.0
-CYCLE_S = 1.2
-MAX_BYTES = 700000
-GROUND_TOLERANCE_M = 0.01
-MAX_SLIDE_M = 0.005
+LOOP_S = 6.0  # five cycles
+CYCLE_S = 1.2  # two steps
+MAX_BYTES = 700000  # of courtyard.bin
+GROUND_TOLERANCE_M = 0.01  # the figure is 5.5 mm below the ground at most
+MAX_SLIDE_M = 0.005  # a flat foot slides by 0.9 mm at most
 
 
 def load_courtyard():
@@ -70,7 +70,7 @@ class Figure(Courtyard):
         self.assertEqual(set(edges.values()), {1})
         self.assertTrue(all((end, start) in edges for start, end in edges))
         self.assertEqual(len(set(self.read("Figure", "POSITION"))), len(self.read("Figure", "POSITION")))
-        self.assertTrue(2000 <= len(edges) // 3 <= 4000, len(edges) // 3)
+        self.assertTrue(2000 <= len(edges) // 3 <= 4000, len(edges) // 3)  # triangles
 
     def test_it_is_as_high_as_a_person_and_its_soles_are_on_the_ground(self):
         heights = [point[1] for point in self.read("Figure", "POSITION")]
@@ -120,7 +120,7 @@ class Walk(Courtyard):
         """One cycle later each vertex moves in the same way, farther along the circular path."""
         step_s = 0.01
         node = self.find_node("Figure")
-        bends = []
+        bends = []  # of each vertex, in metres: how much its motion changes between two steps
         for times in ((LOOP_S - step_s, 0.0, step_s), (CYCLE_S - step_s, CYCLE_S, CYCLE_S + step_s)):
             before, at, after = (self.walk.compute_points(node, time) for time in times)
             bends.append([math.dist(gltf_writer.subtract(b, a), gltf_writer.subtract(c, b)) for a, b, c in zip(before, at, after)])
@@ -135,9 +135,11 @@ class Walk(Courtyard):
                 self.assertAlmostEqual(lowest, 0.0, delta=GROUND_TOLERANCE_M)
 
     def test_a_flat_foot_does_not_slide(self):
-        for side, offset in (("L", 0.0), ("R", 0.5)):
+        for side, offset in (("L", 0.0), ("R", 0.5)):  # the middle of the foot's stance, in cycles
             sole = self.find_sole(side)
             self.assertGreater(len(sole), 5)
+            # A sole is flat from 0.21 cycles before the middle of its stance to 0.06 cycles after
+            # it (TOES_UP_DEG in figure_walk.py).
             for cycle in (1, 3):
                 times = [CYCLE_S * (cycle + offset - 0.2 + 0.025 * index) for index in range(11)]
                 poses = [self.walk.compute_points(self.find_node("Figure"), time) for time in times]
@@ -149,16 +151,17 @@ class Walk(Courtyard):
         for index in range(16):
             matrices = self.walk.compute_matrices(self.walk.compute_values(CYCLE_S * index / 16))
 
-            def get_along(name, matrices=matrices):
-                """Return how far ahead of the root a joint is."""
+            def get_ahead_m(name, matrices=matrices):
+                """Return how many metres ahead of the root a joint is."""
                 matrix = matrices[self.find_node(name)]
                 return sum((matrix[12 + axis] - matrices[root][12 + axis]) * matrices[root][8 + axis] for axis in range(3))
 
             for side in "LR":
-                hip, knee, foot = (get_along("%s %s" % (name, side)) for name in ("Upper leg", "Lower leg", "Foot"))
-                self.assertGreater(knee, 0.5 * (hip + foot) - 0.005)
+                hip, knee, foot = (get_ahead_m("%s %s" % (name, side)) for name in ("Upper leg", "Lower leg", "Foot"))
+                self.assertGreater(knee, 0.5 * (hip + foot) - 0.005)  # with a tolerance of 5 mm
                 # Bent elbows hold the hands about 0.1 m ahead of the shoulders on average.
-                products.append((foot - hip) * (get_along("Hand " + side) - get_along("Upper arm " + side) - 0.1))
+                swing_m = get_ahead_m("Hand " + side) - get_ahead_m("Upper arm " + side) - 0.1
+                products.append((foot - hip) * swing_m)
         self.assertLess(sum(products), 0.0)
 
     def test_keys_are_finite_and_rotations_are_of_unit_length(self):
@@ -169,6 +172,7 @@ class Walk(Courtyard):
             self.assertTrue(all(math.isfinite(value) for row in rows for value in row))
             if path == "rotation":
                 self.assertTrue(all(abs(math.hypot(*row) - 1.0) < 1e-6 for row in rows))
+                # Neighbouring keys are not of opposite sign.
                 self.assertTrue(all(sum(map(lambda p, q: p * q, a, b)) > 0.0 for a, b in zip(rows, rows[1:])))
         rotating = paths["rotation", "LINEAR"] + paths["rotation", "STEP"]
         self.assertEqual(sorted(rotating), sorted(self.skin["joints"]))
@@ -226,6 +230,8 @@ class Flag(Courtyard):
 
 
 class Checks(unittest.TestCase):
+    """Tests of the writer of animations and of gltf_pose, on which the tests above depend."""
+
     def test_a_channel_with_too_few_values_or_times_that_fall_is_refused(self):
         document = gltf_writer.Document(1.0)
         for times, values, interpolation, text in (
@@ -238,14 +244,20 @@ class Checks(unittest.TestCase):
                 gltf_animation.add_animation(document, "broken", [channel])
 
     def test_interpolation_is_that_of_the_specification(self):
+        # Half of a rotation by 180 degrees about the y axis.
         half = math.sqrt(0.5)
-        turned = gltf_pose.interpolate([0.0, 2.0], [(0.0, 0.0, 0.0, 1.0), (0.0, -1.0, 0.0, 0.0)], "LINEAR", True, 1.0)
+        rotations = [(0.0, 0.0, 0.0, 1.0), (0.0, -1.0, 0.0, 0.0)]
+        turned = gltf_pose.interpolate([0.0, 2.0], rotations, "LINEAR", is_rotation=True, time=1.0)
         self.assertAlmostEqual(abs(turned[1]), half)
         self.assertAlmostEqual(abs(turned[3]), half)
         rows = [(0.0,), (1.0,), (2.0,), (2.0,), (5.0,), (0.0,)]  # the line 1 + 2 t has the tangent 2 everywhere
-        self.assertAlmostEqual(gltf_pose.interpolate([0.0, 2.0], rows, "CUBICSPLINE", False, 0.5)[0], 2.0)
-        self.assertEqual(gltf_pose.interpolate([0.0, 2.0], [(3.0,), (4.0,)], "STEP", False, 1.9), (3.0,))
-        self.assertEqual(gltf_pose.interpolate([0.0, 2.0], [(3.0,), (4.0,)], "LINEAR", False, 1.0), (3.5,))
+        value = gltf_pose.interpolate([0.0, 2.0], rows, "CUBICSPLINE", is_rotation=False, time=0.5)
+        self.assertAlmostEqual(value[0], 2.0)
+        rows = [(3.0,), (4.0,)]
+        value = gltf_pose.interpolate([0.0, 2.0], rows, "STEP", is_rotation=False, time=1.9)
+        self.assertEqual(value, (3.0,))
+        value = gltf_pose.interpolate([0.0, 2.0], rows, "LINEAR", is_rotation=False, time=1.0)
+        self.assertEqual(value, (3.5,))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,8 @@ import make_package_meshes  # noqa: E402
 import package_files  # noqa: E402
 from project_scenes import list_project_scenes  # noqa: E402
 
+# In OBJ. The third face has texture coordinates. The fourth has negative indices, which count from
+# the last vertex.
 TETRAHEDRON = "v 0 0 0\nv 4 0 0\nv 0 0 4\nv 0 8 0\nf 1 2 3\nf 1 4 2\nf 1/1 3/2 4/3\nf -3 -1 -2\n"
 
 
@@ -77,6 +79,7 @@ class PackageMeshes(unittest.TestCase):
         self.assertEqual(len(lines), len(failed))
         for name, line in zip(failed, lines):
             self.assertTrue(line.startswith("ERROR: package mesh %s (" % name), line)
+        # The folder is made with the first scene that is written.
         self.assertEqual("good" in failed, not os.path.isdir(self.folder))
 
     def test_a_package_that_is_not_installed_is_named(self):
@@ -111,6 +114,7 @@ class PackageMeshes(unittest.TestCase):
 
     def test_duplicate_faces_stay_and_degenerate_ones_are_removed(self):
         points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (2.0, 0.0, 0.0)]
+        # The last two have no area: three points on a line, and a corner that occurs twice.
         mesh = make_package_meshes.make_creased_mesh(points, [(0, 1, 2), (0, 1, 2), (0, 2, 1), (0, 1, 3), (0, 0, 1)])
         self.assertEqual(len(mesh.triangles), 3)
         mesh.check("doubled")

@@ -20,7 +20,7 @@ printf '%s\\n' "$@" > "$(dirname "$0")/arguments"
 
 class RunDemo(unittest.TestCase):
     def run_script(self, *arguments, fails=False):
-        """Run the script with a stand-in for the program. Return (finished process, arguments that the program got)."""
+        """Run the script with PROGRAM as gnomon. Return (finished process, PROGRAM's arguments)."""
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "gnomon")
             with open(program, "w", encoding="utf-8") as file:
@@ -48,7 +48,7 @@ class RunDemo(unittest.TestCase):
         names = {os.path.splitext(os.path.basename(path))[0] for path in list_project_scenes()}
         self.assertLessEqual(set(self.get_value(received, "--scenes").split(",")), names)
 
-    def test_all_measures_every_scene_and_level(self):
+    def test_all_measures_every_scene_and_setting(self):
         _, received = self.run_script("--all", "--skip", "package_*")
         self.assertNotIn("--scenes", received)
         self.assertNotIn("--settings", received)

@@ -101,7 +101,7 @@ class StudyNumbers(unittest.TestCase):
                 node = find_node(scene, "Light")
                 self.assertEqual(node["translation"], [4.4, 3.9, 2.6] if is_terrain else [1.8, 6.0, 1.2])
                 self.assertLess(distance_from_axis(node, (0.0, 0.1 if is_terrain else 0.4, 0.0)), 1e-7)
-                tangent = 0.85 if is_terrain else 0.95
+                tangent = 0.85 if is_terrain else 0.95  # of the cone's half-angle
                 self.assertAlmostEqual(light["spot"]["outerConeAngle"], math.atan(tangent), places=8)
                 extras = dict(light["extras"])
                 self.assertEqual(extras, {"light_size": 0.4, "shadow_enabled": True})
@@ -119,7 +119,7 @@ class StudyNumbers(unittest.TestCase):
             "contact_box": {"Box": 12, "Ground": 12},
             "torus_knot": {"Knot": 30000, "Ground": 12},
             "clutter": {"Leaves": 3600, "Trunk": 12, "Ground": 12},
-            "terrain": {"Terrain": 45000 + 1200 + 600},
+            "terrain": {"Terrain": 45000 + 1200 + 600},  # surface, skirt and floor
             "open_sheets": {"Cloth": 1152, "Leaning sheet": 2, "Standing sheet": 2, "Ground": 12},
         }
         for name, expected in counts.items():
@@ -147,7 +147,7 @@ class MeshCheck(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "not closed"):
             box.check("box")
 
-    def test_one_turned_face_is_refused(self):
+    def test_one_face_of_opposite_winding_is_refused(self):
         box = shapes.make_box((1.0, 1.0, 1.0))
         box.triangles[0] = tuple(reversed(box.triangles[0]))
         with self.assertRaisesRegex(ValueError, "one direction"):

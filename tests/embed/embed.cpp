@@ -2,9 +2,10 @@
 // scene, mesh_tools, render_graph, a rendering device, shadows and one technique; doc/embedding.md
 // walks through it.
 //
-//     gnomon_embed OUT.f32                      draws its own depth and takes normals from it
-//     gnomon_embed OUT.f32 DEPTH.f32 NORMAL.u32 reads the depth and normals that `gnomon visibility
-//     --surfaces` wrote
+//     gnomon_embed OUT.f32
+//         draws its own depth, from which a pass of the shadows derives the normals
+//     gnomon_embed OUT.f32 DEPTH.f32 NORMAL.u32
+//         reads the depth and normals that `gnomon visibility --surfaces` wrote
 //
 // OUT.f32: the light's visibility in each pixel, rows from the top; -1 where there is no receiver.
 
@@ -76,7 +77,7 @@ RGTexture add_depth_pass(
 	const PipelineRID pipeline = r_shadows.get_device().get_raster_pipeline(desc);
 	const LightView camera = make_camera_view(p_scene.camera, SIZE_PX);
 	r_graph.add_pass("depth")
-			.depth(depth, LoadOp::CLEAR, 0.0f)
+			.depth(depth, LoadOp::CLEAR, /*p_clear=*/0.0f) // the background
 			.execute([=, &r_shadows, &p_scene](PassContext &p_context) {
 				p_context.commands.bind_pipeline(pipeline);
 				for (const InstanceSnapshot &instance : p_scene.instances) {
@@ -95,9 +96,11 @@ RGTexture add_depth_pass(
 /// Loads raw texels that another program drew. Throws Error if they are not SIZE_PX texels.
 OwnedTexture load_texture(RenderingDevice &r_device, const char *p_path, Format p_format) {
 	const std::vector<uint8_t> texels = load_file(p_path);
-	if (texels.size() != size_t(SIZE_PX.x) * SIZE_PX.y * get_texel_size_bytes(p_format)) {
-		fail("\"", p_path, "\" has ", texels.size(), " bytes, must be of ", SIZE_PX.x, "x",
-				SIZE_PX.y, " pixels. Write it with --size ", SIZE_PX.x, "x", SIZE_PX.y, ".");
+	const size_t size_bytes = size_t(SIZE_PX.x) * SIZE_PX.y * get_texel_size_bytes(p_format);
+	if (texels.size() != size_bytes) {
+		fail("\"", p_path, "\" has ", texels.size(), " bytes, must have ", size_bytes,
+				". Write it with gnomon visibility --surfaces --size ", SIZE_PX.x, "x", SIZE_PX.y,
+				".");
 	}
 	return { r_device,
 		r_device.create_texture_with_data(
@@ -110,8 +113,8 @@ void run(const char *p_out, const char *p_depth, const char *p_normals) {
 	const std::unique_ptr<RenderingDevice> device = create_rendering_device(device_options);
 	TransientPool transients(*device);
 	ShadowSystem shadows(*device); // one for all frames
-	OwnedTexture drawn_depth;
-	OwnedTexture drawn_normals;
+	OwnedTexture loaded_depth;
+	OwnedTexture loaded_normals;
 
 	// One frame.
 	const std::shared_ptr<const SceneSnapshot> scene = make_snapshot();
@@ -120,12 +123,12 @@ void run(const char *p_out, const char *p_depth, const char *p_normals) {
 	ShadowFrame frame(shadows, graph, plan, scene, SIZE_PX);
 	HostSurfaces surfaces;
 	if (p_depth != nullptr) {
-		drawn_depth = load_texture(*device, p_depth, Format::D32_SFLOAT);
-		drawn_normals = load_texture(*device, p_normals, Format::R32_UINT);
+		loaded_depth = load_texture(*device, p_depth, Format::D32_SFLOAT);
+		loaded_normals = load_texture(*device, p_normals, Format::R32_UINT);
 		surfaces.depth =
-				graph.import_texture(drawn_depth.get(), RenderGraph::ImportedContent::PRESERVED);
+				graph.import_texture(loaded_depth.get(), RenderGraph::ImportedContent::PRESERVED);
 		surfaces.geometric_normal =
-				graph.import_texture(drawn_normals.get(), RenderGraph::ImportedContent::PRESERVED);
+				graph.import_texture(loaded_normals.get(), RenderGraph::ImportedContent::PRESERVED);
 	} else {
 		surfaces.depth = add_depth_pass(graph, shadows, *scene);
 	}
@@ -156,9 +159,9 @@ int main(int p_argument_count, char **p_arguments) {
 	int result = 1;
 	initialize_shadow_edge_count_module(ModuleLevel::FEATURES);
 	try {
-		const bool is_drawn = p_argument_count == 4;
-		run(p_arguments[1], is_drawn ? p_arguments[2] : nullptr,
-				is_drawn ? p_arguments[3] : nullptr);
+		const bool has_surfaces = p_argument_count == 4;
+		run(p_arguments[1], has_surfaces ? p_arguments[2] : nullptr,
+				has_surfaces ? p_arguments[3] : nullptr);
 		result = get_validation_message_count() == 0 ? 0 : 1;
 	} catch (const std::exception &error) {
 		log_error(describe_failure(error));

@@ -1,5 +1,6 @@
 // fuzz: modules=core sources=modules/rendering_device_vulkan/pipeline_cache_header.cpp
-// Parses arbitrary bytes as a file of the cache, and as pipeline cache data of a driver.
+// Parses arbitrary bytes as a cache file (build_cache_entry), and as a driver's pipeline cache
+// data.
 #include "modules/core/files.h"
 #include "modules/rendering_device_vulkan/pipeline_cache_header.h"
 
@@ -12,7 +13,7 @@ using namespace gnomon;
 namespace {
 
 /// The device whose pipeline caches the corpus contains.
-const VkPhysicalDeviceProperties DEVICE_PROPERTIES = { .vendorID = 0x10005,
+const VkPhysicalDeviceProperties DEVICE_PROPERTIES = { .vendorID = 0x10005, // Mesa
 	.pipelineCacheUUID = { 'G', 'N', 'O', 'M', 'O', 'N' } };
 
 /// Checks that data of DEVICE_PROPERTIES is refused for devices that differ from it in one bit.
@@ -39,10 +40,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		const std::span<const uint8_t> bytes(p_data, p_size);
 		const std::vector<uint8_t> entry = build_cache_entry(bytes);
 		const auto payload = parse_cache_entry(entry);
-		GNOMON_ASSERT(payload && std::ranges::equal(*payload, bytes), "not what was stored");
+		GNOMON_ASSERT(
+				payload && std::ranges::equal(*payload, bytes), "other bytes than were stored");
 		if (const auto stored = parse_cache_entry(bytes)) {
 			GNOMON_ASSERT(std::ranges::equal(build_cache_entry(*stored), bytes),
-					"an entry that is never written is accepted");
+					"accepted an entry that build_cache_entry does not build");
 		}
 		if (is_pipeline_cache_of(bytes, DEVICE_PROPERTIES)) {
 			check_other_devices(bytes);

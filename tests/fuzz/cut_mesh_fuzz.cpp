@@ -1,6 +1,6 @@
 // fuzz: modules=scene
-// Reads arbitrary bytes as a mesh and a material whose image cuts it, and cuts the mesh. build_cut
-// of make_seeds.py writes the same format.
+// Reads arbitrary bytes as a mesh and a material whose image cuts holes into it, and cuts the mesh.
+// build_cut of make_seeds.py writes the same format.
 #include "modules/scene/cut_mesh.h"
 
 #include "tests/fuzz/fuzz_target.h"
@@ -19,12 +19,12 @@ const uint32_t MAX_TEXELS_PER_SIDE = 24;
 const uint32_t MAX_VERTEX_COUNT = 32;
 const uint32_t MAX_TRIANGLE_COUNT = 32;
 const uint32_t MIN_EDGE_COUNT = 4; // smallest budget of outline edges
-// A triangle of the mesh overlaps at most so many parts of a clamped texture plane, or tiles next
-// to those that it covers.
+// With clamping, a triangle of the mesh overlaps at most 3 x 3 parts of the texture plane (image,
+// sides, corners). With repetition, it overlaps at most so many tiles beyond those that it covers.
 const uint64_t MAX_OVERLAPPED_PARTS = 9;
-// Budgets count edges of outlines, those beside a long, thin triangle only as a quarter
+// Budgets count the edges of outlines; along a long, thin triangle of the mesh, four count as one
 // (LONG_TILES_PER_TILE of outlined_texture.cpp). The three sides of a mesh triangle cut a triangle
-// of an outline into up to four, and also split its uncut neighbours.
+// of an outline into up to four, and their points also divide uncut neighbours.
 const uint64_t MAX_TRIANGLES_PER_EDGE = 32;
 
 /// Reads values from the front of the input, and zeros after its end.
@@ -68,7 +68,7 @@ Material read_material(InputReader &r_input) {
 }
 
 std::shared_ptr<const Mesh> read_mesh(InputReader &r_input) {
-	const bool has_uvs = r_input.read_index(4) != 0; // more often than not
+	const bool has_uvs = r_input.read_index(4) != 0; // three times out of four
 	const bool has_colors = r_input.read_index(2) != 0;
 	const uint32_t vertex_count = 1 + r_input.read_index(MAX_VERTEX_COUNT);
 	const uint32_t triangle_count = 1 + r_input.read_index(MAX_TRIANGLE_COUNT);
@@ -153,6 +153,7 @@ void check_cut(const std::shared_ptr<const Mesh> &p_mesh, const Mesh &p_cut,
 				p_cut.positions_node.size());
 	}
 	for (const glm::vec3 &position : p_cut.positions_node) {
+		// A sum could overflow; 0 times infinity or NaN is NaN.
 		GNOMON_ASSERT(std::isfinite(position.x + 0.0 * position.y + 0.0 * position.z),
 				"a position is not finite");
 	}
@@ -178,15 +179,15 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		InputReader input(p_data, p_size);
 		Material material = read_material(input);
 		OutlineBudget budget;
-		budget.edges_per_tile = MIN_EDGE_COUNT << input.read_index(9);
-		budget.edges_per_mesh = MIN_EDGE_COUNT << input.read_index(13);
+		budget.edges_per_tile = MIN_EDGE_COUNT << input.read_index(9);	// 4..1024
+		budget.edges_per_mesh = MIN_EDGE_COUNT << input.read_index(13); // 4..16384
 		const auto mesh = read_mesh(input);
 		material.base_color_texture.image = read_image(input);
 		std::shared_ptr<const Mesh> cut;
 		try {
 			cut = cut_mesh(mesh, material, budget).mesh;
 		} catch (const Error &error) {
-			GNOMON_ASSERT(false, "a mesh cannot be cut: ", error.what());
+			GNOMON_ASSERT(false, "cutting a valid mesh failed: ", error.what());
 		}
 		if (cut && cut != mesh) {
 			check_cut(mesh, *cut, budget);

@@ -19,10 +19,12 @@ import sys
 
 import seed_images
 
-COMPONENT_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
-INDEX_FORMATS = {5121: "B", 5123: "<H", 5125: "<I"}
+# componentType of glTF.
+BYTE, UNSIGNED_BYTE, SHORT, UNSIGNED_SHORT, UNSIGNED_INT, FLOAT = 5120, 5121, 5122, 5123, 5125, 5126
+COMPONENT_BYTES = {BYTE: 1, UNSIGNED_BYTE: 1, SHORT: 2, UNSIGNED_SHORT: 2, UNSIGNED_INT: 4, FLOAT: 4}
+INDEX_FORMATS = {UNSIGNED_BYTE: "B", UNSIGNED_SHORT: "<H", UNSIGNED_INT: "<I"}  # of struct
 TYPE_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-MAX_VERTEX_COUNT = 4
+MAX_VERTEX_COUNT = 4  # of a reduced accessor
 MAX_INDEX_COUNT = 6
 
 
@@ -31,7 +33,7 @@ def read_scene(path):
     with open(path, "rb") as file:
         data = file.read()
     chunk = None
-    if data[:4] == b"glTF":
+    if data[:4] == b"glTF":  # a header of 12 bytes, then the chunks JSON and BIN, each with a header of 8
         length = struct.unpack_from("<I", data, 12)[0]
         chunk = data[20 + length + 8 :]
         data = data[20 : 20 + length]
@@ -122,6 +124,7 @@ def write_scenes(paths, folder):
         write_both(document, packed, os.path.join(folder, os.path.splitext(os.path.basename(path))[0]))
 
 
+# Values of a glTF sampler.
 CLAMP, MIRROR, REPEAT = 33071, 33648, 10497
 NEAREST, LINEAR = 9728, 9729
 MIPMAP_FILTERS = (9984, 9985, 9986, 9987)
@@ -154,8 +157,8 @@ class Card:
         }
         for name, values in floats.items():
             data = b"".join(struct.pack("<%df" % len(value), *value) for value in values)
-            self.primitive["attributes"][name] = self.add_accessor(data, 5126, "VEC%d" % len(values[0]), 4)
-        self.primitive["indices"] = self.add_accessor(struct.pack("<6H", 0, 1, 2, 0, 2, 3), 5123, "SCALAR", 6)
+            self.primitive["attributes"][name] = self.add_accessor(data, FLOAT, "VEC%d" % len(values[0]), 4)
+        self.primitive["indices"] = self.add_accessor(struct.pack("<6H", 0, 1, 2, 0, 2, 3), UNSIGNED_SHORT, "SCALAR", 6)
 
     @property
     def primitive(self):
@@ -242,6 +245,7 @@ def make_card_of(image, media_type):
 
 
 def make_wrong_reference_card():
+    """A card that refers to a sampler, an image and a texture that do not exist."""
     card = make_masked_card()
     card.document["textures"][0]["sampler"] = 99
     card.document["textures"].append({"source": 7})
@@ -251,6 +255,7 @@ def make_wrong_reference_card():
 
 
 def make_card_without_coordinates():
+    """A card whose texture uses a set of coordinates that its mesh lacks, and no sampler."""
     card = make_masked_card()
     card.base_color["texCoord"] = 1
     del card.primitive["attributes"]["TEXCOORD_1"]
@@ -296,56 +301,57 @@ def add_skin(card, joint_sets):
     for number in range(joint_sets):
         joints = struct.pack("<16B", *(0, 1, 0, 1) * corners)
         weights = struct.pack("<16f", *(0.5, 0.25, 0.25, 0) * corners)
-        card.primitive["attributes"]["JOINTS_%d" % number] = card.add_accessor(joints, 5121, "VEC4", corners)
-        card.primitive["attributes"]["WEIGHTS_%d" % number] = card.add_accessor(weights, 5126, "VEC4", corners)
+        card.primitive["attributes"]["JOINTS_%d" % number] = card.add_accessor(joints, UNSIGNED_BYTE, "VEC4", corners)
+        card.primitive["attributes"]["WEIGHTS_%d" % number] = card.add_accessor(weights, FLOAT, "VEC4", corners)
     identity = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
-    inverse_binds = card.add_accessor(struct.pack("<32f", *identity * 2), 5126, "MAT4", 2)
-    card.document["nodes"] += [{"children": [3]}, {"translation": [0, 0.5, 0]}]
+    inverse_binds = card.add_accessor(struct.pack("<32f", *identity * 2), FLOAT, "MAT4", 2)
+    card.document["nodes"] += [{"children": [3]}, {"translation": [0, 0.5, 0]}]  # 2 and 3: the joints
     card.document["scenes"][0]["nodes"].append(2)
     card.document["skins"] = [{"joints": [2, 3], "skeleton": 2, "inverseBindMatrices": inverse_binds}]
     card.document["nodes"][0]["skin"] = 0
 
 
 def add_targets(card):
-    deltas = card.add_accessor(struct.pack("<12f", *(0, 0, 0.5) * 4), 5126, "VEC3", 4)
+    deltas = card.add_accessor(struct.pack("<12f", *(0, 0, 0.5) * 4), FLOAT, "VEC3", 4)
     card.primitive["targets"] = [{"POSITION": deltas, "NORMAL": deltas, "TANGENT": deltas}, {"POSITION": deltas}]
     card.document["meshes"][0]["weights"] = [0.5, 0]
 
 
-def add_animation(card, kind):
+def add_animation(card, interpolation):
     """Animate translation and rotation of node 1, the scale of the last node, and the weights of the mesh's node."""
-    times = card.add_accessor(struct.pack("<2f", 0, 1), 5126, "SCALAR", 2)
-    values_per_key = 3 if kind == "CUBICSPLINE" else 1
+    times = card.add_accessor(struct.pack("<2f", 0, 1), FLOAT, "SCALAR", 2)
+    values_per_key = 3 if interpolation == "CUBICSPLINE" else 1
     samplers, channels = [], []
     last = len(card.document["nodes"]) - 1
-    shapes = {"translation": (1, "VEC3", 3), "rotation": (1, "VEC4", 4), "scale": (last, "VEC3", 3), "weights": (0, "SCALAR", 2)}
-    for path, (node, shape, width) in shapes.items():
+    # path: (node, type of the accessor, floats per value)
+    targets = {"translation": (1, "VEC3", 3), "rotation": (1, "VEC4", 4), "scale": (last, "VEC3", 3), "weights": (0, "SCALAR", 2)}
+    for path, (node, kind, width) in targets.items():
         values = [0.5 + 0.25 * index for index in range(2 * values_per_key * width)]
-        count = len(values) // (1 if shape == "SCALAR" else width)
-        output = card.add_accessor(struct.pack("<%df" % len(values), *values), 5126, shape, count)
-        samplers.append({"input": times, "output": output, "interpolation": kind})
+        count = len(values) // (1 if kind == "SCALAR" else width)
+        output = card.add_accessor(struct.pack("<%df" % len(values), *values), FLOAT, kind, count)
+        samplers.append({"input": times, "output": output, "interpolation": interpolation})
         channels.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
     card.document["animations"] = [{"name": "Move", "samplers": samplers, "channels": channels}]
 
 
-def make_moved_card(joint_sets, has_targets, kind):
+def make_moved_card(joint_sets, has_targets, interpolation):
     card = make_masked_card()
     if joint_sets:
         add_skin(card, joint_sets)
     if has_targets:
         add_targets(card)
-    add_animation(card, kind)
+    add_animation(card, interpolation)
     return card
 
 
 def write_motion(folder):
     cards = {
-        "motion_skin": make_moved_card(1, False, "LINEAR"),
-        "motion_skin_of_eight": make_moved_card(2, True, "CUBICSPLINE"),
-        "motion_targets": make_moved_card(0, True, "STEP"),
-        "motion_weights_without_targets": make_moved_card(0, False, "LINEAR"),
+        "motion_skin": make_moved_card(joint_sets=1, has_targets=False, interpolation="LINEAR"),
+        "motion_skin_of_eight": make_moved_card(joint_sets=2, has_targets=True, interpolation="CUBICSPLINE"),
+        "motion_targets": make_moved_card(joint_sets=0, has_targets=True, interpolation="STEP"),
+        "motion_weights_without_targets": make_moved_card(joint_sets=0, has_targets=False, interpolation="LINEAR"),
     }
-    pointer = make_moved_card(1, True, "LINEAR")
+    pointer = make_moved_card(joint_sets=1, has_targets=True, interpolation="LINEAR")
     pointer.document["animations"][0]["channels"][0]["target"] = {
         "path": "pointer",
         "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/0/scale"}},
@@ -356,20 +362,24 @@ def write_motion(folder):
 
 
 IDENTITY = (1, 0, 0, 1, 0, 0)
-WRAPS = {"clamp": 0, "repeat": 1, "mirror": 2}
-MIN_EDGE_COUNT = 4
+WRAPS = {"clamp": 0, "repeat": 1, "mirror": 2}  # TextureWrap of modules/scene/texture.h
+MIN_EDGE_COUNT = 4  # as in cut_mesh_fuzz.cpp
 
 
 def build_cut(uvs, positions=None, alphas=None, size=(8, 8), texels=None, wraps=("repeat", "repeat"), nearest=False,
         blend=False, cutoff=0.5, alpha=1.0, transform=IDENTITY, edges=(1024, 16384)):  # fmt: skip
-    """Return an input of cut_mesh_fuzz.cpp. The corners of its triangles are the vertices in their order."""
+    """Return an input of cut_mesh_fuzz.cpp. The corners of its triangles are the vertices in their order.
+
+    alphas: of the vertices. texels: alphas of the image; by default they grow with the distance from texel (3, 4).
+    alpha: of the material. edges: the budget of a tile and of the mesh.
+    """
     count = len(uvs) // 3 * 3
     positions = positions or [(float(i % 3 == 1), float(i % 3 == 2), float(i // 3)) for i in range(count)]
     texels = texels or [min(255, 31 * abs(x - 3) + 31 * abs(y - 4)) for y in range(size[1]) for x in range(size[0])]
-    data = bytes([blend, WRAPS[wraps[0]], WRAPS[wraps[1]], nearest, 0])
+    data = bytes([blend, WRAPS[wraps[0]], WRAPS[wraps[1]], nearest, 0])  # 0: the first set of coordinates
     data += struct.pack("<8f", cutoff, alpha, *transform)
     data += bytes([(most // MIN_EDGE_COUNT).bit_length() - 1 for most in edges])
-    data += bytes([1, alphas is not None, count - 1, count // 3 - 1])
+    data += bytes([1, alphas is not None, count - 1, count // 3 - 1])  # 1: with texture coordinates
     for index in range(count):
         data += struct.pack("<5f", *positions[index], *uvs[index])
         data += struct.pack("<f", alphas[index]) if alphas else b""

@@ -16,12 +16,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 				{ std::vector<std::string>{}, { "one" }, { "one", "two" } }) {
 			const std::string after = Project::replace_disabled_modules(before, names, path);
 			const Project again = Project::parse(after, path);
-			GNOMON_ASSERT(again.disabled_modules == names, "the list became another: ", after);
+			GNOMON_ASSERT(again.disabled_modules == names, "another list was read back: ", after);
 			GNOMON_ASSERT(again.name == project.name && again.defaults == project.defaults &&
 							again.start_scene == project.start_scene &&
 							again.technique_settings == project.technique_settings &&
 							again.missing_scenes == project.missing_scenes,
-					"the list changed more than itself: ", after);
+					"replacing the list changed other values: ", after);
 		}
 	});
 }

@@ -4,7 +4,7 @@
     replay_corpus.py SUFFIX        of bin/replay_<target>.SUFFIX, as scons names it: release_address_undefined
 
 A target that is not built is skipped with a message. A target without a corpus fails. The last line is
-"N passed, N failed, N skipped" and counts inputs.
+"N passed, N failed, N skipped" and counts inputs; a skipped target, or one that fails as a whole, counts as one.
 """
 
 import os
@@ -19,7 +19,7 @@ def main():
     if len(sys.argv) != 2:
         print("ERROR: usage: replay_corpus.py SUFFIX", file=sys.stderr)
         return 2
-    totals = [0, 0, 0]
+    totals = [0, 0, 0]  # passed, failed, skipped
     for target in fuzz_targets.find_targets():
         program = os.path.join(fuzz_targets.ROOT, "bin", "replay_%s.%s" % (target.name, sys.argv[1]))
         if not os.path.isfile(program):

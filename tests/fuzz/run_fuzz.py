@@ -21,7 +21,7 @@ import fuzz_targets
 MAX_INPUT_BYTES = 1 << 16
 LIMIT_S = 10  # of one input, unless --limit-s is given
 MEMORY_MIB = 2048
-GRACE_S = 120  # after its time is over a target is killed if it has not ended
+GRACE_S = 120  # a target that runs so much longer than its time is killed
 
 
 def run_target(target, seconds, limit_s):
@@ -47,7 +47,7 @@ def run_target(target, seconds, limit_s):
                 command, stdout=output, stderr=subprocess.STDOUT, check=False, timeout=seconds + GRACE_S
             ).returncode
         except subprocess.TimeoutExpired:
-            status = "no end"
+            status = "a timeout after %d s" % (seconds + GRACE_S)
     with open(log, encoding="utf-8", errors="replace") as file:
         lines = file.read().splitlines()
     runs = [line.split()[-1] for line in lines if line.startswith("stat::number_of_executed_units")]
@@ -69,9 +69,12 @@ def main():
     arguments = parser.parse_args()
     targets = fuzz_targets.find_targets()
     unknown = sorted(set(arguments.targets) - {target.name for target in targets})
-    if unknown or min(arguments.seconds, arguments.jobs, arguments.limit_s) < 1:
+    if unknown:
         names = ", ".join(target.name for target in targets)
-        parser.error("seconds, jobs and limit must be above 0, targets some of %s" % names)
+        parser.error("there is no target %s; targets: %s" % (", ".join(unknown), names))
+    if min(arguments.seconds, arguments.jobs, arguments.limit_s) < 1:
+        numbers = (arguments.seconds, arguments.jobs, arguments.limit_s)
+        parser.error("--seconds is %d, --jobs %d, --limit-s %d; each must be at least 1" % numbers)
     requested = [target for target in targets if not arguments.targets or target.name in arguments.targets]
     passed = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:

@@ -1,4 +1,4 @@
-"""Small images of every kind that a glTF file may name, whole, cut short and of the wrong kind, as bytes."""
+"""Small images, as bytes: PNG and JPEG, valid and truncated, and animated PNG, GIF and WebP."""
 
 import struct
 import zlib
@@ -35,7 +35,7 @@ def make_leaf_png():
 def make_animated_png():
     """An animated PNG of two frames. Readers without support for it show the first frame."""
     alphas = [255, 0, 128, 64]
-    control = struct.pack(">IIIIHHBB", 2, 2, 0, 0, 1, 10, 0, 0)
+    control = struct.pack(">IIIIHHBB", 2, 2, 0, 0, 1, 10, 0, 0)  # size, offset, delay of 1/10 s, disposal, blending
     before = build_chunk(b"acTL", struct.pack(">II", 2, 0)) + build_chunk(b"fcTL", struct.pack(">I", 0) + control)
     after = build_chunk(b"fcTL", struct.pack(">I", 1) + control)
     after += build_chunk(b"fdAT", struct.pack(">I", 2) + pack_rows(2, 2, alphas[::-1]))
@@ -65,12 +65,12 @@ def make_jpeg(component_count=3):
     scan = bytes([component_count]) + b"".join(bytes((i, 0)) for i in components) + bytes((0, 63, 0))
     return (
         b"\xff\xd8"
-        + build_segment(0xDB, b"\0" + 64 * b"\1")
-        + build_segment(0xC0, frame)
-        + build_segment(0xC4, b"\x00" + one_code)
+        + build_segment(0xDB, b"\0" + 64 * b"\1")  # DQT: the quantization table
+        + build_segment(0xC0, frame)  # SOF0
+        + build_segment(0xC4, b"\x00" + one_code)  # DHT: the Huffman tables of DC and AC
         + build_segment(0xC4, b"\x10" + one_code)
-        + build_segment(0xDA, scan)
-        + bytes([0xFF >> 2 * component_count])
+        + build_segment(0xDA, scan)  # SOS
+        + bytes([0xFF >> 2 * component_count])  # two zeros per component, padded by ones
         + b"\xff\xd9"
     )
 
@@ -82,8 +82,8 @@ def make_truncated_jpeg():
 
 def make_animated_gif():
     """Two frames of one texel."""
-    pixel = b"\x2c" + struct.pack("<HHHHB", 0, 0, 1, 1, 0) + b"\x02\x02\x44\x01\x00"
-    control = b"\x21\xf9\x04\x04\x0a\x00\x00\x00"
+    pixel = b"\x2c" + struct.pack("<HHHHB", 0, 0, 1, 1, 0) + b"\x02\x02\x44\x01\x00"  # offset, size, LZW data
+    control = b"\x21\xf9\x04\x04\x0a\x00\x00\x00"  # a delay of 1/10 s
     loop = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
     header = b"GIF89a" + struct.pack("<HHBBB", 1, 1, 0x80, 0, 0) + b"\xff\0\0\0\xff\0"
     return header + loop + control + pixel + control + pixel + b"\x3b"
@@ -91,5 +91,6 @@ def make_animated_gif():
 
 def make_animated_webp():
     """Return the header of an animated WebP, without any frame."""
+    # VP8X: its size, the flag of an animation, and a canvas of 8 x 8 as 24-bit numbers, minus 1. ANIM: size, background, loops.
     body = b"WEBPVP8X" + struct.pack("<IIHBHB", 10, 0x02, 7, 0, 7, 0) + b"ANIM" + struct.pack("<IIH", 6, 0, 0)
     return b"RIFF" + struct.pack("<I", len(body)) + body

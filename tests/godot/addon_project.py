@@ -13,6 +13,7 @@ SOURCES = os.path.join(ROOT, "tests", "godot", "addon")
 
 
 def write():
+    """Write the project from scratch, with the tests in res://tests."""
     shutil.rmtree(FOLDER, ignore_errors=True)
     shutil.copytree(godot_project.PROJECT, FOLDER, ignore=shutil.ignore_patterns(".godot"))
     shutil.copytree(SOURCES, os.path.join(FOLDER, "tests"))

@@ -37,8 +37,9 @@ binary_format/architecture="x86_64"
 """
 EXPORTED = os.path.join(FOLDER, "exported")
 MAX_RMSE = 0.006
-SAMPLES = 1024
+SAMPLES = 1024  # of the light, in the reference
 MIN_LIGHT = 0.02  # pixels where the light adds less are not compared
+# Messages about the missing add-on.
 MISSING = re.compile(r"GnomonShadow3D|gnomon\.gdextension|addons/gnomon")
 
 
@@ -144,7 +145,7 @@ def main():
         check("the exported game shows the same", same, "exported.png and game.png differ")
     else:
         print("SKIPPED: $GODOT_TEMPLATE names no release template, no game is exported")
-        skipped = 2
+        skipped = 2  # the checks of the exported game
     shutil.rmtree(os.path.join(FOLDER, "addons"))
     os.remove(os.path.join(FOLDER, ".godot", "extension_list.cfg"))
     output = run_game("without")

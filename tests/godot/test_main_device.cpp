@@ -14,7 +14,8 @@ void use_main_device(MaskFixture &r_fixture) {
 	r_fixture.transients.reset();
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
 	r_fixture.device =
-			TestDevice(new GodotDevice(server.get_rendering_device(), GodotDevice::Kind::MAIN), {});
+			TestDevice(new GodotDevice(server.get_rendering_device(), GodotDevice::Kind::MAIN),
+					TestDeviceDeleter());
 	r_fixture.transients = std::make_unique<TransientPool>(*r_fixture.device);
 	r_fixture.shadows = std::make_unique<ShadowSystem>(*r_fixture.device);
 }
@@ -53,7 +54,7 @@ TEST_CASE("[GPU][Godot] a texture of Godot is drawn into, and stays Godot's") {
 	std::vector<uint8_t> bytes;
 	add_readback(graph, target, bytes);
 	graph.execute(RenderGraph::Mode::WAIT);
-	REQUIRE(bytes.size() == 2 * 64);
+	REQUIRE(bytes.size() == 2 * 64); // 8 x 8 half floats
 	CHECK(glm::unpackHalf1x16(uint16_t(bytes[0] | bytes[1] << 8)) == 0.25f);
 	device.free(imported);
 	const std::vector<std::string> alive = list_live_resources(device);

@@ -34,6 +34,8 @@ CUT_OUT_LIGHTS = [("leaves", "Spot"), ("courtyard", "Sun"), ("courtyard", "Lamp"
 # Whole frames of the 30 in a second to which Godot's importer resamples cubic splines.
 WALK_TIMES = ("0.7", "2.2", "3.6", "5.1")
 WALK_LIGHTS = [("courtyard", "%s@%s" % (light, time)) for light in ("Sun", "Lamp") for time in WALK_TIMES]
+# Cases of study/runner.gd: 3 lights x 4 casters x 4 techniques, 3 of three_lights, 6 untuned ones, and 11 cut-out ones x 2
+# techniques.
 CASE_COUNT = 79
 OUT = os.path.join(ROOT, "build", "godot_masks")
 FILES = os.path.join(OUT, "files")
@@ -100,7 +102,7 @@ def check_case(light, caster, technique):
     if both < SIZE * SIZE / 4 or shadowed < 100:
         problem = "%d receivers, %d in shadow: not the study scene" % (both, shadowed)
     elif equal < min_equal * both or outline > MAX_OUTLINE_FRACTION * both:
-        problem = "%d of %d receivers differ, %d pixels have one in one alone" % (both - equal, both, outline)
+        problem = "%d of %d receivers differ, %d pixels are receivers in only one mask" % (both - equal, both, outline)
     if problem:
         save_images(name, found, expected)
     return problem

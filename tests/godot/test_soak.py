@@ -28,7 +28,7 @@ PROCESS_GROWTH = 1.1  # allowed factor of the process's memory, which the alloca
 
 def find_growth(reports):
     """Return a message for each count that is higher at the end than after SETTLED frames, and for memory of the process
-    that is more than PROCESS_GROWTH times as much."""
+    that is more than PROCESS_GROWTH times as much. reports: the numbers of each line of soak_report.gd."""
     settled = [report for report in reports if report[0] >= SETTLED]
     first, last = settled[0], settled[-1]
     grown = []

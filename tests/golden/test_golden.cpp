@@ -206,7 +206,7 @@ void check_golden(RenderFixture &r_fixture, const GoldenFile &p_golden) {
 			100 * compute_differing_share(expected, actual, settings.max_difference),
 			" % of the pixels differ by more than ", settings.max_difference, "/255, allowed are ",
 			100 * settings.max_pixel_share, " %. Compare ", FAILURE_FOLDER, "/", stem,
-			".*.png; if the change is meant, run tests/golden/update.sh ", p_golden.scene, " ",
+			".*.png; if the change is intended, run tests/golden/update.sh ", p_golden.scene, " ",
 			p_golden.id, ".");
 	FAIL_CHECK(message);
 }
@@ -243,27 +243,27 @@ TEST_CASE("[GPU][Golden] canary: a light that moved by its own radius changes th
 	const GoldenImage before = render_image(fixture, *scene, id, settings);
 	CHECK(is_equal_enough(before, render_image(fixture, *scene, id, settings), settings));
 	Light3D &light = *scene->find_nodes<Light3D>().at(0);
-	light.parent_from_node[3].x += 0.4;
+	light.parent_from_node[3].x += 0.4; // its light_size in the scene file
 	CHECK_FALSE(is_equal_enough(before, render_image(fixture, *scene, id, settings), settings));
 }
 
 TEST_CASE("[Golden] canary: a changed image is noticed, and only beyond the tolerance") {
 	const GoldenSettings settings; // 5/255, 0.1 %
 	const GoldenImage expected = { glm::uvec2(100), std::vector<uint8_t>(30000, 100) };
-	const auto change = [&](size_t p_pixel_count, uint8_t p_value) {
+	const auto is_accepted = [&](size_t p_pixel_count, uint8_t p_value) {
 		GoldenImage changed = expected;
 		for (size_t pixel = 0; pixel < p_pixel_count; ++pixel) {
 			changed.pixels[3 * pixel + 1] = p_value; // one channel is enough
 		}
 		return is_equal_enough(expected, changed, settings);
 	};
-	CHECK(change(0, 0));
-	CHECK(change(10000, 105));
-	CHECK(change(10000, 95));
-	CHECK_FALSE(change(10000, 106));
-	CHECK_FALSE(change(10000, 94));
-	CHECK(change(10, 255));
-	CHECK_FALSE(change(11, 255));
+	CHECK(is_accepted(0, 0));
+	CHECK(is_accepted(10000, 105)); // all pixels differ by 5
+	CHECK(is_accepted(10000, 95));
+	CHECK_FALSE(is_accepted(10000, 106));
+	CHECK_FALSE(is_accepted(10000, 94));
+	CHECK(is_accepted(10, 255)); // 0.1 % of the pixels
+	CHECK_FALSE(is_accepted(11, 255));
 	GoldenImage smaller = expected;
 	smaller.size_px = { 50, 200 };
 	CHECK_FALSE(is_equal_enough(expected, smaller, settings));

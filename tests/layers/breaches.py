@@ -8,6 +8,7 @@ MODULE_CONFIG = "def get_dependencies():\n    return %r\n\n\ndef get_layer():\n 
 
 
 def add_file(root, path, text):
+    """Append the text to a file, which is created if it does not exist."""
     path = os.path.join(root, path)
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "a", encoding="utf-8") as file:
@@ -51,15 +52,16 @@ def make_small_tree(root):
     add_file(root, "doc/index.md", "lamp_fan\n")
     add_file(root, "SConstruct", "\n")
     add_file(root, ".gitignore", "/bin/\n*.pyc\n__pycache__/\n")
-    add_file(root, "bin/gnomon", "not looked at")
+    add_file(root, "bin/gnomon", "ignored, see .gitignore")
 
 
-def break_config(root, name, dependencies, layer):
+def replace_config(root, name, dependencies, layer):
     os.remove(os.path.join(root, "modules", name, "config.py"))
     add_file(root, "modules/%s/config.py" % name, MODULE_CONFIG % (dependencies, layer))
 
 
-def add_filter(root):
+def add_named_filter(root):
+    """Add a mask filter, and name it in the renderer."""
     text = 'MaskFilterRegistry::add({ "mist", "x", [] { return std::make_unique<Mist>(); } });\n'
     add_module(root, "receiver_mist", ["core", "renderer"], 4)
     add_file(root, "modules/receiver_mist/register_types.cpp", text)
@@ -77,11 +79,11 @@ BREACHES = (
     ("an include with brackets and blanks", "check_listed_dependencies",
      lambda root: add_file(root, "modules/scene/light.h", "  #  include <modules/main/register_types.h>\n")),
     ("a dependency on a higher layer", "check_layers",
-     lambda root: break_config(root, "scene", ["core", "renderer"], 1)),
+     lambda root: replace_config(root, "scene", ["core", "renderer"], 1)),
     ("a technique that lists another technique", "check_layers",
-     lambda root: break_config(root, "shadow_lamp", ["renderer", "shadow_moon"], 4)),
+     lambda root: replace_config(root, "shadow_lamp", ["renderer", "shadow_moon"], 4)),
     ("a dependency that does not exist", "check_layers",
-     lambda root: break_config(root, "shadow_lamp", ["renderer", "gone"], 4)),
+     lambda root: replace_config(root, "shadow_lamp", ["renderer", "gone"], 4)),
     ("Vulkan in the renderer", "check_vulkan",
      lambda root: add_file(root, "modules/renderer/a.cpp", "#include <vulkan/vulkan_raii.hpp>\n")),
     ("Godot's interface in the renderer", "check_godot",
@@ -92,27 +94,27 @@ BREACHES = (
      lambda root: add_file(root, "modules/main/window.cpp", "#include <vulkan/vulkan_core.h>\n")),
     ("Vulkan in a test", "check_vulkan",
      lambda root: add_file(root, "tests/a.cpp", '#include "vulkan.h"\n')),
-    ("Vulkan in the interface", "check_vulkan",
+    ("Vulkan in rendering_device", "check_vulkan",
      lambda root: add_file(root, "modules/rendering_device/a.h", "#include <vulkan/vulkan_core.h>\n")),
     ("a backend in a technique", "check_backends",
      lambda root: add_file(root, "modules/shadow_moon/a.cpp", '#include "modules/rendering_device_vulkan/a.h"\n')),
     ("a backend in main", "check_backends",
      lambda root: add_file(root, "modules/main/a.cpp", '#include "modules/rendering_device_vulkan/a.h"\n')),
     ("a technique that lists a backend", "check_backends",
-     lambda root: break_config(root, "shadow_moon", ["core", "renderer", "rendering_device_vulkan"], 4)),
+     lambda root: replace_config(root, "shadow_moon", ["core", "renderer", "rendering_device_vulkan"], 4)),
     ("the device's testing header in the renderer", "check_test_headers",
      lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device/tests/testing.h"\n')),
-    ("the device's testing header in the interface", "check_test_headers",
+    ("the device's testing header in rendering_device itself", "check_test_headers",
      lambda root: add_file(root, "modules/rendering_device/a.h", '#include "modules/rendering_device/tests/testing.h"\n')),
     ("GLFW in the renderer", "check_window_library",
      lambda root: add_file(root, "modules/renderer/a.cpp", "#include <GLFW/glfw3.h>\n")),
-    ("mesh_tools on the device", "check_modules_without_device",
-     lambda root: break_config(root, "mesh_tools", ["core", "rendering_device"], 2)),
-    ("mesh_tools on the device by way of the renderer", "check_modules_without_device",
-     lambda root: break_config(root, "mesh_tools", ["core", "renderer"], 4)),
+    ("mesh_tools that depends on the device", "check_modules_without_device",
+     lambda root: replace_config(root, "mesh_tools", ["core", "rendering_device"], 2)),
+    ("mesh_tools that depends on the device through the renderer", "check_modules_without_device",
+     lambda root: replace_config(root, "mesh_tools", ["core", "renderer"], 4)),
     ("an id of a mask filter in the renderer", "check_technique_names",
-     add_filter),
-    ("an id that is no literal", "check_registration_is_readable",
+     add_named_filter),
+    ("an id that is not a literal", "check_registration_is_readable",
      lambda root: add_file(root, "modules/renderer/register_types.cpp", "ShadowRegistry::add(make_info());\n")),
     ("an id in the renderer", "check_technique_names",
      lambda root: add_file(root, "modules/renderer/a.cpp", 'find("moon");\n')),
@@ -138,7 +140,7 @@ BREACHES = (
      lambda root: add_file(root, "tests/helpers.py", "\n")),
     ("a file of 801 lines", "check_file_lengths",
      lambda root: add_file(root, "modules/core/long.cpp", "\n" * 801)),
-    ("a ninth top-level entry", "check_top_level",
+    ("a top-level entry that is not in TOP_LEVEL", "check_top_level",
      lambda root: add_file(root, "tools/a.py", "\n")),
 )  # fmt: skip
 
@@ -152,7 +154,7 @@ def run_self_test(rules, find_breaches):
         found = [line for lines in find_breaches(clean).values() for line in lines]
         if found:
             failed += 1
-            print("FAILED: a tree that keeps the rules is refused:\n\t" + "\n\t".join(found))
+            print("FAILED: a tree that follows every rule is refused:\n\t" + "\n\t".join(found))
         else:
             passed += 1
         for index, (what, rule, break_it) in enumerate(BREACHES):

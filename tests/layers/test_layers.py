@@ -4,7 +4,7 @@
     test_layers.py [--root DIR]    checks the tree; one line for each breach
     test_layers.py --self-test     breaks every rule in copies of a small tree and checks that it is noticed
 
-The last line is "N passed, N failed, N skipped"; a rule counts as one.
+The last line is "N passed, N failed, N skipped", a count of rules, or with --self-test of trees.
 """
 
 import argparse
@@ -17,6 +17,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 TOP_LEVEL = {"SConstruct", "modules", "shaders", "demo_project", "tests", "doc", "README.md", "LICENSE"}
+# A folder below modules/ with these files is a module.
 MODULE_FILES = ("register_types.h", "SCsub", "config.py")
 CPP = (".h", ".cpp")
 SHADERS = (".vert", ".frag", ".geom", ".comp", ".glsl")
@@ -27,10 +28,11 @@ TECHNIQUE_FOLDERS = ("tests/golden/", "tests/benchmark/", "tests/stability/", "t
 WINDOW_OWNERS = ("modules/desktop/", "modules/main/", "modules/editor/")
 WITHOUT_DEVICE = ("scene", "mesh_tools")
 BACKEND = re.compile(r"rendering_device_\w+")
-BACKEND_USERS = ("desktop", "main", "godot_addon")
+BACKEND_USERS = ("desktop", "main", "godot_addon")  # may list a backend
 NOTED_LINES, REFUSED_LINES = 400, 800
 VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+# The first literal of a registration is the id.
 REGISTRATION = re.compile(
     r"(?:(?:Shadow|MaskFilter)Registry::add\s*\(|ShadowTechniqueInfo|MaskFilterInfo)[\s\w=({]*?\"([a-z0-9_]+)\""
 )
@@ -57,6 +59,7 @@ class Tree:
             command = ["git", "-C", self.root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
             names = subprocess.run(command, capture_output=True, check=True).stdout.decode().split("\0")
             return {name for name in names if name and os.path.isfile(os.path.join(self.root, name))}
+        # A copy of the tree that a test made has no .git.
         with open(os.path.join(self.root, ".gitignore"), encoding="utf-8") as file:
             ignored = [line.strip().strip("/") for line in file if line.strip() and not line.startswith("#")]
         found = set()
@@ -64,11 +67,11 @@ class Tree:
             relative = os.path.relpath(folder, self.root)
             prefix = "" if relative == "." else relative.replace(os.sep, "/") + "/"
 
-            def is_tracked(name):
+            def is_not_ignored(name):
                 return not any(fnmatch.fnmatch(prefix + name, p) or fnmatch.fnmatch(name, p) for p in ignored)
 
-            folders[:] = [name for name in folders if is_tracked(name)]
-            found.update(prefix + name for name in names if is_tracked(name))
+            folders[:] = [name for name in folders if is_not_ignored(name)]
+            found.update(prefix + name for name in names if is_not_ignored(name))
         return found
 
     def _load_config(self, name):
@@ -147,7 +150,7 @@ def check_layers(tree):
     for name, config in tree.configs.items():
         for dependency in config["dependencies"]:
             if dependency not in tree.configs:
-                yield "modules/%s/config.py: lists %s, which is no module" % (name, dependency)
+                yield "modules/%s/config.py: lists %s, which is not a module" % (name, dependency)
             elif tree.configs[dependency]["layer"] >= config["layer"]:
                 yield "modules/%s/config.py: layer %d lists %s of layer %d" % (
                     name, config["layer"], dependency, tree.configs[dependency]["layer"])  # fmt: skip
@@ -205,7 +208,7 @@ def check_test_headers(tree):
 
 
 def check_window_library(tree):
-    """Only desktop, main and editor include GLFW: for the window and its key codes."""
+    """Only desktop, main and editor may include GLFW: for the window and its key codes."""
     for path in tree.find_sources(CPP):
         for line, _, name in tree.get_includes(path):
             if re.search(r"GLFW|glfw", name) and not path.startswith(WINDOW_OWNERS):
@@ -213,7 +216,7 @@ def check_window_library(tree):
 
 
 def check_modules_without_device(tree):
-    """scene and mesh_tools are tested without a GPU."""
+    """scene and mesh_tools do not depend on rendering_device, so their tests need no GPU."""
     for name in WITHOUT_DEVICE:
         reached, waiting = set(), [name]
         while waiting:
@@ -294,12 +297,12 @@ def check_top_level(tree):
     """The top level has only the entries of TOP_LEVEL, and hidden ones."""
     files = tree.files
     if os.path.exists(os.path.join(tree.root, ".git")):
-        # What is not committed yet (a custom.py, notes) is the developer's own.
+        # Untracked files (a custom.py, notes) are the developer's own.
         command = ["git", "-C", tree.root, "ls-files", "-z"]
         files = subprocess.run(command, capture_output=True, check=True).stdout.decode().split("\0")
     for name in sorted({path.split("/")[0] for path in files if path}):
         if name not in TOP_LEVEL and not name.startswith("."):
-            yield "%s: is no top-level entry of the layout" % name
+            yield "%s: is not in TOP_LEVEL of test_layers.py; move it into one of its folders" % name
 
 
 RULES = (

@@ -60,9 +60,9 @@ def find_default_technique():
     return best[1], best[2]
 
 
-def list_options(technique):
+def list_options(technique_module):
     """Return (enabled modules, scons options that disable all but the engine and one technique)."""
-    enabled = ENGINE + (technique,)
+    enabled = ENGINE + (technique_module,)
     names = [module.name for module in modules_builders.find_modules(os.path.join(ROOT, "modules"))]
     return enabled, ["module_%s_enabled=no" % name for name in names if name not in enabled]
 
@@ -72,6 +72,8 @@ def run(command, folder):
 
 
 class Results:
+    """Counts checks. Prints those that fail, with the end of the program's output."""
+
     def __init__(self):
         self.passed = 0
         self.failed = 0
@@ -97,7 +99,7 @@ def check_plan(results):
         return set(re.findall(r"(?<![\w/.])(?:build/\w+/)?modules/(\w+)/", text))
 
     used = find_modules(planned.stdout)
-    results.check(used == set(enabled), "it is made of %s; of them not requested: %s" % (sorted(used), sorted(used - set(enabled))))
+    results.check(used == set(enabled), "its modules are %s, expected %s" % (sorted(used), sorted(enabled)))
     # Canary: the full program has more modules, and the same query finds them.
     whole = find_modules(run(command, ROOT).stdout)
     results.check(whole > set(enabled) and "editor" in whole, "the whole program has more modules, found %s" % sorted(whole))
@@ -116,6 +118,7 @@ def check_partial_plans(results):
 
 
 def check_partial_programs(target, jobs, results):
+    """Build each of PARTIAL_BUILDS in the folder `target`, and check what works and what is refused."""
     for modules, refused, named, working in PARTIAL_BUILDS:
         print("minimal: build without %s" % ", ".join(modules), flush=True)
         built = build(target, jobs, ["module_%s_enabled=no" % module for module in modules])
@@ -149,9 +152,11 @@ def get_stripped_size(program, folder):
 
 
 def check_program(target, technique, results):
+    """Check the smallest game: it draws with its technique, and refuses what its disabled modules would do."""
     image = os.path.join(target, "image.png")
     arguments = ["run", SCENE, "--headless", "--size", "64x64", "--capture", image, "--plan"]
     drawn = run([PROGRAM] + arguments, target)
+    # A PNG of this size in one colour has about 200 bytes.
     results.check(drawn.returncode == 0 and os.path.getsize(image) > 500, "it draws a scene", drawn.stdout + drawn.stderr)
     results.check("resolve: runs" in drawn.stdout, "its technique runs", drawn.stdout)
     listed = run([PROGRAM, "techniques"], target).stdout
@@ -216,10 +221,10 @@ def check_build(results, jobs, writes_sizes):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Builds the smallest game.")
+    parser = argparse.ArgumentParser(description="Tests builds with disabled modules.")
     parser.add_argument("--plan", action="store_true", help="compile nothing")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
-    parser.add_argument("--write-sizes", action="store_true")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="build jobs (default: one per core)")
+    parser.add_argument("--write-sizes", action="store_true", help="write the table of sizes in doc/getting_started.md")
     arguments = parser.parse_args()
     if shutil.which("scons") is None:
         raise SystemExit("ERROR: scons is missing. Install it, or run tests/run_tests.sh, which does.")

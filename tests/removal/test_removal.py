@@ -35,7 +35,7 @@ def find_smallest(techniques):
 
 
 def copy_tree(target):
-    """Copy the tracked files in their current state, and the build folder with its modification times."""
+    """Copy the tracked files in their current state, build/release and .sconsign*, with their modification times."""
     names = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, check=True).stdout.decode()
     for name in names.split("\0"):
         source = os.path.join(ROOT, name)
@@ -114,7 +114,7 @@ def main():
     parser = argparse.ArgumentParser(description="Removes techniques and checks that nothing misses them.")
     parser.add_argument("--all", action="store_true", help="every technique module, in turn")
     parser.add_argument("--module", help="this module only")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="build jobs (default: one per core)")
     arguments = parser.parse_args()
     tree = test_layers.Tree(ROOT)
     techniques = {name: ids for name, (ids, _) in tree.find_techniques().items()}

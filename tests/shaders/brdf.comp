@@ -3,6 +3,7 @@
 #include "renderer/brdf_inc.glsl"
 
 // Computes what a surface with its normal along +z reflects from one direction into another.
+// Output: rgb, see reflect_light.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 cases[]; // three per item: material; base colour; angles (rad) of light and viewer, viewer's azimuth

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/sampling_inc.glsl"
 
-// Input: sample index, sample count, rotation (rad), pixel index. Output: xy point in the unit disc, z pixel's noise.
+// Input: sample index, sample count, rotation (rad), pixel index in rows of 256 pixels.
+// Output: xy point in the unit disc, z pixel's noise.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];

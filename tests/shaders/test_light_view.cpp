@@ -8,6 +8,7 @@ using namespace gnomon;
 
 namespace {
 
+/// A light, and its views as C++ and as the shaders see them. w: see LightViewConstants.
 struct LightCase {
 	SceneSnapshot scene;
 	LightSnapshot light;
@@ -26,7 +27,7 @@ struct LightCase {
 		light.outer_cone_rad = static_cast<float>(p_cone_rad);
 		light.world_from_light =
 				glm::dmat3(glm::mat3_cast(glm::normalize(glm::dquat(0.5, -0.6, 0.3, 0.4))));
-		views = build_light_views(light, scene, 512, 1);
+		views = build_light_views(light, scene, /*p_map_size_px=*/512, /*p_border_px=*/1);
 		constants = compute_light_views_constants(light, scene.camera, views);
 	}
 
@@ -46,13 +47,16 @@ struct LightCase {
 	}
 };
 
-/// The cube face that a direction hits, in the order +x -x +y -y +z -z: its largest component.
-uint32_t find_face(const glm::dvec3 &p_r) {
-	const glm::dvec3 size = glm::abs(p_r);
+/// The cube face that a direction in the light's axes hits, in the order +x -x +y -y +z -z: its
+/// largest component.
+uint32_t find_face(const glm::dvec3 &p_direction_light) {
+	const glm::dvec3 size = glm::abs(p_direction_light);
 	const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-	return static_cast<uint32_t>(2 * axis + (p_r[axis] >= 0 ? 0 : 1));
+	return static_cast<uint32_t>(2 * axis + (p_direction_light[axis] >= 0 ? 0 : 1));
 }
 
+/// Compares the shaders with the same formulas in double precision, at random points of random
+/// planes.
 void check_case(KernelFixture &r_fixture, const LightCase &p_case) {
 	TestRandom random;
 	const size_t item_count = 3000;
@@ -88,13 +92,16 @@ void check_case(KernelFixture &r_fixture, const LightCase &p_case) {
 		const glm::dvec4 second(results[3 * index + 1]);
 		const glm::dvec4 slope_texels(results[3 * index + 2]);
 		const uint32_t view_index = static_cast<uint32_t>(first.w);
-		const glm::dvec3 r = glm::transpose(p_case.light.world_from_light) *
+		const glm::dvec3 direction_light = glm::transpose(p_case.light.world_from_light) *
 				(positions[index] - p_case.light.position_world);
-		wrong_view_count += view_index != (p_case.views.size() == 1 ? 0 : find_face(r));
+		wrong_view_count +=
+				view_index != (p_case.views.size() == 1 ? 0 : find_face(direction_light));
 		const LightView &view = p_case.views[view_index];
-		const glm::dvec3 p(view.view_from_world * glm::dvec4(positions[index], 1.0));
-		const double w = view.is_orthographic ? double(view.far_m) - p.z : 1 / p.z;
-		const glm::dvec2 xy = view.is_orthographic ? glm::dvec2(p) : glm::dvec2(p) / p.z;
+		const glm::dvec3 position_view(view.view_from_world * glm::dvec4(positions[index], 1.0));
+		const double z = position_view.z;
+		const double w = view.is_orthographic ? double(view.far_m) - z : 1 / z;
+		const glm::dvec2 xy =
+				view.is_orthographic ? glm::dvec2(position_view) : glm::dvec2(position_view) / z;
 		largest_w_error = std::max(largest_w_error, std::abs(first.z - w) / w);
 		largest_xy_error = std::max(largest_xy_error, glm::distance(glm::dvec2(first), xy));
 		const bool is_outside = glm::any(glm::lessThan(glm::dvec2(slope_texels.z, slope_texels.w),
@@ -114,7 +121,7 @@ void check_case(KernelFixture &r_fixture, const LightCase &p_case) {
 
 } // namespace
 
-TEST_CASE("[GPU][Shaders] w is linear on a plane, and a receiver finds the view that holds it") {
+TEST_CASE("[GPU][Shaders] w is linear on a plane, and a point finds the view that contains it") {
 	KernelFixture fixture;
 	SUBCASE("omni") {
 		check_case(fixture, LightCase(LightType::OMNI));
@@ -130,7 +137,7 @@ TEST_CASE("[GPU][Shaders] w is linear on a plane, and a receiver finds the view 
 	}
 }
 
-TEST_CASE("[GPU][Shaders] a point behind the view has w = 0, a point without a normal no slope") {
+TEST_CASE("[GPU][Shaders] a point behind the view has w = 0, one without a normal has no slope") {
 	KernelFixture fixture;
 	const LightCase light_case(LightType::SPOT);
 	const glm::dmat3 &axes = light_case.light.world_from_light;
@@ -139,14 +146,14 @@ TEST_CASE("[GPU][Shaders] a point behind the view has w = 0, a point without a n
 		return glm::vec4(light_case.scene.to_camera_relative(p_world), 1.0f);
 	};
 	const glm::dvec3 behind = light + axes[2];
-	const glm::dvec3 before = light - axes[2];
+	const glm::dvec3 in_front = light - axes[2];
 	const std::vector<glm::vec4> results =
 			fixture.run_with_constants("light_view.comp", light_case.constants,
 					{ relative(behind), relative(light), glm::vec4(glm::vec3(axes[2]), 0.0f),
-							relative(before), relative(before), glm::vec4(0.0f) },
-					2, 3);
+							relative(in_front), relative(in_front), glm::vec4(0.0f) },
+					/*p_item_count=*/2, /*p_output_per_item=*/3);
 	CHECK(results[0].z == 0.0f);
 	CHECK(std::isfinite(results[1].z)); // at the light: any finite value, but never NaN
-	CHECK(results[3].z == doctest::Approx(1.0).epsilon(1e-5));
-	CHECK(glm::vec2(results[5]) == glm::vec2(0.0f)); // no normal: no slope
+	CHECK(results[3].z == doctest::Approx(1.0).epsilon(1e-5)); // 1 m in front of the light
+	CHECK(glm::vec2(results[5]) == glm::vec2(0.0f));		   // no normal: no slope
 }

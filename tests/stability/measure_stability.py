@@ -34,12 +34,13 @@ def run_report(options):
         arguments.append("--resume")
     with tempfile.TemporaryDirectory() as project:
         make_untuned_project(project)
-        if subprocess.run([PROGRAM, "report", project, *arguments], check=False).returncode not in (0, 1):
-            raise SystemExit("ERROR: gnomon report did not end well.")
+        code = subprocess.run([PROGRAM, "report", project, *arguments], check=False).returncode
+        if code not in (0, 1):  # 1: a cell failed, which the tables mark
+            raise SystemExit("ERROR: gnomon report ended with %d. Its own messages are above." % code)
 
 
 def get_plots(report, light_type):
-    """Return the sweeps of a quantity, which have curves."""
+    """Return the sweeps that vary a quantity, so that the report shows them as curves."""
     return [item for item in report["stability"] if item["light_type"] == light_type and not item["has_cases"]]
 
 
@@ -76,6 +77,7 @@ def build_sweeps(report):
 
 
 def build_breaks(report, light_type):
+    """Build the table of where each technique breaks in each sweep (see describe_break)."""
     plots = get_plots(report, light_type)
     rows = []
     for technique in get_techniques(report):
@@ -147,13 +149,15 @@ def describe_run(report, date):
 
 
 def save_curves(report, folder):
+    """Save screenshots of the report's curves into doc/images. Return the lines that show them."""
     element = "[...document.querySelectorAll('#stability .grid figure')].find((item) => item.querySelector('h3').textContent == '%s')"
     images = {"stability_%s.png" % plot["sweep"]: element % name_sweep(plot) for plot in get_plots(report, "spot")}
     save_images(os.path.join(folder, "index.html"), {**images, "stability_legend.png": "document.getElementById('legend')"})
     names = list(images)
     rows = [names[index : index + 2] for index in range(0, len(names), 2)]
     legend = "![Colours of the techniques](images/stability_legend.png)"
-    return [legend, ""] + [" ".join("![%s](images/%s)" % (name[10:-4].replace("_", " "), name) for name in row) for row in rows]
+    labels = {name: name[len("stability_") : -len(".png")].replace("_", " ") for name in names}
+    return [legend, ""] + [" ".join("![%s](images/%s)" % (labels[name], name) for name in row) for row in rows]
 
 
 def main():

@@ -78,7 +78,7 @@ public:
 			RenderGraph::Mode::QUEUE, RenderGraph::Mode::ONE_BY_ONE };
 		RenderRequest request;
 		request.scene = scene.snap();
-		request.size_px = { 8 + random.choose(41), 8 + random.choose(41) };
+		request.size_px = { 8 + random.choose(41), 8 + random.choose(41) }; // 8..48 each
 		request.may_reuse = random.chance(0.8);
 		request.may_skip = random.chance(0.8);
 		const std::vector<Light3D *> all = lights();
@@ -90,7 +90,7 @@ public:
 			request.wants_image = random.chance(0.5);
 			request.mode = request.wants_image ? RenderGraph::Mode::WAIT : MODES[random.choose(3)];
 			request.debug_view = random.chance(0.3) ? "mask" : "";
-			request.needs_debug_view = false;
+			request.needs_debug_view = false; // without shadow-casting lights there is none
 		}
 		return request;
 	}
@@ -101,6 +101,7 @@ private:
 		return scene.scene.find_nodes<MeshInstance3D>();
 	}
 	LightType random_type() { return static_cast<LightType>(random.choose(3)); }
+	/// Chooses and stores the factor of all lengths.
 	double random_scale() {
 		scale = random.chance(0.7) ? 1.0 : random.chance(0.5) ? 1e-2 : 1e3;
 		return scale;
@@ -115,8 +116,8 @@ private:
 		return { ids.begin(), ids.end() };
 	}
 
-	/// Sets a random technique with few rays, views and texels: the test checks invariants, not
-	/// precision.
+	/// Gives the light a random technique, and all techniques few rays, views and texels: the test
+	/// checks invariants, not precision.
 	void use_cheap_settings(Light3D &r_light) {
 		for (const std::string &id : list_techniques()) {
 			for (const PropertyInfo &property :

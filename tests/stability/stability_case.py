@@ -36,7 +36,10 @@ class StabilityCase(unittest.TestCase):
 
     @classmethod
     def measure(cls, project, samples, *arguments):
-        """Run a report. Set cls.status to its exit code, cls.errors to its stderr, and cls.report and cls.points."""
+        """Run a report with that many reference rays per pixel.
+
+        Set cls.status to its exit code, cls.errors to its stderr, and cls.report and cls.points.
+        """
         out = os.path.join(cls.holder.name, "report")
         result = run_program(
             "report", project, "--sizes", "0.2", "--size", "32x32", "--samples", str(samples), "--scaling", "none",

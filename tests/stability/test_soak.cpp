@@ -68,7 +68,7 @@ struct LiveResources {
 	std::vector<std::string> resources; // sorted
 };
 
-/// Describes which resources were added and removed. Empty if nothing changed.
+/// Describes which resources were added and removed since p_before. Empty if nothing changed.
 std::string describe_difference(const LiveResources &p_before, const LiveResources &p_now) {
 	std::string difference;
 	const auto add = [&](const char *p_what, const LiveResources &p_first,
@@ -80,14 +80,16 @@ std::string describe_difference(const LiveResources &p_before, const LiveResourc
 			difference += text(p_what, " ", name, "; ");
 		}
 	};
-	add("more:", p_now, p_before);
-	add("less:", p_before, p_now);
+	add("added:", p_now, p_before);
+	add("removed:", p_before, p_now);
 	if (p_before.used_bytes != p_now.used_bytes) {
-		difference += text(p_now.used_bytes, " bytes, before ", p_before.used_bytes);
+		difference +=
+				text("device memory: ", p_now.used_bytes, " bytes, before ", p_before.used_bytes);
 	}
 	return difference;
 }
 
+/// Draws random scenes with one device and one renderer, and checks every frame.
 class Soak {
 public:
 	explicit Soak(uint32_t p_seed) : seed(p_seed), random(p_seed) {
@@ -181,6 +183,7 @@ private:
 		return measure();
 	}
 
+	/// Enables or disables a random module.
 	void switch_module() {
 		std::vector<std::string> names;
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
@@ -200,8 +203,8 @@ private:
 		CAPTURE(request.size_px.y);
 		CAPTURE(request.mask_light);
 		CAPTURE(request.technique_override);
-		const bool runs_out = random.chance(0.02);
-		if (runs_out) {
+		const bool runs_out_of_memory = random.chance(0.02);
+		if (runs_out_of_memory) {
 			inject_fault(*device, "out_of_memory");
 			CHECK_THROWS_AS(renderer->render(request), std::bad_alloc);
 			return;
@@ -212,7 +215,8 @@ private:
 			for (const glm::vec3 &color : result.colors) {
 				if (!(glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f))) &&
 							glm::all(glm::lessThanEqual(color, glm::vec3(1.0f))))) {
-					FAIL_CHECK("a mask's colour is ", color.x, ", ", color.y, ", ", color.z);
+					FAIL_CHECK("a mask's colour is ", color.x, ", ", color.y, ", ", color.z,
+							"; each must be 0..1");
 					break;
 				}
 			}
@@ -233,14 +237,13 @@ private:
 	std::unique_ptr<Renderer> renderer;
 	std::unique_ptr<RandomScene> scene;
 	LiveResources device_resources; // of the device alone
-	LiveResources idle_resources;
+	LiveResources idle_resources;	// of the device and a renderer that drew only empty scenes
 	const unsigned message_count = get_validation_message_count();
 };
 
 } // namespace
 
-TEST_CASE(
-		"[GPU][Soak] scenes that change at random leave nothing behind and no mask out of range") {
+TEST_CASE("[GPU][Soak] randomly changing scenes leak no resources, and all masks are in 0..1") {
 	const uint32_t seed = get_number("GNOMON_SOAK_SEED", 20100901);
 	CAPTURE(seed);
 	Soak soak(seed);

@@ -1,6 +1,7 @@
-"""Merged, open, doubled and third-party meshes: every technique draws them with each type of light, and none fails.
+"""Merged, open, duplicated and third-party meshes: every technique draws them with each type of light, and none fails.
 
-STABILITY_EXTENT=full takes all scenes, those of a second seed, and all techniques. Otherwise some of them are taken.
+STABILITY_EXTENT=full measures all scenes, those of a second seed too, with all techniques. Otherwise
+two package meshes, the generated scenes of one seed and four techniques are measured.
 """
 
 import json
@@ -16,7 +17,7 @@ SECOND_SEED = 7
 ROPE_COUNT = 1000
 QUICK_PACKAGE_MESHES = ("jeep", "regr01")
 QUICK_TECHNIQUES = ("shadow_map", "pcss", "shadow_volume", "edge_count")
-# Techniques for area lights have a penumbra MAE of 0.03 to 0.13 on these scenes; a hard shadow has 0.18 to 0.3, and so
+# These have a penumbra MAE of 0.03 to 0.13 on these scenes; a hard shadow has 0.18 to 0.3, and so
 # have masks that lack parts of the mesh.
 SOFT_TECHNIQUES = ("pcss", "views")
 MAX_SOFT_MAE = 0.16
@@ -65,7 +66,8 @@ class UntunedMeshes(StabilityCase):
                     self.assertLess(cell["stability"]["wrong_share"], MAX_WRONG_FRACTION)
 
     def test_edge_count_has_no_wrong_receivers_among_a_thousand_ropes(self):
-        # A tile of pixels has so many edges that its lists would exceed llvmpipe's limit of loop iterations.
+        # A tile of pixels has so many edges that building its lists would exceed llvmpipe's limit of loop
+        # iterations ("Too many edges" in doc/techniques/edge_count.md).
         folder = os.path.join(self.holder.name, "ropes")
         os.mkdir(folder)
         scene = save_artist_scene("rigging", DEFAULT_SEED, ROPE_COUNT, "rigging", folder)

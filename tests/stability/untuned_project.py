@@ -1,4 +1,4 @@
-"""A project whose report draws merged, open, doubled and third-party meshes in its stability sweep "scenes".
+"""A project whose report draws merged, open, duplicated and third-party meshes in its stability sweep "scenes".
 
 Untuned meshes are held-out test scenes: no technique was tuned with them."""
 

@@ -84,6 +84,7 @@ class AddATechniqueTest(unittest.TestCase):
         self.assertGreater(len(renamed), 0)
 
     def test_its_mask_equals_the_template_s_byte_for_byte(self):
+        # The page's commands computed both masks.
         paths = [os.path.join(self.target, "build", name + ".exr") for name in (self.old_id, self.new_id)]
         self.assertTrue(filecmp.cmp(*paths, shallow=False))
 
@@ -93,6 +94,7 @@ class AddATechniqueTest(unittest.TestCase):
         expected, _ = self.save_mask(self.old_id, "expected.exr", self.old_id + "_strength=0.5")
         self.assertFalse(filecmp.cmp(plain, changed, shallow=False))
         self.assertTrue(filecmp.cmp(expected, changed, shallow=False))
+        # The maximum is 1.
         _, refused = self.save_mask(self.new_id, "refused.exr", self.new_id + "_strength=2")
         self.assertNotEqual(refused.returncode, 0)
         self.assertIn(self.new_id + "_strength", refused.stdout)

@@ -1,5 +1,6 @@
 class_name FrameTimes
 extends RefCounted
+## Measures how long frames take.
 
 const WARM_UP_FRAMES := 10
 

@@ -1,8 +1,8 @@
 @tool
 class_name GltfExport
 extends RefCounted
-## Writes a scene as glTF that `gnomon` reads: Godot's own export, with extras for what glTF lacks: the sizes of lights, and
-## whether a mesh casts shadows.
+## Writes a scene as glTF that `gnomon` reads: Godot's own export, corrected where it is not exact, with extras for what glTF
+## lacks: the sizes of lights, and whether a mesh casts shadows.
 
 
 static func save(root: Node, path: String) -> Error:
@@ -17,7 +17,7 @@ static func save(root: Node, path: String) -> Error:
 	for index in (gltf.nodes as Array).size():
 		_describe_node(gltf, gltf.nodes[index], state.get_scene_node(index) as Node3D)
 	var file := FileAccess.open(path, FileAccess.WRITE)
-	file.store_string(JSON.stringify(gltf, "\t", false, true))
+	file.store_string(JSON.stringify(gltf, "\t", false, true))  # unsorted keys, full precision
 	return OK
 
 

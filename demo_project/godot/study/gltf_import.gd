@@ -1,6 +1,6 @@
 class_name GltfImport
 extends RefCounted
-## Loads glTF files of `gnomon` while the project runs. Their lights get the size that their extras define, and a
+## Loads glTF files that `gnomon` reads while the project runs. Their lights get the size that their extras define, and a
 ## GnomonShadow3D.
 
 
@@ -28,7 +28,8 @@ static func show_time(root: Node3D, seconds: float) -> void:
 
 
 ## Adds mip levels to textures, which GLTFDocument does not do. Without them Godot cuts out other pixels of leaves than `gnomon`.
-## Also makes the names of textures unique. GLTFDocument numbers them, so exports to one folder would overwrite each other's.
+## Also makes the names of textures unique: GLTFDocument only numbers them, so exports of two scenes to one folder would
+## overwrite each other's images.
 static func _finish_textures(root: Node3D, stem: String) -> void:
 	var finished: Array[ImageTexture] = []
 	for node: MeshInstance3D in root.find_children("*", "MeshInstance3D", true, false):
@@ -43,6 +44,7 @@ static func _finish_textures(root: Node3D, stem: String) -> void:
 				texture.set_image(image)
 
 
+## Sets the light's size, by default that of `gnomon`, and adds a GnomonShadow3D.
 static func _add_shadow(light: Light3D, described: Dictionary) -> void:
 	var extras: Dictionary = described.get("extras", {})
 	if light is DirectionalLight3D:

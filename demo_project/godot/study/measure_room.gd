@@ -1,13 +1,14 @@
 extends Node
 ## Measures room/room.tscn with Gnomon's shadows and with Godot's own:
 ##   godot --path demo_project/godot res://study/measure_room.tscn -- out=DIR size=800 frames=20
-## Images at one time, float32 RGB, linear, rows from the top: room_MODE.f32 with all lights (off: without shadows),
+## Images at TIME_S, float32 RGB, linear, rows from the top: room_MODE.f32 with all lights (off: without shadows),
 ## room_dark.f32 without lights, room_only_LIGHT.f32 with one light and no shadow. room.gltf is the scene at that time.
 ## room.json has the lights' names, and by number of lights and mode the median time in milliseconds of a frame in which
 ## everything moves.
 
-const TIME_S := 2.0
-const STEP_S := 1.0 / 30.0
+const TIME_S := 2.0  # of the images
+const STEP_S := 1.0 / 30.0  # between the timed frames
+const SETTLE_FRAMES := 3  # drawn after a change, before the image is read
 const MAX_TEXTURE_FRAMES := 600
 
 var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20"})
@@ -66,12 +67,12 @@ func _wait_for_textures() -> void:
 		await RenderingServer.frame_post_draw
 		if _room.has_textures():
 			return
-	printerr("ERROR: the room's textures were not made in %d frames." % MAX_TEXTURE_FRAMES)
+	printerr("ERROR: the room's textures are not complete after %d frames; its images may be wrong." % MAX_TEXTURE_FRAMES)
 
 
 func _store(what: String) -> void:
 	_room.show_time(TIME_S)
-	for frame in 3:
+	for frame in SETTLE_FRAMES:
 		await RenderingServer.frame_post_draw
 	var image := get_viewport().get_texture().get_image()
 	image.convert(Image.FORMAT_RGBF)

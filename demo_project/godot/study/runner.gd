@@ -7,8 +7,10 @@ extends Node
 ##   PATH.gltf/LIGHT/TECHNIQUE  a light of a glTF file; LIGHT@SECONDS poses the file's animation at that time
 ## It stores the mask LIGHT_CASTER_TECHNIQUE.f32 (float32, rows from the top, -1: no receiver) and the scene LIGHT_CASTER.gltf.
 ## Instead of LIGHT_CASTER, names begin with imported_LIGHT or FILE_LIGHT. Posed scenes are not stored.
-## Without cases= it renders all cases of StudyScene with each of TECHNIQUES, three_lights.tscn and the lights
-## file_lights=PATH.gltf/LIGHT,... with edge_count, and the lights cut_out_lights=PATH.gltf/LIGHT,... with each of CUT_OUT_TECHNIQUES.
+## Without cases= it renders
+##   all cases of StudyScene with each of TECHNIQUES
+##   the lights of three_lights.tscn, and those of file_lights=PATH.gltf/LIGHT,..., with edge_count
+##   the lights of cut_out_lights=PATH.gltf/LIGHT,... with each of CUT_OUT_TECHNIQUES
 
 const IMPORTED := "imported"
 const IMPORTED_LIGHTS: Array[String] = ["Spot", "Omni", "Sun"]

@@ -2,6 +2,8 @@ extends Node
 ## Stores screenshots of three_lights.tscn: the image, and each light's mask.
 ##   godot --path demo_project/godot res://study/screenshots.tscn -- out=DIR size=512
 
+const SETTLE_FRAMES := 3  # drawn after a change, before the image is read
+
 var _options := StudyOptions.new({"out": "res://out", "size": "512"})
 
 
@@ -24,6 +26,6 @@ func _ready() -> void:
 
 
 func _store(file_name: String) -> void:
-	for frame in 3:
+	for frame in SETTLE_FRAMES:
 		await RenderingServer.frame_post_draw
 	get_viewport().get_texture().get_image().save_png(_options.path(file_name))

@@ -4,7 +4,7 @@ extends RefCounted
 
 ## Godot's default, Soft Low, and its best, Soft Ultra: RenderingServer.SHADOW_QUALITY_*.
 const QUALITIES := {"low": RenderingServer.SHADOW_QUALITY_SOFT_LOW, "ultra": RenderingServer.SHADOW_QUALITY_SOFT_ULTRA}
-const ALL: Array[String] = ["off", "low", "ultra", "gnomon"]
+const ALL: Array[String] = ["off", "low", "ultra", "gnomon"]  # "off" first: the other images are divided by its image
 
 
 ## Sets the mode of lights that each have a GnomonShadow3D.

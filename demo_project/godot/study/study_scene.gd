@@ -88,7 +88,8 @@ func add_mesh(node_name: String, mesh: Mesh, mesh_transform: Transform3D) -> Mes
 	return node
 
 
-## Adds a light with a GnomonShadow3D, and sets `light` and `shadow` to them.
+## Adds a light with a GnomonShadow3D, and sets `light` and `shadow` to them. Attenuation 0: light falls off only towards
+## the light's range.
 func add_light(kind: String) -> void:
 	match kind:
 		"omni":

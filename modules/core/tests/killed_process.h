@@ -36,7 +36,8 @@ pid_t start_process(const Prepare &p_prepare, const Work &p_work) {
 	return child;
 }
 
-/// Waits until the process has ended. Returns true if it was killed, false if it exited normally.
+/// Waits until the process has ended. Returns true if SIGKILL ended it; otherwise returns false and
+/// fails the test unless the exit code is 0.
 inline bool wait_for_kill(pid_t p_child) {
 	int status = 0;
 	REQUIRE(::waitpid(p_child, &status, 0) == p_child);

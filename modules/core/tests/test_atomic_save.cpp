@@ -64,20 +64,20 @@ TEST_CASE("[AtomicSave] the clean-up spares files of running processes and unrel
 	const TemporaryFolder folder;
 	const std::string ending(UNFINISHED_FILE_ENDING);
 	const fs::path left_over = folder.path / (".a.abcdef" + ending);
-	const fs::path written = folder.path / (".b.abcdef" + ending);
+	const fs::path locked = folder.path / (".b.abcdef" + ending);
 	const fs::path other = folder.path / ".scene.backup";
-	for (const fs::path &path : { left_over, written, other }) {
+	for (const fs::path &path : { left_over, locked, other }) {
 		std::ofstream(path) << "x";
 	}
-	const int file = ::open(written.c_str(), O_RDWR);
+	const int file = ::open(locked.c_str(), O_RDWR); // as a process that is saving does
 	REQUIRE(::flock(file, LOCK_EX) == 0);
 	remove_left_over_files(folder.path);
 	CHECK_FALSE(fs::exists(left_over));
-	CHECK(fs::exists(written));
+	CHECK(fs::exists(locked));
 	CHECK(fs::exists(other));
 	::close(file);
 	remove_left_over_files(folder.path);
-	CHECK_FALSE(fs::exists(written));
+	CHECK_FALSE(fs::exists(locked));
 	remove_left_over_files(folder.path / "missing"); // a missing folder is not an error
 }
 
@@ -86,10 +86,10 @@ TEST_CASE("[AtomicSave] a save killed at a random time leaves the complete old o
 	const fs::path file = folder.path / "a";
 	const std::string first = make_content('a');
 	const std::string second = make_content('b', 3 * LARGE_BYTES);
-	// Not save_file_atomically: it cleans up a folder once, and the child processes would inherit
-	// that this one is done.
+	// Without save_file_atomically: it removes leftovers only before its first save into a folder,
+	// and the forked child processes would inherit that this folder was cleaned up.
 	std::ofstream(file) << first;
-	std::mt19937 random(20100901);
+	std::mt19937 random(20100901); // fixed seed: every run uses the same times
 	std::uniform_int_distribution<int> choose_us(0, 30000);
 	const int kill_count = get_kill_count(10);
 	for (int index = 0; index < kill_count; ++index) {
@@ -117,7 +117,7 @@ TEST_CASE("[AtomicSave] a cache entry whose write was killed is either complete 
 					CHECK((found.empty() || found == after));
 					fs::remove(cache.path / "entry");
 				});
-		CHECK(kill_count == 6);
+		CHECK(kill_count == 6); // created, three chunks, synced, renamed
 	}
 	SUBCASE("with an earlier entry") {
 		save_cache_entry("entry", before);

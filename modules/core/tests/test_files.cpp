@@ -12,27 +12,27 @@ using namespace gnomon;
 namespace fs = std::filesystem;
 
 TEST_CASE("[Files] an atomic save replaces the whole file and leaves no other file next to it") {
-	const TemporaryCache folder;
+	const TemporaryFolder folder;
 	save_file_atomically(folder.path / "a.txt", "first");
 	save_file_atomically(folder.path / "a.txt", "second");
 	CHECK(load_text_file(folder.path / "a.txt") == "second");
 	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
-TEST_CASE("[Files] saving to an unwritable location is an error and creates no file") {
+TEST_CASE("[Files] saving into a missing folder or over a folder is an error and creates no file") {
 	CHECK_THROWS_AS(save_file_atomically("/nonexistent_gnomon/a.txt", "x"), Error);
-	const TemporaryCache folder;
+	const TemporaryFolder folder;
 	fs::create_directory(folder.path / "taken");
 	CHECK_THROWS_AS(save_file_atomically(folder.path / "taken", "x"), Error);
 	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
 TEST_CASE("[Files] loading a missing file, a folder or a file over the limit is an error") {
-	const TemporaryCache folder;
+	const TemporaryFolder folder;
 	CHECK_THROWS_AS(load_file(folder.path / "missing"), Error);
 	CHECK_THROWS_AS(load_file(folder.path), Error);
 	save_file_atomically(folder.path / "a.txt", "four");
-	CHECK_THROWS_AS(load_file(folder.path / "a.txt", 3), Error);
+	CHECK_THROWS_AS(load_file(folder.path / "a.txt", /*p_limit_bytes=*/3), Error);
 }
 
 TEST_CASE("[Files] a path that leaves the folder through .. is not inside it") {
@@ -55,7 +55,7 @@ TEST_CASE("[Files] a damaged cache entry is detected and removed") {
 		stream.put(9);
 	}
 	SUBCASE("cut short") {
-		fs::resize_file(folder.path / "entry", 11);
+		fs::resize_file(folder.path / "entry", 11); // within the header of 24 bytes
 	}
 	SUBCASE("empty") {
 		fs::resize_file(folder.path / "entry", 0);

@@ -7,7 +7,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[ModuleRegistry] dependencies come before the modules that need them") {
+TEST_CASE("[ModuleRegistry] every module comes after its dependencies and has a description") {
 	std::vector<std::string> seen;
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		for (const std::string &dependency : module.dependencies) {

@@ -11,7 +11,7 @@ namespace {
 
 PropertyInfo make_width() {
 	return { "penumbra_outer_width", PropertyType::FLOAT, -1, "0,10000,0.001", "Width.", "m",
-		"Shadow", "-1" };
+		"Shadow", /*special=*/"-1" };
 }
 
 } // namespace
@@ -86,13 +86,14 @@ TEST_CASE("[Property] replacing a declaration keeps its position in the list") {
 	PropertyList list;
 	list.add({ "first", PropertyType::STRING, "", "", "One of several." });
 	list.add({ "second", PropertyType::BOOL, true, "", "Another one." });
-	list.replace({ "first", PropertyType::ENUM, {}, ",a,b", "A choice now." });
+	list.replace({ "first", PropertyType::ENUM, /*default_value=*/{}, ",a,b", "A choice now." });
 	CHECK(list.get_properties().at(0).type == PropertyType::ENUM);
 	CHECK(get_choices(*list.find("first")) == std::vector<std::string>{ "", "a", "b" });
 	CHECK(std::get<std::string>(list.find("first")->default_value).empty());
 }
 
-TEST_CASE("[Property] whole numbers that a double cannot represent are refused") {
+TEST_CASE(
+		"[Property] an INT of magnitude above 2^53 - 1, where a double skips numbers, is refused") {
 	const PropertyInfo count = { "count", PropertyType::INT, 0, "", "Count." };
 	CHECK(std::get<int64_t>(parse_property(count, "9007199254740991", "x")) == 9007199254740991);
 	CHECK(std::get<int64_t>(parse_property(count, "-12e3", "x")) == -12000);

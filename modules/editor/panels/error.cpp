@@ -1,3 +1,5 @@
+// The tab "Error": the mask of the active light compared with its reference.
+
 #include "modules/editor/editor_context.h"
 
 #include "shared/heat_map_shared.h"

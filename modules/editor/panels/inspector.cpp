@@ -1,3 +1,5 @@
+// The panel "Inspector": the properties of the selected node.
+
 #include "modules/core/error.h"
 #include "modules/editor/editor_context.h"
 #include "modules/scene/node_properties.h"
@@ -62,10 +64,10 @@ private:
 	}
 
 	bool draw_whole_number() {
-		const PropertyRange range = get_range(info);
-		// The limits of a property without a range, 1e30, do not fit an int64_t.
 		// Per pixel of a drag. The default step, 0.01, would need 100 pixels for the next number.
 		const float MIN_SPEED = 0.2f;
+		const PropertyRange range = get_range(info);
+		// The limits of a property without a range, 1e30, do not fit an int64_t.
 		return drag_number<int64_t>(ImGuiDataType_S64, "%lld", "",
 				std::max(float(range.step), MIN_SPEED),
 				static_cast<int64_t>(std::max(range.minimum, -1e15)),
@@ -189,7 +191,7 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	const bool is_changed = PropertyEditor(r_context, p_info, value).draw();
 	r_context.record_item_rect("property " + p_info.name);
 	if (is_changed) {
-		r_edit = { true, p_info.name, value, ImGui::IsItemActive() };
+		r_edit = { /*is_requested=*/true, p_info.name, value, ImGui::IsItemActive() };
 	}
 	r_edit.ends_drag |= ImGui::IsItemDeactivated() || ImGui::IsMouseReleased(ImGuiMouseButton_Left);
 	ImGui::TableNextColumn();
@@ -197,7 +199,7 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	ImGui::TableNextColumn();
 	if (is_node_property_set(p_node, p_info.name)) {
 		if (ImGui::SmallButton("x")) {
-			r_edit = { true, p_info.name, std::nullopt };
+			r_edit = { /*is_requested=*/true, p_info.name, std::nullopt };
 		}
 		if (ImGui::IsItemHovered()) {
 			ImGui::SetTooltip(

@@ -1,3 +1,5 @@
+// The tab "Messages": errors and warnings.
+
 #include "modules/core/text.h"
 #include "modules/editor/editor_context.h"
 

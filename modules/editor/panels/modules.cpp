@@ -1,3 +1,5 @@
+// The tab "Modules": switches modules on and off.
+
 #include "modules/core/module_registry.h"
 #include "modules/editor/editor_context.h"
 

@@ -1,3 +1,5 @@
+// The tabs "Frame plan" and "Passes": the passes of the last image, and their times.
+
 #include "modules/editor/editor_context.h"
 
 #include <imgui.h>

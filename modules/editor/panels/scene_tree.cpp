@@ -1,3 +1,5 @@
+// The panel "Scene": the tree of nodes.
+
 #include "modules/editor/editor_context.h"
 
 #include <imgui.h>
@@ -59,7 +61,7 @@ void draw_node(EditorContext &r_context, Node3D &r_node) {
 	if (ImGui::IsItemClicked()) {
 		r_context.document.select(is_root ? nullptr : &r_node);
 	}
-	if (!is_root && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
+	if (!is_root && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
 		renaming.begin(r_node);
 	}
 	ImGui::SameLine();

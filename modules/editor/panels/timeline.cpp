@@ -1,3 +1,5 @@
+// The panel "Timeline", which chooses and plays an animation of the scene.
+
 #include "modules/core/text.h"
 #include "modules/editor/editor_context.h"
 
@@ -13,7 +15,7 @@ namespace {
 
 const double MAX_SPEED = 10;
 
-/// Shows a tooltip for the last drawn widget, above it so that it does not cover its value. Hidden
+/// Shows a tooltip above the last drawn widget, so that the widget's value stays visible. Hidden
 /// while the widget is dragged.
 void show_tooltip(const std::string &p_text) {
 	if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive()) {
@@ -135,11 +137,12 @@ void draw_timeline(EditorContext &r_context) {
 		draw_animations(r_context);
 		ImGui::SameLine();
 		const ImGuiStyle &style = ImGui::GetStyle();
-		const float rest = 4.0f * ImGui::GetFontSize() + ImGui::GetFrameHeight() +
+		const float speed_width = 4.0f * ImGui::GetFontSize() + ImGui::GetFrameHeight() +
 				ImGui::CalcTextSize("loop").x + 2.0f * style.ItemSpacing.x +
 				style.ItemInnerSpacing.x;
 		draw_time(r_context,
-				std::max(ImGui::GetContentRegionAvail().x - rest, 4.0f * ImGui::GetFontSize()));
+				std::max(ImGui::GetContentRegionAvail().x - speed_width,
+						4.0f * ImGui::GetFontSize()));
 		ImGui::SameLine();
 		draw_speed(r_context);
 	}

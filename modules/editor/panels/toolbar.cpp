@@ -1,3 +1,5 @@
+// The toolbar above the other panels, and the status bar below them.
+
 #include "modules/core/text.h"
 #include "modules/editor/editor_context.h"
 

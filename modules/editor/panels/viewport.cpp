@@ -1,3 +1,5 @@
+// The panel "Viewport": the image with its overlays, the camera's controls, and the choice of view.
+
 #include "modules/editor/panels/viewport_gizmos.h"
 #include "modules/shadows/shadow_registry.h"
 
@@ -17,6 +19,7 @@ const double FLIGHT_DISTANCES_PER_SECOND = 0.8; // in distances to the pivot
 /// Moves the camera while W, A, S, D, Q or E is pressed; four times as fast with Shift.
 void fly(ViewportState &r_viewport) {
 	const ImGuiIO &io = ImGui::GetIO();
+	// The key codes are GLFW's, which are ASCII for letters.
 	const auto is_down = [&](int p_letter) { return io.KeysDown[p_letter] ? 1.0 : 0.0; };
 	const glm::dvec3 direction(
 			is_down('D') - is_down('A'), is_down('E') - is_down('Q'), is_down('S') - is_down('W'));
@@ -80,6 +83,7 @@ void draw_choices(EditorContext &r_context) {
 			choose(viewport.debug_view, id, id.c_str());
 			has_error |= id == "error";
 		}
+		// Choosing it starts the tracing of the reference, which makes the view available.
 		if (!has_error && ShadowRegistry::find_reference() != nullptr) {
 			choose(viewport.debug_view, "error", "error");
 		}
@@ -160,10 +164,11 @@ void draw_line_handle(EditorContext &r_context, ImVec2 p_top_left, ImVec2 p_size
 	if (r_context.compared_image == nullptr) {
 		return;
 	}
-	const float half = 5.0f;
+	const float half_width_px = 5.0f;
 	float &fraction = r_context.viewport.divider_position;
-	ImGui::SetCursorScreenPos(ImVec2(p_top_left.x + fraction * p_size.x - half, p_top_left.y));
-	ImGui::InvisibleButton("line", ImVec2(2.0f * half, p_size.y));
+	ImGui::SetCursorScreenPos(
+			ImVec2(p_top_left.x + fraction * p_size.x - half_width_px, p_top_left.y));
+	ImGui::InvisibleButton("line", ImVec2(2.0f * half_width_px, p_size.y));
 	ImGui::SetItemAllowOverlap();
 	r_context.record_item_rect("line");
 	if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {

@@ -9,6 +9,7 @@ namespace gnomon {
 namespace {
 
 const ImU32 SELECTED_COLOR = IM_COL32(255, 200, 60, 255);
+const ImU32 FILL_COLOR = IM_COL32(255, 200, 60, 50); // as SELECTED_COLOR, but transparent
 const ImU32 MARK_COLOR = IM_COL32(230, 230, 230, 200);
 const ImU32 OUTER_COLOR = IM_COL32(255, 150, 40, 230);
 const ImU32 INNER_COLOR = IM_COL32(70, 150, 255, 230);
@@ -19,7 +20,7 @@ double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
 		const std::optional<ImVec2> &p_center, const ImVec2 &p_handle) {
 	const ImGuiIO &io = ImGui::GetIO();
 	const glm::dvec2 moved(io.MouseDelta.x, io.MouseDelta.y);
-	// For a shorter line, whose direction is inaccurate, moving right increases the radius.
+	// A shorter line has no exact direction: a movement to the right increases the radius then.
 	const double MIN_LENGTH_PX = 4.0;
 	const glm::dvec2 direction = p_center
 			? glm::dvec2(p_handle.x - p_center->x, p_handle.y - p_center->y)
@@ -42,7 +43,7 @@ void draw_mark(ImDrawList &r_list, const ImVec2 &p_position, bool p_is_light, Im
 	}
 	r_list.AddCircleFilled(p_position, radius, p_color);
 	for (int ray = 0; ray < 8; ++ray) {
-		const float angle = 0.785398f * float(ray);
+		const float angle = 0.785398f * float(ray); // radians, 45 degrees per ray
 		const ImVec2 direction(std::cos(angle), std::sin(angle));
 		r_list.AddLine(ImVec2(p_position.x + 1.4f * radius * direction.x,
 							   p_position.y + 1.4f * radius * direction.y),
@@ -80,10 +81,10 @@ void draw_node_marks(EditorContext &r_context, const ViewportProjection &p_proje
 	};
 	const Scene &scene = r_context.document.get_scene();
 	for (Light3D *light : scene.find_nodes<Light3D>()) {
-		draw(*light, true);
+		draw(*light, /*p_is_light=*/true);
 	}
 	for (Camera3D *camera : scene.find_nodes<Camera3D>()) {
-		draw(*camera, false);
+		draw(*camera, /*p_is_light=*/false);
 	}
 	if (clicked != nullptr) {
 		r_context.document.select(clicked);
@@ -123,7 +124,7 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 		std::vector<ImVec2> points;
 		const int SIDES = 64;
 		for (int side = 0; side <= SIDES; ++side) {
-			const double angle = 6.283185307179586 * side / SIDES;
+			const double angle = 6.283185307179586 * side / SIDES; // 2 pi / SIDES per side
 			const glm::dvec3 position = center +
 					gizmo.radius_m *
 							(axes *
@@ -135,22 +136,23 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 		}
 		list.AddPolyline(points.data(), int(points.size()), SELECTED_COLOR, ImDrawFlags_None, 2.0f);
 		if (gizmo.is_filled) {
-			list.AddConvexPolyFilled(points.data(), int(points.size()), IM_COL32(255, 200, 60, 50));
+			list.AddConvexPolyFilled(points.data(), int(points.size()), FILL_COLOR);
 		}
 		const std::optional<ImVec2> handle =
 				p_projection.project(center + gizmo.radius_m * (axes * gizmo.axis_x));
 		if (gizmo.property.empty() || !handle) {
 			continue;
 		}
-		const float half = 7.0f;
+		const float handle_radius_px = 7.0f;
 		const ImGuiID id = ImGui::GetID(gizmo.property.c_str());
 		if (id != r_context.dragged_handle && !p_projection.is_inside(*handle)) {
 			continue;
 		}
-		list.AddCircleFilled(*handle, half, SELECTED_COLOR);
-		ImGui::SetCursorScreenPos(ImVec2(handle->x - half, handle->y - half));
+		list.AddCircleFilled(*handle, handle_radius_px, SELECTED_COLOR);
+		ImGui::SetCursorScreenPos(
+				ImVec2(handle->x - handle_radius_px, handle->y - handle_radius_px));
 		ImGui::PushID(gizmo.property.c_str());
-		ImGui::InvisibleButton("handle", ImVec2(2 * half, 2 * half));
+		ImGui::InvisibleButton("handle", ImVec2(2 * handle_radius_px, 2 * handle_radius_px));
 		r_context.record_item_rect("handle " + gizmo.property);
 		ImGui::SetItemAllowOverlap();
 		r_context.dragged_handle = ImGui::IsItemActive() ? id
@@ -166,8 +168,9 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 					*handle);
 			const double value =
 					std::max(gizmo.value + (radius_m - gizmo.radius_m) * gizmo.value_per_m, 0.0);
-			r_context.attempt(
-					[&] { r_context.document.set_property(*node, gizmo.property, value, true); });
+			r_context.attempt([&] {
+				r_context.document.set_property(*node, gizmo.property, value, /*p_is_drag=*/true);
+			});
 			r_context.viewport.is_moving = true;
 		}
 		if (ImGui::IsItemDeactivated()) {

@@ -34,7 +34,7 @@ Light3D &find_light(EditorDocument &r_document) {
 	return *r_document.get_scene().find_nodes<Light3D>().at(0);
 }
 
-double get_size(EditorDocument &r_document) {
+double get_light_size(EditorDocument &r_document) {
 	return std::get<double>(get_node_property(find_light(r_document), "light_size"));
 }
 
@@ -57,6 +57,7 @@ private:
 	void (*signal_before)(int) = nullptr;
 };
 
+const double INITIAL_LIGHT_SIZE = 0.4; // of the light in contact_box.gltf
 const EditorDocument::Clock::time_point START{};
 const auto LATER = START + 2 * EditorDocument::AUTOSAVE_INTERVAL;
 
@@ -71,10 +72,10 @@ TEST_CASE("[EditorDocument] saving a change leaves the rest of the file unchange
 	CHECK(document.is_changed());
 	document.save();
 	CHECK_FALSE(document.is_changed());
-	CHECK(get_size(document) == 0.75);
+	CHECK(get_light_size(document) == 0.75);
 	EditorDocument again(project.scene);
-	CHECK(get_size(again) == 0.75);
-	again.set_property(find_light(again), "light_size", 0.4);
+	CHECK(get_light_size(again) == 0.75);
+	again.set_property(find_light(again), "light_size", INITIAL_LIGHT_SIZE);
 	again.save();
 	CHECK(load_text_file(project.scene) == before);
 }
@@ -97,21 +98,22 @@ TEST_CASE("[EditorDocument] unsaved changes are autosaved and can be recovered")
 	} // as if the program had ended without saving
 	EditorDocument document(project.path);
 	REQUIRE(document.has_recovery());
-	CHECK(get_size(document) == 0.4);
+	CHECK(get_light_size(document) == INITIAL_LIGHT_SIZE);
 	document.recover();
-	CHECK(get_size(document) == 0.75);
+	CHECK(get_light_size(document) == 0.75);
 	CHECK(document.is_changed());
 	document.save();
 	CHECK_FALSE(document.has_recovery());
-	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+	CHECK(get_light_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
 }
 
 TEST_CASE("[EditorDocument] a kill at any step of saving loses no completed autosave or save") {
 	const EditedProject project;
 	const std::string before = load_text_file(project.scene);
-	// Steps 1 to 4 save the recovery file, 5 to 8 the scene. The ninth run is not killed.
-	const size_t RECOVERY_STEP_COUNT = 4; // created, written, synced, renamed
-	size_t step_count = 0;
+	// Run N is killed after step N. Steps 1 to 4 save the recovery file, 5 to 8 the scene. The
+	// ninth run is not killed.
+	const size_t FILE_STEP_COUNT = 4; // created, written, synced, renamed
+	size_t run = 0;
 	const auto edit = [&] {
 		EditorDocument document(project.path);
 		document.set_property(find_light(document), "light_size", 0.75);
@@ -119,22 +121,22 @@ TEST_CASE("[EditorDocument] a kill at any step of saving loses no completed auto
 		document.save();
 	};
 	const size_t kill_count = kill_at_each_save_step(edit, [&] {
-		++step_count;
+		++run;
 		EditorDocument document(project.path);
 		CHECK(document.get_failure().empty());
-		const bool is_saved = get_size(document) == 0.75;
-		CHECK(document.has_recovery() == (step_count >= RECOVERY_STEP_COUNT && step_count <= 8));
+		const bool is_saved = get_light_size(document) == 0.75;
+		CHECK(document.has_recovery() == (run >= FILE_STEP_COUNT && run <= 2 * FILE_STEP_COUNT));
 		if (document.has_recovery()) {
 			document.recover();
-			CHECK(get_size(document) == 0.75);
+			CHECK(get_light_size(document) == 0.75);
 			document.discard_recovery();
 		} else {
-			CHECK(is_saved == (step_count > 8));
+			CHECK(is_saved == (run > 2 * FILE_STEP_COUNT));
 		}
 		save_file_atomically(project.scene, before);
 		remove_left_over_files(project.path);
 	});
-	CHECK(kill_count == 2 * RECOVERY_STEP_COUNT);
+	CHECK(kill_count == 2 * FILE_STEP_COUNT);
 }
 
 TEST_CASE("[EditorDocument] an earlier session's recovery file stays until it is discarded") {
@@ -165,7 +167,7 @@ TEST_CASE("[EditorDocument] switching a module preserves the project's names of 
 			std::string_view("[project]\nstart_scene=\"contact_box.gltf\"\n[modules]\n"
 							 "disabled=[\"of_another_build\"]\n"));
 	EditorDocument document(project.path);
-	std::string name;
+	std::string name; // of the last one: modules that depend on others come after them
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		name = module.can_disable ? module.name : name;
 	}
@@ -187,13 +189,13 @@ TEST_CASE("[EditorDocument] failing to write or read a file loses no changes") {
 	CHECK_THROWS_AS(document.save_as(project.path / "missing" / "a.gltf"), Error);
 	CHECK(document.is_changed());
 	CHECK(document.get_path().filename() == "contact_box.gltf");
-	CHECK(get_size(document) == 0.75);
+	CHECK(get_light_size(document) == 0.75);
 	save_file_atomically(project.scene, std::string_view("{ broken"));
 	CHECK_THROWS_AS(document.reload(), Error);
-	CHECK(get_size(document) == 0.75);
+	CHECK(get_light_size(document) == 0.75);
 	CHECK(document.get_history().can_undo());
 	document.save(); // overwrites the broken file
-	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+	CHECK(get_light_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
 }
 
 TEST_CASE("[EditorDocument] names stay unique, and duplicates and removals can be undone") {
@@ -210,7 +212,7 @@ TEST_CASE("[EditorDocument] names stay unique, and duplicates and removals can b
 	document.save();
 	EditorDocument again(project.path);
 	REQUIRE(again.get_scene().find_nodes<Light3D>().size() == 2);
-	CHECK(get_size(again) == 0.4);
+	CHECK(get_light_size(again) == INITIAL_LIGHT_SIZE);
 	document.undo();
 	document.undo();
 	CHECK(document.get_scene().find_nodes<Light3D>().size() == 1);
@@ -222,7 +224,8 @@ TEST_CASE("[EditorDocument] names stay unique, and duplicates and removals can b
 	CHECK_THROWS_AS(document.remove(*document.get_scene().root), Error);
 }
 
-TEST_CASE("[EditorDocument] another program's change to the file is detected once") {
+TEST_CASE("[EditorDocument] another program's change to the file is detected until it is "
+		  "reloaded") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	CHECK_FALSE(document.is_file_newer());
@@ -246,7 +249,7 @@ TEST_CASE("[EditorDocument] a change to a file that the scene refers to is detec
 	CHECK(document.is_file_newer());
 	document.reload();
 	CHECK_FALSE(document.is_file_newer());
-	// A missing scene file is still being written by another program.
+	// A missing scene file is no change: another program may be about to replace it.
 	fs::rename(project.scene, project.path / "away");
 	CHECK_FALSE(document.is_file_newer());
 }
@@ -257,7 +260,7 @@ TEST_CASE("[EditorDocument] a full disk or a missing folder loses no changes") {
 	EditorDocument document(project.path);
 	document.set_property(find_light(document), "light_size", 0.75);
 	{
-		const FullDisk full(200);
+		const FullDisk full(200); // shorter than the scene file
 		CHECK_THROWS_AS(document.save(), Error);
 		document.autosave(START);
 		CHECK_FALSE(document.autosave(LATER)); // logged, and retried later
@@ -267,13 +270,13 @@ TEST_CASE("[EditorDocument] a full disk or a missing folder loses no changes") {
 	CHECK_THROWS_AS(document.save(), Error);
 	fs::rename(away, project.path);
 	CHECK(document.is_changed());
-	CHECK(get_size(document) == 0.75);
+	CHECK(get_light_size(document) == 0.75);
 	CHECK(load_text_file(project.scene) == before);
-	// No temporary file is left.
+	// No temporary file is left: only the scene, its .bin and project.cfg.
 	CHECK(std::distance(fs::directory_iterator(project.path), fs::directory_iterator()) == 3);
 	document.save();
 	CHECK_FALSE(document.is_changed());
-	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+	CHECK(get_light_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
 }
 
 TEST_CASE("[EditorDocument] an unreadable scene opens empty, is not overwritten, and reloads after "
@@ -293,7 +296,7 @@ TEST_CASE("[EditorDocument] an unreadable scene opens empty, is not overwritten,
 	CHECK(document.is_file_newer());
 	document.reload();
 	CHECK(document.get_failure().empty());
-	CHECK(get_size(document) == 0.4);
+	CHECK(get_light_size(document) == INITIAL_LIGHT_SIZE);
 	document.save();
 }
 
@@ -310,7 +313,7 @@ TEST_CASE("[EditorDocument] a recovery file that cannot be read is renamed, not 
 	CHECK(document.has_recovery());
 	CHECK_THROWS_AS(document.recover(), Error);
 	CHECK_FALSE(document.has_recovery());
-	CHECK(get_size(document) == 0.4);
+	CHECK(get_light_size(document) == INITIAL_LIGHT_SIZE);
 	document.set_property(find_light(document), "light_size", 0.5);
 	document.save();
 	CHECK(load_text_file(recovery_path.string() + ".unread") == "{ broken");

@@ -87,7 +87,7 @@ TEST_CASE("[EditorSettings] a damaged file or a value out of range gives the def
 	CHECK(settings.tab == "Error");
 }
 
-TEST_CASE("[EditorSettings] a missing or unwritable folder causes no exception") {
+TEST_CASE("[EditorSettings] a file in place of the config folder causes no exception") {
 	const TemporaryConfig folder;
 	write(folder, "{}");
 	std::filesystem::remove_all(folder.path);

@@ -51,7 +51,7 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays; when it is
 	CHECK_FALSE(context.error.is_tracing);
 	CHECK(context.error.reference_hash == hash); // the last result stays
 	timeline.pause();
-	meter.update(context, ++image_count);
+	meter.update(context, ++image_count); // discards the old reference, so that measure() waits
 	CHECK(measure() != hash);
 	timeline.seek(time_s);
 	meter.update(context, ++image_count);

@@ -45,8 +45,10 @@ double find_x(const std::vector<PenumbraLine> &p_lines, bool p_is_outer) {
 
 TEST_CASE("The penumbra of a straight edge ends where the rays from the light's rim meet the "
 		  "ground") {
-	// In the XY plane: the edge is at (0.5, 1.3), the light at (0, 4). The points from which the
-	// rays start are beside the light, perpendicular to the ray from it to the edge.
+	// In the XY plane: the edge is at (0.5, 1.3), the light at (0, 4). A ray through the edge has
+	// the direction d = (0.5, -2.7) + w n, where n = (2.7, 0.5) / 2.7459 is perpendicular to the
+	// ray from the light's centre, and w is 0.2 (outer) or -0.1 (inner). It meets the ground at
+	// x = 0.5 + 1.3 d.x / -d.y.
 	for (LightType type : { LightType::SPOT, LightType::OMNI }) {
 		const std::vector<PenumbraLine> lines = GuidedScene(type).find_lines();
 		CHECK(find_x(lines, true) == doctest::Approx(0.84002).epsilon(1e-4));
@@ -56,7 +58,7 @@ TEST_CASE("The penumbra of a straight edge ends where the rays from the light's 
 	// edge is 1.3 m above the ground.
 	const std::vector<PenumbraLine> lines = GuidedScene(LightType::DIRECTIONAL).find_lines();
 	CHECK(find_x(lines, true) == doctest::Approx(0.5 + 1.3 * 0.05).epsilon(1e-4));
-	CHECK(find_x(lines, false) == doctest::Approx(-1.0)); // under the box: hidden from the camera
+	CHECK(find_x(lines, false) == doctest::Approx(-1.0)); // it would be under the box, at x = 0.47
 }
 
 TEST_CASE("There are no penumbra lines without a shadow, a width or a caster, and few if the edge "
@@ -93,7 +95,7 @@ TEST_CASE("A ray through the scene finds the nearest node, also a scaled one") {
 	const auto first = scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -2.0, 0.0 });
 	REQUIRE(first);
 	CHECK(first->instance->node == scene.box);
-	CHECK(first->t == doctest::Approx(3.7 / 2.0));
+	CHECK(first->t == doctest::Approx((5.0 - 1.3) / 2.0)); // the box ends at y = 1.3
 	const auto beyond =
 			scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -2.0, 0.0 }, 0.0, first->instance);
 	REQUIRE(beyond);

@@ -60,8 +60,8 @@ TEST_CASE("[SceneRays] a ray hits animated nodes at their current pose") {
 	const auto scene = folder.load(make_animated(folder));
 	const auto animation = find_animation(*scene, "Move");
 	SceneRays rays;
-	// Skinned is in front of Flag, which is at x = 0 and which its morph weight moves upwards; at
-	// rest the weight is 0.25.
+	// Skinned moves along X by 5 m/s. Flag is behind it, at x = 0, and its morph weight moves it
+	// upwards by 1.5 m/s; at rest the weight is 0.25. See make_animated.
 	for (const double time_s : { 0.0, 0.4, 1.0, 2.0 }) {
 		CAPTURE(time_s);
 		pose_scene(*scene, animation.get(), time_s);
@@ -76,7 +76,7 @@ TEST_CASE("[SceneRays] a ray hits animated nodes at their current pose") {
 		CHECK_FALSE(
 				rays.find_nearest(glm::dvec3(0.2, 1.5 * time_s + 1.1, -4), glm::dvec3(0, 0, -1)));
 	}
-	CHECK(pick(rays, 0) == ""); // it has moved away
+	CHECK(pick(rays, 0) == ""); // both have moved away
 	// For the same pose, the mesh and its ray tree are reused; another pose gives another mesh.
 	const uint64_t id = rays.get_instances().front().mesh->id;
 	rays.update_scene(*scene);

@@ -8,14 +8,16 @@ using namespace gnomon;
 
 namespace {
 
-const std::string NAME = "tests/unused_binding.comp"; // target = source * factor + offset
+const std::string NAME = "tests/unused_binding.comp"; // target = source * FACTOR + offset
 
+/// A device, and changed versions of the shader above. Restores the built version at the end.
 struct ReplacedShader : DeviceFixture {
 	TemporaryFolder folder;
 	std::string source = load_text_file("modules/rendering_device/tests/unused_binding.comp");
 
 	~ReplacedShader() { replace_embedded_shader(NAME, {}); }
 
+	/// Compiles the shader with the first p_from in its source replaced by p_to.
 	std::vector<uint32_t> compile(const std::string &p_from, const std::string &p_to) {
 		std::string text = source;
 		const size_t position = text.find(p_from);
@@ -25,7 +27,7 @@ struct ReplacedShader : DeviceFixture {
 		save_file_atomically(folder.path / NAME, std::string_view(text));
 		return compile_shader(folder.path, NAME);
 	}
-	/// Returns the shader's result for source 5 and offset 1; the pipeline gives the factor.
+	/// Returns the shader's result for source 5 and offset 1; the pipeline sets FACTOR.
 	uint32_t run(PipelineRID p_pipeline) {
 		const OwnedBuffer source_buffer = make_buffer("source", std::vector<uint32_t>{ 5 });
 		const OwnedBuffer target(*device,
@@ -36,7 +38,7 @@ struct ReplacedShader : DeviceFixture {
 		CommandList &commands = device->begin_commands();
 		commands.bind_pipeline(p_pipeline);
 		commands.bind_resources({ { 0, source_buffer.get() }, { 1, target.get() } });
-		const uint32_t push[] = { 1, 1 };
+		const uint32_t push[] = { 1, 1 }; // item_count, offset
 		commands.push_constants(push);
 		commands.dispatch_items({ 1, 1, 1 });
 		const Barrier barrier = { .buffer = target.get(),
@@ -53,6 +55,7 @@ struct ReplacedShader : DeviceFixture {
 
 TEST_CASE("[GPU][RenderingDevice] existing pipeline handles use a replaced shader at once") {
 	ReplacedShader fixture;
+	// Specialization constants: 0 is the workgroup's size, 1 is FACTOR.
 	const ComputePipelineDesc desc = { "scale", NAME, { { 0, 1 }, { 1, 3 } } };
 	const PipelineRID pipeline = fixture.device->get_compute_pipeline(desc);
 	CHECK(fixture.run(pipeline) == 16);
@@ -67,11 +70,12 @@ TEST_CASE("[GPU][RenderingDevice] existing pipeline handles use a replaced shade
 	fixture.device->replace_shaders(
 			{ { NAME, fixture.compile("source[index] * FACTOR", "FACTOR") } });
 	CHECK(fixture.run(pipeline) == 4);
-	fixture.device->replace_shaders({ { NAME, fixture.compile("FACTOR", "FACTOR") } });
+	fixture.device->replace_shaders({ { NAME, fixture.compile("FACTOR", "FACTOR") } }); // unchanged
 	CHECK(fixture.run(pipeline) == 16);
 }
 
-TEST_CASE("[GPU][RenderingDevice] a shader that needs other resources than the program has fails") {
+TEST_CASE("[GPU][RenderingDevice] a replacement that needs other resources than the built shader "
+		  "is refused") {
 	struct Change {
 		std::string from;
 		std::string to;
@@ -86,10 +90,12 @@ TEST_CASE("[GPU][RenderingDevice] a shader that needs other resources than the p
 			"layout(set = 0, binding = 7) uniform sampler2D unused; const uint unused_value = 0;";
 	const Change changes[] = {
 		{ "= source[index]", "= unused[0] + source[index]", true }, // uses an unused binding
+		// More push constants; a binding missing, of another kind, or declared as two kinds.
 		{ "uint offset;", "uint offset; uint more[8];", true },
 		{ unused, "", true },
 		{ unused, image, true },
-		{ unused, more, true }, // two kinds of resource at one binding
+		{ unused, more, true },
+		// A new binding that is declared but not used.
 		{ unused, unused + " layout(set = 0, binding = 9) uniform More { uint more; };", false },
 	};
 	// Without and with an existing pipeline.

@@ -186,7 +186,7 @@ TEST_CASE("[Timeline] animated nodes can be deleted, restored and duplicated whi
 	document.duplicate(document.find("Base"));
 	timeline.advance(0.1);
 	CHECK(document.find("Tip 2").compute_world_from_node()[3].x == 0);
-	// Removes it from the file too.
+	// The file without the animated joints is loaded and plays on: Flag is still animated.
 	document.remove(document.find("Base"));
 	document.save();
 	document.reload();

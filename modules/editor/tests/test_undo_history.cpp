@@ -8,6 +8,7 @@ using namespace gnomon;
 
 namespace {
 
+/// A light of intensity 1, the default, with a child; and a camera.
 struct SmallTree {
 	Node3D root;
 	Light3D *light = nullptr;

@@ -14,8 +14,8 @@ namespace gnomon {
 /// Thrown to simulate a killed process. It is no std::exception, so the report must not catch it.
 struct Killed {};
 
-/// A fake MaskSource without a GPU. The reference is a ramp of eight values; a technique's
-/// visibility is the reference minus a constant fraction of it, given by `errors`.
+/// A fake MaskSource without a GPU. The reference repeats a ramp of eight values, 0 to 7 / 8; a
+/// technique's visibility is the reference minus a constant fraction of it, given by `errors`.
 class ScriptedMaskSource : public MaskSource {
 public:
 	/// Relative errors by technique id.
@@ -120,12 +120,13 @@ inline std::vector<MeasurableTechnique> make_scripted_techniques() {
 	const auto no_settings = [](const LightSnapshot &) { return std::vector<QualitySetting>(); };
 	const auto two_settings = [](const LightSnapshot &) {
 		return std::vector<QualitySetting>{ { "few", { { "soft_taps", int64_t(4) } } },
-			{ "many", { { "soft_taps", int64_t(64) } }, true } };
+			{ "many", { { "soft_taps", int64_t(64) } }, /*is_expensive=*/true } };
 	};
 	return { { { "hard", "Hard", "Test", "#000000", true }, no_settings },
 		{ { "soft", "Soft", "Test", "#ff0000", false }, two_settings } };
 }
 
+/// Returns options for masks of 16 x 16 pixels, without scaling curves and stability sweeps.
 inline ReportOptions make_scripted_options() {
 	ReportOptions options;
 	options.project = "scripted";
@@ -142,11 +143,14 @@ inline std::vector<ReportScene> make_scripted_scenes(size_t p_count = 2) {
 	std::vector<ReportScene> scenes;
 	for (size_t index = 0; index < p_count; ++index) {
 		scenes.push_back({ text("scene_", index),
-				make_scaling_scene({ 1000 + 100 * uint32_t(index), 1, 0.4 }), {} });
+				make_scaling_scene({ .triangle_count = 1000 + 100 * uint32_t(index) }),
+				/*failure=*/{} });
 	}
 	return scenes;
 }
 
+/// Per scene the plan has 3 light sizes, thus 3 references; 7 cells, as "hard" and "soft" with
+/// "few" are measured at each size, but "many" only at the middle one; and 2 scene images.
 inline ReportPlan make_scripted_plan(size_t p_scene_count = 2) {
 	return make_report_plan(make_scripted_options(), make_scripted_scenes(p_scene_count),
 			make_scripted_techniques());

@@ -114,6 +114,7 @@ TEST_CASE("[ErrorReport] an omni light changed to a spot light has all casters i
 	CHECK(light.inner_cone_rad == 0);
 	const double distance = glm::length(CASTER_CENTER_M - light.position_world);
 	CHECK(light.outer_cone_rad > std::asin(std::sqrt(2.0) / distance)); // their bounding sphere
+	// CONE_MARGIN is 1.1.
 	CHECK(light.outer_cone_rad < 1.2 * std::asin(std::sqrt(2.0) / distance));
 	// Inside the bounding sphere no cone contains all casters; it gets the maximum angle, not NaN.
 	small.group->parent_from_node = glm::dmat4(1.0);
@@ -186,7 +187,7 @@ TEST_CASE("[ErrorReport] the whole light is seen until its disc touches the surf
 		return is_light_disc_above_horizon(
 				light, p_light + glm::vec3(7), glm::vec3(7), { 0, 1, 0 });
 	};
-	// The disc's lowest point is 3 - R * 4 / 5 above the plane.
+	// The disc's lowest point is 3 - R * 4 / 5 above the plane: it touches it at R = 3.75.
 	CHECK(sees(3.74f, { 4, 3, 0 }));
 	CHECK_FALSE(sees(3.76f, { 4, 3, 0 }));
 	CHECK(sees(1e4f, { 0, 1e-3f, 0 }));	   // directly above, the disc is parallel to the surface
@@ -203,7 +204,9 @@ TEST_CASE("[ErrorReport] a directional light is seen whole if its disc is above 
 	const auto sees = [&](double p_elevation_deg) {
 		const double elevation = glm::radians(p_elevation_deg);
 		const glm::vec3 normal(std::cos(elevation), 0, std::sin(elevation));
-		return is_light_disc_above_horizon(light, glm::vec3(-9), glm::vec3(0, 0, 100), normal);
+		const glm::vec3 ignored_light_position(-9);
+		return is_light_disc_above_horizon(
+				light, ignored_light_position, glm::vec3(0, 0, 100), normal);
 	};
 	CHECK(sees(90));
 	CHECK(sees(30.01));

@@ -42,8 +42,8 @@ TEST_CASE("[ErrorReport] a kill while a record is saved leaves it complete or ab
 				remove_left_over_files(folder.path);
 				CHECK(fs::is_empty(folder.path));
 			});
-	CHECK(kill_count == 8); // steps: create, write, sync, rename, for the image and the JSON
-	CHECK(found_count == 2);
+	CHECK(kill_count == 8);	 // steps: create, write, sync, rename, for the image and the JSON
+	CHECK(found_count == 2); // killed after the last step, and not killed
 	set_log_sink(before);
 }
 
@@ -95,6 +95,7 @@ TEST_CASE("[ErrorReport] remove_others deletes records of other plans, but no ot
 	const std::string other = "scene-technique-fedcba9876543210";
 	store.save(NAME, CONTENT, IMAGE);
 	store.save(other, CONTENT, IMAGE);
+	// The last is no record name, since "g" is no hexadecimal digit.
 	for (const char *name : { "notes.json", "holiday-2026.png", "x-0123456789abcdeg.json" }) {
 		save_file_atomically(folder.path / name, "mine");
 	}
@@ -111,5 +112,5 @@ TEST_CASE("[ErrorReport] a folder that cannot be created is an Error") {
 	TemporaryFolder folder;
 	save_file_atomically(folder.path / "file", "x");
 	CHECK_THROWS_WITH_AS(RecordStore(folder.path / "file" / "cells"),
-			doctest::Contains("cannot be made"), Error);
+			doctest::Contains("cannot be created"), Error);
 }

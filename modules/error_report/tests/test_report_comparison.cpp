@@ -25,9 +25,10 @@ Report make_report() {
 	cell.setting = "default";
 	cell.status = ReportStatus::OK;
 	cell.time.cost_ms = 2;
+	// GPU time and its 90th percentile, then the same of the wall time: no spread.
 	cell.time.total = { 2, 2, 3, 3 };
 	cell.error = ReportError();
-	cell.error->all.penumbra = { 100, 0.4, 0, 0, 0 };
+	cell.error->all.penumbra = { .pixel_count = 100, .mae = 0.4 };
 	report.cells.push_back(cell);
 	cell.technique = "soft";
 	cell.setting = "32 taps";
@@ -86,9 +87,9 @@ TEST_CASE("[ErrorReport] an error differs beyond 0.0005 plus 1 %, upwards and do
 }
 
 TEST_CASE("[ErrorReport] different sample counts widen the margin by both standard errors") {
-	Report new_report = make_report(0.1054); // the margin is now 0.0015 + 0.002 + 0.002
+	Report new_report = make_report(0.1054);
 	CHECK(find_difference(make_report(), new_report).is_worse);
-	new_report.sample_count = 256;
+	new_report.sample_count = 256; // the margin is now 0.0015 + 0.002 + 0.002
 	CHECK(count_differences(make_report(), new_report) == 0);
 	new_report.configurations[0].reference.standard_error = 0.0018;
 	CHECK(find_difference(make_report(), new_report).is_worse);
@@ -111,10 +112,10 @@ TEST_CASE("[ErrorReport] a time ratio differs beyond 15 % and is never a regress
 TEST_CASE("[ErrorReport] a time ratio differs only beyond the spreads of its times") {
 	Report old_report = make_report();
 	old_report.cells[1].time.total = { 6, 6 * 1.2, 7, 70 }; // the spread of the GPU time is used
-	Report new_report = make_report(0.1, 6 * 1.29);
+	Report new_report = make_report(0.1, 6 * 1.29);			// above 15 % and the spread of 20 %
 	CHECK(find_difference(old_report, new_report).is_worse);
 	new_report.cells[1].time.total = { 0, 0, 7, 7 * 1.1 }; // without GPU time that of the wall time
-	CHECK(count_differences(old_report, new_report) == 0);
+	CHECK(count_differences(old_report, new_report) == 0); // the spreads sum up to 30 %
 	new_report.cells[1].time.cost_ms = 6 * 1.31;
 	CHECK(find_difference(old_report, new_report).is_worse);
 }
@@ -155,26 +156,26 @@ TEST_CASE("[ErrorReport] a cell that newly fails is a regression, one that now w
 
 TEST_CASE("[ErrorReport] cells correspond if their names and image sizes are equal") {
 	Report other = make_report(0.9);
-	const auto check_apart = [&] {
+	const auto check_unmatched = [&] {
 		const ReportComparison comparison = compare_reports(make_report(), other);
 		CHECK(comparison.differences.empty());
 		CHECK(comparison.compared_count == 1); // the baseline
 		CHECK(comparison.only_old_count == 1);
 		CHECK(comparison.only_new_count == 1);
-		other = make_report(0.9);
+		other = make_report(0.9); // for the next case
 	};
 	other.cells[1].setting = "64 taps";
-	check_apart();
+	check_unmatched();
 	other.cells[1].technique = "softer";
-	check_apart();
+	check_unmatched();
 	other.configurations.push_back(other.configurations[0]);
 	other.configurations[1].id = "sphere/Spot/1.2";
 	other.cells[1].configuration_index = 1;
-	check_apart();
+	check_unmatched();
 	other.configurations.push_back(other.configurations[0]);
 	other.configurations[1].size_px = { 64, 32 };
 	other.cells[1].configuration_index = 1;
-	check_apart();
+	check_unmatched();
 	// The indices of the cells do not matter.
 	std::swap(other.cells[0], other.cells[1]);
 	CHECK(find_difference(make_report(), other).new_value == 0.9);
@@ -204,8 +205,8 @@ TEST_CASE("[ErrorReport] worse differences come first, in text and JSON") {
 TEST_CASE("[ErrorReport] a grown error outside the penumbra is a regression") {
 	Report old_report = make_report();
 	Report new_report = make_report();
-	old_report.cells[1].error->all.receiver = { 1000, 0.01, 0, 0, 0 };
-	new_report.cells[1].error->all.receiver = { 1000, 0.03, 0, 0, 0 };
+	old_report.cells[1].error->all.receiver = { .pixel_count = 1000, .mae = 0.01 };
+	new_report.cells[1].error->all.receiver = { .pixel_count = 1000, .mae = 0.03 };
 	const ReportDifference worse = find_difference(old_report, new_report);
 	CHECK(worse.what == "receiver error");
 	CHECK(worse.is_worse);

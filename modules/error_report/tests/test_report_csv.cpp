@@ -90,17 +90,21 @@ Report make_report() {
 	cell.setting = "32 taps";
 	cell.properties = { { "soft_bias", "0.5" }, { "soft_taps", "32" } };
 	cell.error = ReportError();
+	// pixel_count, mae, rmse, p99, bias, wrong
 	cell.error->all.receiver = { 100, 0.01, 0.02, 0.03, -0.04, 0.05 };
 	cell.error->all.penumbra = { 50, 0.11, 0.12, 0.13, -0.14, 0.15 };
 	cell.error->all.umbra_over = 0.25;
 	cell.error->whole_light.penumbra = { 40, 0.21, 0.22, 0.23, -0.24, 0.26 };
-	cell.time = { 20, {}, { 9, 10, 11, 12 }, 8 };
+	cell.time = { .frame_count = 20,
+		.passes = {},
+		.total = { 9, 10, 11, 12 }, // gpu_ms, gpu_ms_p90, wall_ms, wall_ms_p90
+		.cost_ms = 8 };
 	cell.bytes = 9314128000;
 	report.cells.push_back(cell);
 	return report;
 }
 
-/// Checks that all fields of measured values are empty.
+/// Checks that fields of measured values are empty.
 void check_no_numbers(const std::map<std::string, std::string> &p_row) {
 	for (const char *name : { "receiver_mae", "receiver_rmse", "receiver_p99", "receiver_bias",
 				 "receiver_wrong", "penumbra_wrong", "whole_light_penumbra_wrong", "penumbra_mae",

@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+/// Measures a scripted plan with one scene: 3 configurations and 7 cells (see make_scripted_plan).
 Report make_report(const std::filesystem::path &p_folder) {
 	const ReportPlan plan = make_scripted_plan(1);
 	ScriptedMaskSource masks;
@@ -32,7 +33,7 @@ TEST_CASE("[ErrorReport] a loaded report.json equals the saved report") {
 	CHECK(to_json(load_report(folder.path / "report.json")) == json);
 	CHECK(json.at("failed_count") == 0);
 	CHECK(json.at("cells").size() == 7);
-	CHECK(json.at("ranking").size() == 3);
+	CHECK(json.at("ranking").size() == 3); // "hard", "soft" with "few" and with "many"
 	CHECK(json.at("ranking")[0].at("technique") == "soft");
 	CHECK(json.at("configurations")[0].at("pareto").size() == 1);
 }
@@ -111,7 +112,7 @@ TEST_CASE("[ErrorReport] an invalid report file is an Error that names the file"
 	wrong["cells"][0]["configuration"] = 99;
 	check_refused(wrong.dump());
 	wrong = whole;
-	wrong["cells"][0]["machine"] = 1;
+	wrong["cells"][0]["machine"] = 1; // the only machine is 0
 	check_refused(wrong.dump());
 	wrong = whole;
 	wrong["cells"][0]["time"]["cost_ms"] = "fast";
@@ -137,11 +138,11 @@ TEST_CASE("[ErrorReport] the page contains library, data and images, and escapes
 	const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 	CHECK(data.at("project") == report.project);
 	CHECK(data.at("cells")[0].at("setting") == "</script>");
-	CHECK(data.at("images").size() == 3 + 7 + 2);
+	CHECK(data.at("images").size() == 3 + 7 + 2); // of references, cells and scenes
 	const std::string image = data.at("images").at(report.cells[0].image);
 	CHECK(image.rfind("data:image/png;base64,iVBORw0KGgo", 0) == 0);
-	CHECK(image.size() % 4 == 22 % 4); // whole groups of base64 after the prefix
-	CHECK(data.at("heat_map").at("colors").size() % 2 == 1);
+	CHECK(image.size() % 4 == 22 % 4); // groups of 4 base64 characters after a prefix of 22
+	CHECK(data.at("heat_map").at("colors").size() % 2 == 1); // the middle colour is for 0
 }
 
 TEST_CASE("[ErrorReport] empty pixel sets have no metrics, and names may be invalid UTF-8") {

@@ -49,6 +49,7 @@ public:
 	}
 };
 
+/// Registers a FakePart while it exists.
 struct RegisteredPart {
 	RegisteredPart() { ReportPartRegistry::add({ PART_ID, std::make_shared<FakePart>() }); }
 	~RegisteredPart() { ReportPartRegistry::remove(PART_ID); }
@@ -66,15 +67,16 @@ TEST_CASE("[ReportPart] a registered part is planned, measured and written under
 	CHECK(plan.report.configurations[0].has_reference());
 	ScriptedMaskSource masks;
 	const Report report = run_report(plan, masks, store, {});
-	REQUIRE(report.cells.size() == 2);
+	REQUIRE(report.cells.size() == 2); // "hard" and "soft", each with its default setting
 	for (const ReportCell &cell : report.cells) {
 		CHECK(cell.is_ok());
+		// Half of the reference, whose mean is 3.5 / 8 (see ScriptedMaskSource).
 		CHECK(cell.error->all.receiver.mae == doctest::Approx(0.5 * 3.5 / 8));
 		CHECK_FALSE(cell.image.empty());
 	}
 	CHECK(masks.reference_count == 1);
-	CHECK(masks.measure_count == 0); // cells of a part are not timed
-	CHECK(to_json(report).at(PART_ID) == 2);
+	CHECK(masks.measure_count == 0);		 // cells of a part are not timed
+	CHECK(to_json(report).at(PART_ID) == 2); // what FakePart::to_json returns: the cell count
 }
 
 TEST_CASE("[ReportPart] without the part a report has neither its configurations nor its key") {

@@ -101,7 +101,7 @@ TEST_CASE("[ErrorReport] a record's name depends on program, samples, size, came
 	options.size_px.x = 17;
 	check_all_new(options, make_scripted_scenes(1));
 	std::vector<ReportScene> scenes = make_scripted_scenes(1);
-	scenes[0].scene = make_scaling_scene({ 1100, 1, 0.4 });
+	scenes[0].scene = make_scaling_scene({ .triangle_count = 1100 });
 	check_all_new(make_scripted_options(), scenes);
 	scenes = make_scripted_scenes(1);
 	scenes[0].scene->find_nodes<Camera3D>()[0]->near_m *= 2;
@@ -115,12 +115,12 @@ TEST_CASE("[ErrorReport] a scene that cannot be measured fails without affecting
 	std::vector<ReportScene> scenes = make_scripted_scenes(2);
 	scenes[0].scene = nullptr;
 	scenes[0].failure = "it is gone";
-	auto dark = make_scaling_scene({ 1000, 1, 0.4 });
+	auto dark = make_scaling_scene({ .triangle_count = 1000 });
 	dark->find_nodes<Light3D>()[0]->properties["shadow_enabled"] = false;
-	scenes.push_back({ "dark", std::move(dark), {} });
+	scenes.push_back({ "dark", std::move(dark), /*failure=*/{} });
 	const ReportPlan plan =
 			make_report_plan(make_scripted_options(), scenes, make_scripted_techniques());
-	REQUIRE(plan.report.configurations.size() == 5);
+	REQUIRE(plan.report.configurations.size() == 5); // 1 failed, 3 sizes of scene_1, 1 failed
 	CHECK(plan.report.configurations[0].status == ReportStatus::FAILED);
 	CHECK(plan.report.configurations[0].message == "it is gone");
 	CHECK(plan.report.find_cells(0).empty());
@@ -148,7 +148,8 @@ TEST_CASE("[ErrorReport] scaling curves vary one quantity and share the record o
 		CHECK(cell.technique != "soft");
 	}
 	CHECK(groups == std::set<std::string>{ "triangles", "light_size", "lights", "resolution" });
-	// Images have 16 px here, so that only the other three curves have a point in common.
+	// 2 techniques, 4 curves of 3 points. Images have 16 px here, so that only the other three
+	// curves have a point in common.
 	CHECK(plan.report.cells.size() == 2 * 12);
 	CHECK(records.size() == 2 * 10);
 	for (size_t index = 0; index < plan.report.configurations.size(); ++index) {

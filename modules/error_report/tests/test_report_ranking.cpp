@@ -21,6 +21,7 @@ Report make_report(size_t p_configuration_count = 1) {
 	return report;
 }
 
+/// Adds a measured cell whose errors are all proportional to p_mae, its penumbra MAE.
 ReportCell &add_cell(Report &r_report, size_t p_configuration, const std::string &p_technique,
 		double p_cost_ms, double p_mae, const std::string &p_setting = "default") {
 	ReportCell cell;
@@ -30,10 +31,11 @@ ReportCell &add_cell(Report &r_report, size_t p_configuration, const std::string
 	cell.status = ReportStatus::OK;
 	cell.time.cost_ms = p_cost_ms;
 	cell.error = ReportError();
+	// pixel_count, mae, rmse, p99, bias, wrong: different multiples, to detect swapped values.
 	cell.error->all.penumbra = { 100, p_mae, p_mae * 2, p_mae * 4, -p_mae, p_mae / 4 };
 	cell.error->all.receiver = { 400, p_mae / 4, p_mae / 2, p_mae, -p_mae / 4, p_mae / 8 };
 	cell.error->all.umbra_over = p_mae / 2;
-	cell.error->whole_light.penumbra = { 50, p_mae * 3, 0, 0, 0 };
+	cell.error->whole_light.penumbra = { .pixel_count = 50, .mae = p_mae * 3 };
 	r_report.cells.push_back(cell);
 	return r_report.cells.back();
 }
@@ -91,7 +93,7 @@ TEST_CASE("[ErrorReport] settings are ranked by mean error, and rows have median
 		add_cell(report, at, "soft", costs_ms[at] * (at + 2.0), 0.1 * double(at + 1));
 	}
 	add_cell(report, 1, "soft", 100, 0.05, "expensive").error->whole_light.penumbra.pixel_count = 0;
-	// Ignored only in whole_light_penumbra_mae.
+	// This cell is ignored only in whole_light_penumbra_mae.
 	report.cells[1].error->whole_light.penumbra.pixel_count = 0;
 	const std::vector<RankingRow> rows = rank_settings(report);
 	REQUIRE(rows.size() == 3);
@@ -205,7 +207,19 @@ TEST_CASE("[ErrorReport] points of scaling curves are sorted by value, without f
 }
 
 TEST_CASE("[ErrorReport] ranking rows have the documented keys, and omit unset values") {
-	RankingRow row = { "soft", "32 taps", 33, 0.5, 0.25, 1, -0.5, 0.25, 0.5, 0.125, 0.75, 12, 2.5 };
+	RankingRow row = { .technique = "soft",
+		.setting = "32 taps",
+		.configuration_count = 33,
+		.penumbra_mae = 0.5,
+		.penumbra_rmse = 0.25,
+		.penumbra_p99 = 1,
+		.penumbra_bias = -0.5,
+		.penumbra_wrong = 0.25,
+		.receiver_wrong = 0.5,
+		.umbra_over = 0.125,
+		.whole_light_penumbra_mae = 0.75,
+		.cost_ms = 12,
+		.time_ratio = 2.5 };
 	const std::string expected =
 			R"([{"technique":"soft","setting":"32 taps","configuration_count":33,)"
 			R"("penumbra_mae":0.5,"penumbra_rmse":0.25,"penumbra_p99":1.0,"penumbra_bias":-0.5,)"

@@ -43,13 +43,13 @@ TEST_CASE("[ErrorReport] a run compares every cell with its reference") {
 	const Report report = run(plan, masks, folder.path);
 	CHECK(masks.reference_count == 6);
 	CHECK(masks.measure_count == plan.report.cells.size());
-	CHECK(report.count(ReportStatus::OK) == 6 + 14 + 4);
+	CHECK(report.count(ReportStatus::OK) == 6 + 14 + 4); // references, cells, scene images
 	REQUIRE(report.machines.size() == 1);
 	CHECK(report.machines[0].device == "scripted");
 	for (const ReportCell &cell : report.cells) {
 		REQUIRE(cell.error);
 		// The reference is a ramp of eighths, and the error a constant fraction of it. Pixels with
-		// reference 0 are not penumbra.
+		// reference 0 are not penumbra; the mean of the others is 0.5.
 		const double fraction = cell.technique == "hard" ? 0.25 : 0.125;
 		CHECK(cell.error->all.penumbra.mae == doctest::Approx(0.5 * fraction));
 		CHECK(cell.error->all.penumbra.pixel_count == 16 * 14);
@@ -62,7 +62,7 @@ TEST_CASE("[ErrorReport] a run compares every cell with its reference") {
 	CHECK(report.configurations[0].reference.penumbra_pixel_count == 16 * 14);
 }
 
-TEST_CASE("[ErrorReport] a run that is killed before any cell and resumed gives the same report") {
+TEST_CASE("[ErrorReport] a run killed before any one cell and then resumed gives the same report") {
 	const ReportPlan plan = make_scripted_plan(2);
 	const size_t cell_count = plan.report.cells.size();
 	TemporaryFolder whole_folder;
@@ -90,7 +90,7 @@ TEST_CASE("[ErrorReport] a finished run that is resumed measures nothing") {
 	ScriptedMaskSource masks;
 	const std::string whole = to_text(run(plan, masks, folder.path));
 	ScriptedMaskSource none;
-	CHECK(to_text(run(plan, none, folder.path, { true, 0, 1 })) == whole);
+	CHECK(to_text(run(plan, none, folder.path, { .resumes = true })) == whole);
 	CHECK(none.reference_count == 0);
 	CHECK(none.measure_count == 0);
 }
@@ -117,12 +117,13 @@ TEST_CASE("[ErrorReport] a resumed run measures only damaged records again") {
 	std::string record = load_text_file(json);
 	const size_t offset = record.find("\"mae\":");
 	REQUIRE(offset != std::string::npos);
+	// Changes the first decimal of the value, which begins with "0.".
 	record[offset + 8] = record[offset + 8] == '5' ? '6' : '5';
 	save_file_atomically(json, record);
 	const fs::path png = cells / (plan.report.cells[9].record + ".png");
 	save_file_atomically(png, load_text_file(png).substr(0, 20));
 	ScriptedMaskSource rest;
-	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);
+	CHECK(to_text(run(plan, rest, folder.path, { .resumes = true })) == whole);
 	CHECK(rest.measure_count == 2);
 }
 
@@ -135,7 +136,7 @@ TEST_CASE("[ErrorReport] a resumed run traces a reference again if its record is
 	const std::string &name = plan.report.configurations[1].record;
 	save_file_atomically(get_record_folder(folder.path) / (name + ".json"), "{}");
 	ScriptedMaskSource rest;
-	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);
+	CHECK(to_text(run(plan, rest, folder.path, { .resumes = true })) == whole);
 	CHECK(rest.reference_count == 1);
 	CHECK(rest.measure_count == 0);
 }
@@ -153,7 +154,7 @@ TEST_CASE("[ErrorReport] a failed cell does not end the run, and a resumed run m
 		CHECK((cell.message == "the device is sad") == (cell.technique == "soft"));
 	}
 	ScriptedMaskSource fixed_masks;
-	const Report second = run(plan, fixed_masks, folder.path, { true, 0, 1 });
+	const Report second = run(plan, fixed_masks, folder.path, { .resumes = true });
 	CHECK(fixed_masks.measure_count == 4);
 	CHECK(second.count(ReportStatus::OK) == 3 + 7 + 2);
 	CHECK(std::all_of(second.cells.begin(), second.cells.end(),
@@ -186,7 +187,7 @@ TEST_CASE("[ErrorReport] a lost device ends the run, and a resumed run measures 
 			"The device was lost. Restart it. What was measured is saved: go on with --resume.",
 			DeviceLost);
 	ScriptedMaskSource rest;
-	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);
+	CHECK(to_text(run(plan, rest, folder.path, { .resumes = true })) == whole);
 	CHECK(rest.measure_count == plan.report.cells.size() - 5);
 }
 
@@ -214,7 +215,8 @@ TEST_CASE("[ErrorReport] merged shards equal the report of a single run") {
 	for (uint32_t index = 0; index < 4; ++index) {
 		shard_folders.push_back(folder.path / std::to_string(index));
 		ScriptedMaskSource masks;
-		const Report shard_report = run(plan, masks, shard_folders.back(), { false, index, 4 });
+		const Report shard_report =
+				run(plan, masks, shard_folders.back(), { .shard_index = index, .shard_count = 4 });
 		CHECK(shard_report.count(ReportStatus::MISSING) > 0);
 		measure_count += masks.measure_count;
 	}
@@ -245,7 +247,7 @@ TEST_CASE("[ErrorReport] a resumed run measures cells of another machine again")
 	other.kill_after_count = 3;
 	CHECK_THROWS_AS(run(plan, other, folder.path), Killed);
 	ScriptedMaskSource masks;
-	const Report report = run(plan, masks, folder.path, { true, 0, 1 });
+	const Report report = run(plan, masks, folder.path, { .resumes = true });
 	CHECK(masks.measure_count == plan.report.cells.size());
 	REQUIRE(report.machines.size() == 1);
 	CHECK(report.machines[0].device == "scripted");
@@ -271,7 +273,7 @@ TEST_CASE("[ErrorReport] shards may write to the same folder, in any order") {
 	TemporaryFolder folder;
 	for (const uint32_t index : { 2u, 0u, 1u }) {
 		ScriptedMaskSource masks;
-		run(plan, masks, folder.path, { false, index, 3 });
+		run(plan, masks, folder.path, { .shard_index = index, .shard_count = 3 });
 	}
 	const RecordStore store(get_record_folder(folder.path));
 	CHECK(to_text(collect_report(plan.report, store)) == whole);
@@ -282,7 +284,8 @@ TEST_CASE("[ErrorReport] expensive settings are distributed over all shards") {
 	for (uint32_t index = 0; index < 3; ++index) {
 		TemporaryFolder folder;
 		ScriptedMaskSource masks;
-		const Report shard_report = run(plan, masks, folder.path, { false, index, 3 });
+		const Report shard_report =
+				run(plan, masks, folder.path, { .shard_index = index, .shard_count = 3 });
 		CHECK(std::count_if(shard_report.cells.begin(), shard_report.cells.end(),
 					  [](const ReportCell &p_cell) {
 						  return p_cell.is_ok() && p_cell.setting == "many";

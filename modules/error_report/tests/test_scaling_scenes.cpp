@@ -70,14 +70,14 @@ TEST_CASE("[ErrorReport] meshes of the scaling scene are closed and face outward
 			CHECK(topology.mesh_class == MeshClass::CLOSED);
 			CHECK(topology.counts.degenerate_triangle_count == 0);
 			CHECK(topology.counts.zero_area_triangle_count == 0);
-			CHECK(topology.signed_volume_m3 > 0.1);
+			CHECK(topology.signed_volume_m3 > 0.1); // negative if faces point inwards
 		}
 	}
 }
 
-TEST_CASE("[ErrorReport] the knot's vertices are one tube radius from its centre line") {
-	const auto scene = build(*make_scaling_scene({ 2000, 1, 0.4 }));
-	std::vector<glm::dvec3> line;
+TEST_CASE("[ErrorReport] the knot's tube has a radius of 0.16 m, and the ground's top is at 0") {
+	const auto scene = build(*make_scaling_scene({ .triangle_count = 2000 }));
+	std::vector<glm::dvec3> line; // a point every 3 mm
 	for (int step = 0; step < 4000; ++step) {
 		const double t = 2 * std::numbers::pi * step / 4000;
 		const double ring = 2 + std::cos(3 * t);
@@ -110,7 +110,7 @@ TEST_CASE("[ErrorReport] the knot's vertices are one tube radius from its centre
 }
 
 TEST_CASE("[ErrorReport] the scaling scene has the light, camera and S of the benchmark scene") {
-	const auto scene = build(*make_scaling_scene({ 2000, 1, 0.08 }));
+	const auto scene = build(*make_scaling_scene({ .triangle_count = 2000, .light_size_m = 0.08 }));
 	CHECK(scene->scene_size_m == 4);
 	REQUIRE(scene->lights.size() == 1);
 	const LightSnapshot &light = scene->lights[0];
@@ -139,7 +139,8 @@ TEST_CASE("[ErrorReport] the scaling scene has the light, camera and S of the be
 TEST_CASE("[ErrorReport] several lights have different names and positions and a common target") {
 	for (const uint32_t count : { 2u, 4u, 64u, 1024u }) {
 		CAPTURE(count);
-		const auto scene = build(*make_scaling_scene({ 1000, count, 0.4 }));
+		const auto scene =
+				build(*make_scaling_scene({ .triangle_count = 1000, .light_count = count }));
 		REQUIRE(scene->lights.size() == count);
 		std::set<std::pair<long, long>> positions; // in millimetres
 		float intensity = 0;

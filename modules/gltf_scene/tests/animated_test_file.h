@@ -16,12 +16,14 @@ inline Json make_animated(const GltfTestFolder &p_folder) {
 		return buffer.add_accessor(buffer.add_view(p_values), p_component, p_type, p_count);
 	};
 	using Floats = std::vector<float>;
+	// Accessors 0 to 4: positions, indices, joints, weights, positions of the morph target.
 	add(Floats{ -0.5f, 0, 0, 0.5f, 0, 0, 0.5f, 1, 0, -0.5f, 1, 0 }, GLTF_TEST_FLOAT, "VEC3", 4);
 	add(std::vector<uint16_t>{ 0, 1, 2, 0, 2, 3 }, GLTF_TEST_USHORT, "SCALAR", 6);
 	add(std::vector<uint16_t>{ 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0 }, GLTF_TEST_USHORT,
 			"VEC4", 4);
 	add(Floats{ 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0 }, GLTF_TEST_FLOAT, "VEC4", 4);
 	add(Floats{ 0, 3, 0, 0, 3, 0, 0, 3, 0, 0, 3, 0 }, GLTF_TEST_FLOAT, "VEC3", 4);
+	// 5 to 7: times, translations and morph weights of "Move". 8, 9: time and rotation of "Turn".
 	add(Floats{ 0, 2 }, GLTF_TEST_FLOAT, "SCALAR", 2);
 	add(Floats{ 0, 0, 0, 10, 0, 0 }, GLTF_TEST_FLOAT, "VEC3", 2);
 	add(Floats{ 0, 1 }, GLTF_TEST_FLOAT, "SCALAR", 2);

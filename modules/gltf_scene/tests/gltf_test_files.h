@@ -111,6 +111,7 @@ struct GltfTestBuffer {
 	}
 };
 
+// Component types of glTF.
 const int GLTF_TEST_BYTE = 5120, GLTF_TEST_SHORT = 5122, GLTF_TEST_USHORT = 5123,
 		  GLTF_TEST_UINT = 5125, GLTF_TEST_FLOAT = 5126;
 
@@ -148,7 +149,8 @@ inline Json make_spot_light_document() {
 }
 
 /// Returns a description of the first difference between two scenes, or "" if there is none.
-/// Compares all node data that a renderer uses.
+/// Compares scene size, names, transforms, triangles, lights, cameras and materials, but not their
+/// textures, alpha, transmission and shading model, and no skins, morph targets and animations.
 std::string find_difference(const Scene &p_first, const Scene &p_second);
 
 } // namespace gnomon

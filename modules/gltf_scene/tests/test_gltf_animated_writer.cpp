@@ -11,7 +11,7 @@ MeshInstance3D &find(const Scene &p_scene, const char *p_name) {
 	return p_scene.find_node<MeshInstance3D>(p_name, "mesh");
 }
 
-/// Adds a copy of the node to the scene. Its file_index is that of a node that is not in the file.
+/// Adds a copy of the node to the scene. Like any new node it has file_index -1.
 MeshInstance3D &copy(Scene &r_scene, const char *p_name) {
 	std::unique_ptr<Node3D> made = find(r_scene, p_name).copy();
 	made->name += " 2";

@@ -9,7 +9,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns a small file with a mesh, sparse positions, a light, a camera and a material.
+/// Returns a small file with a mesh, sparse positions, a camera, a material, and a light with a
+/// property that this build does not know.
 GltfContainer make_rich_container() {
 	GltfTestFolder folder;
 	Json json = make_triangle(folder);
@@ -65,16 +66,17 @@ TEST_CASE("[GltfBadInput] a file that is truncated anywhere is rejected") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const GltfContainer container = make_rich_container();
-	const std::vector<uint8_t> glb = build_glb(container, { "", {} });
+	const std::vector<uint8_t> glb = build_glb(container, GltfMessages());
 	folder.write("cut.glb", glb);
 	CHECK(is_loaded(folder.path / "cut.glb"));
-	for (size_t length = 0; length < glb.size(); length += 7) {
+	const size_t STEP = 7; // bytes; odd, so that lengths of every alignment occur
+	for (size_t length = 0; length < glb.size(); length += STEP) {
 		CAPTURE(length);
 		folder.write("cut.glb", std::span(glb).first(length));
 		CHECK_FALSE(is_loaded(folder.path / "cut.glb"));
 	}
 	const std::string json = make_spot_light_document().dump();
-	for (size_t length = 0; length < json.size(); length += 7) {
+	for (size_t length = 0; length < json.size(); length += STEP) {
 		CAPTURE(length);
 		folder.write("cut.gltf", std::string_view(json).substr(0, length));
 		CHECK_FALSE(is_loaded(folder.path / "cut.gltf"));
@@ -87,6 +89,7 @@ TEST_CASE("[GltfBadInput] invalid numbers are rejected with path, value and rang
 	const Json json = make_triangle(folder);
 	const Json huge = uint64_t(1) << 62;
 	CHECK(get_load_error(folder, json) == "");
+	// The buffer has 44 bytes: 36 of positions, and 6 of indices, padded to 8.
 	check_rejected(folder, json, "/accessors/0/count", 4, "4 elements need 48 bytes");
 	check_rejected(folder, json, "/accessors/0/count", 0, "accessors[0].count is 0, must be");
 	check_rejected(folder, json, "/accessors/0/count", -1, "accessors[0].count is -1");
@@ -130,6 +133,7 @@ TEST_CASE("[GltfBadInput] the sparse parts of accessors are checked") {
 	check_rejected(folder, json, "/accessors/0/sparse/count", 4, "sparse.count is 4, must be");
 	check_rejected(folder, json, "/accessors/0/sparse/values/byteOffset", 28, "byteOffset is 28");
 	check_rejected(folder, json, "/accessors/0/sparse/indices/componentType", 5122, "5121, 5123");
+	// 16256 is 0x3f80, the upper half of 1.0f: the indices are read from the positions.
 	check_rejected(folder, json, "/accessors/0/sparse/indices",
 			{ { "bufferView", 0 }, { "byteOffset", 14 }, { "componentType", GLTF_TEST_USHORT } },
 			"accessors[0].sparse.indices[0] is 16256, must be 0..2");
@@ -141,14 +145,15 @@ TEST_CASE("[GltfBadInput] vertices that are not finite and indices out of range 
 	const Json json = make_triangle(folder);
 	std::vector<uint8_t> bytes = load_file(folder.path / "data.bin");
 	const float nan = std::numeric_limits<float>::quiet_NaN();
-	std::memcpy(bytes.data() + 16, &nan, sizeof(nan));
+	const size_t NAN_OFFSET_BYTES = 16; // y of vertex 1
+	std::memcpy(bytes.data() + NAN_OFFSET_BYTES, &nan, sizeof(nan));
 	folder.write("data.bin", bytes);
 	const std::string error = get_load_error(folder, json);
 	CHECK(error.find(
 				  "meshes[0].primitives[0].attributes.POSITION of mesh \"triangle\": vertex 1") !=
 			std::string::npos);
-	std::memset(bytes.data() + 16, 0, sizeof(nan));
-	bytes[36] = 3;
+	std::memset(bytes.data() + NAN_OFFSET_BYTES, 0, sizeof(nan));
+	bytes[36] = 3; // the first index; there are three vertices
 	folder.write("data.bin", bytes);
 	CHECK(get_load_error(folder, json).find("accessors[1][0] is 3, must be 0..2") !=
 			std::string::npos);
@@ -170,7 +175,7 @@ TEST_CASE("[GltfBadInput] nodes with cycles, two parents or too many levels are 
 	json["scenes"] = Json::parse(R"([{"nodes": [0, 1]}])");
 	CHECK(get_load_error(folder, json).find("scenes[0].nodes[1] is 1") != std::string::npos);
 
-	json = make_empty_document();
+	json = make_empty_document(); // a chain of GLTF_MAX_NODE_DEPTH nodes, then of one more
 	for (size_t index = 0; index < 1000; ++index) {
 		json["nodes"].push_back({ { "children", { index + 1 } } });
 	}
@@ -186,6 +191,7 @@ TEST_CASE("[GltfBadInput] JSON that has too many levels or keys, or is not valid
 	folder.write("scene.gltf", std::string(100000, '['));
 	CHECK_THROWS_WITH_AS(
 			load_gltf(folder.path / "scene.gltf"), doctest::Contains("nested deeper"), Error);
+	// Brackets and commas in the text ]"[, are not counted.
 	std::string wide = "{\"a\": \"]\\\"[,\"";
 	for (int key = 0; key < 5000; ++key) {
 		wide += ",\"" + std::to_string(key) + "\":0";
@@ -270,12 +276,13 @@ TEST_CASE("[GltfBadInput] extensions of any JSON type are preserved or rejected"
 	}
 }
 
-TEST_CASE("[GltfBadInput] many nodes with one name load fast; a huge accessor is rejected") {
+TEST_CASE("[GltfBadInput] many nodes with one name are numbered; a huge accessor is rejected") {
 	GltfTestFolder folder;
 	Json json = make_empty_document();
 	for (int index = 0; index < 20000; ++index) {
 		json["nodes"].push_back({ { "name", "A" } });
 	}
+	// Would take long if each name were searched for from number 2.
 	CHECK(folder.load(json)->root->children.back()->name == "A_20000");
 	json = make_triangle(folder);
 	json["accessors"][0].erase("bufferView");
@@ -286,14 +293,14 @@ TEST_CASE("[GltfBadInput] files with random damage load or are rejected, without
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const GltfContainer container = make_rich_container();
-	const std::vector<uint8_t> glb = build_glb(container, { "", {} });
+	const std::vector<uint8_t> glb = build_glb(container, GltfMessages());
 	folder.write("data.bin", *container.bin_chunk);
 	Json json = container.json;
 	json["buffers"][0]["uri"] = "data.bin";
 	const std::string gltf = json.dump();
 	const std::vector<uint8_t> text(gltf.begin(), gltf.end());
-	std::mt19937 random(20100901);
-	const char DIGITS[] = "0123456789-.eE[]{}\",:";
+	std::mt19937 random(20100901); // any fixed seed
+	const char JSON_CHARACTERS[] = "0123456789-.eE[]{}\",:";
 	unsigned loaded_count = 0;
 	for (unsigned round = 0; round < 2000; ++round) {
 		CAPTURE(round);
@@ -306,7 +313,8 @@ TEST_CASE("[GltfBadInput] files with random damage load or are rejected, without
 			uint8_t &byte = bytes[random() % bytes.size()];
 			byte = random() % 2 == 0
 					? static_cast<uint8_t>(random())
-					: static_cast<uint8_t>(DIGITS[random() % (sizeof(DIGITS) - 1)]);
+					: static_cast<uint8_t>(
+							  JSON_CHARACTERS[random() % (sizeof(JSON_CHARACTERS) - 1)]);
 		}
 		const char *name = is_binary ? "damaged.glb" : "damaged.gltf";
 		folder.write(name, bytes);
@@ -335,6 +343,7 @@ TEST_CASE("[GltfBadInput] shared definitions that would need too much memory are
 	const GltfTestFolder folder;
 	Json json = make_triangle(folder);
 	const Json primitive = json["meshes"][0]["primitives"][0];
+	// 5000 primitives in 900 nodes exceed GLTF_MAX_SURFACE_COUNT, 2^22.
 	for (int i = 1; i < 5000; ++i) {
 		json["meshes"][0]["primitives"].push_back(primitive);
 	}
@@ -348,6 +357,7 @@ TEST_CASE("[GltfBadInput] shared definitions that would need too much memory are
 
 	Json lamps = make_spot_light_document();
 	Json &light = lamps["extensions"]["KHR_lights_punctual"]["lights"][0];
+	// 4000 values in 300 nodes exceed GLTF_MAX_LIGHT_VALUE_COUNT, 2^20.
 	for (int i = 0; i < 4000; ++i) {
 		light["extras"]["other_" + std::to_string(i)] = i;
 	}

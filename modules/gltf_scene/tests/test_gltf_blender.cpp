@@ -26,7 +26,7 @@ TEST_CASE("[GltfScene] light sizes, cameras and meshes of a Blender export are r
 	const Light3D &key = scene->find_node<Light3D>("Key", "Light");
 	CHECK(key.type == LightType::SPOT);
 	CHECK(key.outer_cone_rad == doctest::Approx(0.7));
-	CHECK(key.intensity == doctest::Approx(54351.4));
+	CHECK(key.intensity == doctest::Approx(54351.4)); // cd: 1000 W * 683 lm/W / (4 pi sr)
 	CHECK(get_number(key, "light_size") == doctest::Approx(0.35));
 	// The file names a technique of another module. This module may not use that name (rule of
 	// tests/layers), so only its length is compared.

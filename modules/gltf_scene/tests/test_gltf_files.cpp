@@ -1,3 +1,5 @@
+// Implements find_difference, which the tests of several files use.
+
 #include "modules/gltf_scene/tests/gltf_test_files.h"
 
 namespace gnomon {
@@ -9,22 +11,24 @@ std::string compare_surfaces(const MeshInstance3D &p_first, const MeshInstance3D
 		return "surface count";
 	}
 	for (size_t index = 0; index < p_first.surfaces.size(); ++index) {
-		const Mesh &a = *p_first.surfaces[index].mesh;
-		const Mesh &b = *p_second.surfaces[index].mesh;
+		const Mesh &mesh = *p_first.surfaces[index].mesh;
+		const Mesh &other_mesh = *p_second.surfaces[index].mesh;
 		const Material plain;
-		const Material &c =
+		const Material &material =
 				p_first.surfaces[index].material ? *p_first.surfaces[index].material : plain;
-		const Material &d =
+		const Material &other =
 				p_second.surfaces[index].material ? *p_second.surfaces[index].material : plain;
-		if (a.name != b.name || a.positions_node != b.positions_node ||
-				a.normals_node != b.normals_node || a.indices != b.indices) {
-			return "mesh " + a.name;
+		if (mesh.name != other_mesh.name || mesh.positions_node != other_mesh.positions_node ||
+				mesh.normals_node != other_mesh.normals_node ||
+				mesh.indices != other_mesh.indices) {
+			return "mesh " + mesh.name;
 		}
-		if (c.name != d.name || c.base_color != d.base_color || c.emissive != d.emissive ||
-				c.metallic != d.metallic || c.roughness != d.roughness || c.scatter != d.scatter ||
-				c.scatter_distance_m != d.scatter_distance_m ||
-				c.is_double_sided != d.is_double_sided) {
-			return "material " + c.name;
+		if (material.name != other.name || material.base_color != other.base_color ||
+				material.emissive != other.emissive || material.metallic != other.metallic ||
+				material.roughness != other.roughness || material.scatter != other.scatter ||
+				material.scatter_distance_m != other.scatter_distance_m ||
+				material.is_double_sided != other.is_double_sided) {
+			return "material " + material.name;
 		}
 	}
 	const bool is_same = p_first.casts_shadow == p_second.casts_shadow &&

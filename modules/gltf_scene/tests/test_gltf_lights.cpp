@@ -12,7 +12,7 @@ Json &get_light(Json &r_json) {
 	return r_json["extensions"]["KHR_lights_punctual"]["lights"][0];
 }
 
-/// Returns the value of a light's property, or -99 if it is not set.
+/// Loads a document and returns the value of a property of its light, or -99 if it is not set.
 double load_number(const GltfTestFolder &p_folder, const Json &p_json, const char *p_name) {
 	const auto scene = p_folder.load(p_json);
 	const Light3D &light = *scene->find_nodes<Light3D>().at(0);
@@ -136,6 +136,7 @@ TEST_CASE("[GltfLights] penumbra widths may be -1; invalid values are reported a
 		const auto scene = folder.load(json);
 		CHECK_FALSE(scene->find_nodes<Light3D>().at(0)->properties.contains(name));
 		REQUIRE(log.errors.size() == 1);
+		// The line begins with the path in quotes.
 		CHECK(log.errors[0].find((folder.path / "scene.gltf").string()) == 1);
 		CHECK(GltfTestLog::contains(log.errors, "lights[0].extras." + std::string(name) + " is "));
 		CHECK(GltfTestLog::contains(log.errors, "must be "));
@@ -146,6 +147,7 @@ TEST_CASE("[GltfLights] an invalid value of an alias is reported under the alias
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_spot_light_document();
+	// 3 rad are 172 degrees; light_angular_distance is at most 90.
 	get_light(json)["extras"] = { { "angle", 3 }, { "radius", 20000 } };
 	folder.load(json);
 	CHECK(GltfTestLog::contains(log.errors, "lights[0].extras.angle is 3"));
@@ -214,6 +216,7 @@ TEST_CASE("[GltfLights] a light of unknown type is skipped; a missing light is a
 }
 
 TEST_CASE("[GltfLights] technique properties are checked if they are registered, else preserved") {
+	// A property of an invented technique with the id "later".
 	static const PropertyInfo TAPS = { "later_taps", PropertyType::INT, int64_t(16), "1,64,1",
 		"Taps." };
 	GltfLoadOptions options;
@@ -234,7 +237,7 @@ TEST_CASE("[GltfLights] technique properties are checked if they are registered,
 					{ "later_count", int64_t(3) } });
 	CHECK(log.errors.empty());
 	get_light(json)["extras"] = { { "later_taps", 65 } };
-	// Not used: the light's value comes first, even if it is invalid.
+	// Not used: the light's own value hides it, even though that is invalid.
 	json["nodes"][0]["extras"] = { { "later_taps", 4 } };
 	CHECK(folder.load(json, options)->find_nodes<Light3D>().at(0)->properties.empty());
 	CHECK(GltfTestLog::contains(

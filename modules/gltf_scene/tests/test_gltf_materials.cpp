@@ -1,3 +1,5 @@
+// Tests how materials are read from a file, changed and saved.
+
 #include "modules/gltf_scene/gltf_materials.h"
 #include "modules/gltf_scene/tests/gltf_test_files.h"
 #include "modules/scene/node_properties.h"
@@ -44,18 +46,20 @@ TEST_CASE("[GltfMaterials] transmission and volume are read and determine the tr
 	CHECK(wax.attenuation_distance_m == 0.25f);
 	CHECK(wax.attenuation_color == glm::vec3(0.5f, 1, 0.25f));
 	CHECK(wax.scatter_distance_m == 0.25f); // from the volume, because the extras have none
-	const glm::vec3 left = wax.compute_transmittance(1.0f);
-	CHECK(left.x == doctest::Approx(0.75 * 0.5 * 0.25));
-	CHECK(left.y == doctest::Approx(0.75 * 0.25));
-	CHECK(left.z == doctest::Approx(0.75 * 1 * 0.0625));
+	// transmission * base colour * attenuation colour^(scale * thickness / attenuation distance);
+	// the exponent is 2 at scale 1 and 4 at scale 2.
+	const glm::vec3 transmittance = wax.compute_transmittance(1.0f);
+	CHECK(transmittance.x == doctest::Approx(0.75 * 0.5 * 0.25));
+	CHECK(transmittance.y == doctest::Approx(0.75 * 0.25));
+	CHECK(transmittance.z == doctest::Approx(0.75 * 1 * 0.0625));
 	CHECK(wax.compute_transmittance(2.0f).x == doctest::Approx(0.75 * 0.5 * 0.0625));
 	json["materials"][0]["extras"]["scatter_distance"] = 0.125;
 	const auto explicit_distance = folder.load(json);
 	CHECK(get_instances(*explicit_distance)[0]->surfaces[0].material->scatter_distance_m == 0.125f);
 	json["materials"][0]["extras"]["scatter"] = 0;
 	json["materials"][0]["extras"].erase("scatter_distance");
-	const auto opaque = folder.load(json);
-	CHECK(get_instances(*opaque)[0]->surfaces[0].material->scatter_distance_m == 0);
+	const auto without_scatter = folder.load(json);
+	CHECK(get_instances(*without_scatter)[0]->surfaces[0].material->scatter_distance_m == 0);
 	CHECK(log.errors.empty());
 	CHECK(Material().compute_transmittance(1.0f) == glm::vec3(0.0f));
 }
@@ -186,10 +190,10 @@ TEST_CASE("[GltfMaterials] the scatter distance is preserved when the attenuatio
 	set_node_property(instance, "scatter_distance", 0.0);
 	CHECK(save_and_load(*scene).scatter_distance_m == 0.0f);
 	CHECK(save_and_load(*scene).attenuation_distance_m == 0.5f);
-	Json opaque = json;
-	opaque["materials"][0].erase("extras");
-	const auto other = folder.load(opaque);
-	set_node_property(*get_instances(*other)[0], "scatter", 0.5); // its distance is the default
+	Json without_scatter = json;
+	without_scatter["materials"][0].erase("extras");
+	const auto other = folder.load(without_scatter); // its scatter distance is 0
+	set_node_property(*get_instances(*other)[0], "scatter", 0.5);
 	CHECK(save_and_load(*other).scatter_distance_m == 0.0f);
 	CHECK(save_and_load(*other).scatter == 0.5f);
 }
@@ -201,7 +205,7 @@ TEST_CASE("[GltfMaterials] lines and unknown data of a mesh are preserved when a
 	Json json = make_wax_document(folder);
 	Json &primitives = json["meshes"][0]["primitives"];
 	Json lines = primitives[0];
-	lines["mode"] = 1;
+	lines["mode"] = 1; // LINES
 	lines["extras"] = { { "drawn", "by hand" } };
 	primitives.insert(primitives.begin(), lines);
 	const auto scene = folder.load(json);

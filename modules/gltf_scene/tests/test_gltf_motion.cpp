@@ -13,7 +13,7 @@ using namespace gnomon;
 
 namespace {
 
-const int GLTF_TEST_UBYTE = 5121;
+const int GLTF_TEST_UBYTE = 5121; // componentType UNSIGNED_BYTE
 const float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 const std::vector<float> IDENTITY = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
 
@@ -141,7 +141,7 @@ TEST_CASE("gltf motion: a second set of joints with normalized byte weights is r
 
 TEST_CASE("gltf motion: invalid skins and morph targets are rejected with their location") {
 	const GltfTestFolder folder;
-	const auto find = [&](const Json &p_json, const std::string &p_text_part) {
+	const auto check_error = [&](const Json &p_json, const std::string &p_text_part) {
 		const std::string message = get_load_error(folder, p_json);
 		CAPTURE(message);
 		CHECK(message.find(p_text_part) != std::string::npos);
@@ -149,60 +149,61 @@ TEST_CASE("gltf motion: invalid skins and morph targets are rejected with their 
 	};
 	MotionDocument motion;
 	motion.weights[5] = NOT_A_NUMBER;
-	find(motion.make(folder), "weight 1 of vertex 1 is nan, must be 0..1");
+	check_error(motion.make(folder), "weight 1 of vertex 1 is nan, must be 0..1");
 	motion = {};
 	motion.joints[4] = 9;
 	motion.weights[4] = 1;
-	find(motion.make(folder), "which has 2 joints, but the mesh uses joint 9");
+	check_error(motion.make(folder), "which has 2 joints, but the mesh uses joint 9");
 	motion = {};
 	motion.weights.resize(8);
-	find(motion.make(folder), "WEIGHTS_0 has 2 elements, must be 3, one per POSITION");
+	check_error(motion.make(folder), "WEIGHTS_0 has 2 elements, must be 3, one per POSITION");
 	motion = {};
 	motion.inverse_bind_matrices = IDENTITY;
-	find(motion.make(folder), "inverseBindMatrices has 1 elements, must be at least 2");
+	check_error(motion.make(folder), "inverseBindMatrices has 1 elements, must be at least 2");
 	motion = {};
 	motion.inverse_bind_matrices[20] = NOT_A_NUMBER;
-	find(motion.make(folder), "skins[0].inverseBindMatrices[1] is not finite");
+	check_error(motion.make(folder), "skins[0].inverseBindMatrices[1] is not finite");
 	motion = {};
 	motion.deltas[4] = NOT_A_NUMBER;
-	find(motion.make(folder), "morph target 0, vertex 1 is not finite");
+	check_error(motion.make(folder), "morph target 0, vertex 1 is not finite");
 	motion = {};
 	motion.deltas.resize(6);
-	find(motion.make(folder), "targets[0].POSITION has 2 elements, must be 3");
+	check_error(motion.make(folder), "targets[0].POSITION has 2 elements, must be 3");
 	motion = {};
 	Json json = motion.make(folder);
 	json["skins"][0]["joints"] = Json::array();
-	find(json, "skins[0].joints has 0 elements, must be 1..65536");
+	check_error(json, "skins[0].joints has 0 elements, must be 1..65536");
 	json["skins"][0]["joints"] = std::vector<int>(1000000, 2);
-	find(json, "skins[0].joints has 1000000 elements, must be 1..65536");
+	check_error(json, "skins[0].joints has 1000000 elements, must be 1..65536");
 	json["skins"][0]["joints"] = { 2, 17 };
-	find(json, "skins[0].joints[1] is 17, must be 0..3");
+	check_error(json, "skins[0].joints[1] is 17, must be 0..3");
 	json = motion.make(folder);
 	json["nodes"][0]["skin"] = 4;
-	find(json, "nodes[0].skin is 4, must be 0");
+	check_error(json, "nodes[0].skin is 4, must be 0");
 	json = motion.make(folder);
 	json["nodes"][3]["children"] = { 1 }; // the frame is a child of the knee
-	find(json, "is its own ancestor");
+	check_error(json, "is its own ancestor");
 	json = motion.make(folder);
 	json["accessors"][2]["componentType"] = GLTF_TEST_FLOAT;
 	json["accessors"][2]["bufferView"] = 3;
 	json["accessors"][2]["count"] = 3;
-	find(json, "must be whole numbers in 0..65535");
+	check_error(json, "must be whole numbers in 0..65535");
 	json = motion.make(folder);
 	json["accessors"][4]["type"] = "VEC4";
-	find(json, "accessors[4].type is \"VEC4\", must be \"MAT4\"");
+	check_error(json, "accessors[4].type is \"VEC4\", must be \"MAT4\"");
 }
 
 TEST_CASE("gltf motion: a channel that cannot be played is skipped and the rest is loaded") {
 	const GltfTestFolder folder;
-	const auto check = [&](const Json &p_json, const std::string &p_text_part, size_t p_channels) {
+	const auto check = [&](const Json &p_json, const std::string &p_text_part,
+							   size_t p_channel_count) {
 		std::vector<std::string> messages;
 		const auto scene = load_with_log(folder, p_json, messages);
 		CAPTURE(p_text_part);
 		CAPTURE((messages.empty() ? "" : messages[0]));
 		CHECK(GltfTestLog::contains(messages, p_text_part));
 		REQUIRE(scene->animations.size() == 1);
-		CHECK(scene->animations[0]->channels.size() == p_channels);
+		CHECK(scene->animations[0]->channels.size() == p_channel_count);
 		pose_scene(*scene, scene->animations[0].get(), 1);
 		Camera3D camera;
 		CHECK(build_snapshot(*scene, camera)->instances.size() == 1);
@@ -232,7 +233,7 @@ TEST_CASE("gltf motion: a channel that cannot be played is skipped and the rest 
 	check(json, "target.path is \"colour\", must be \"translation\"", 1);
 	json = motion.make(folder);
 	json["animations"][0]["channels"][1]["target"]["node"] = 2;
-	check(json, "the mesh of nodes[2] has no morph targets", 1);
+	check(json, "nodes[2] has no mesh with morph targets", 1);
 	json = motion.make(folder);
 	json["animations"][0]["samplers"][0]["interpolation"] = "BOUNCE";
 	check(json, "interpolation is \"BOUNCE\", must be \"LINEAR\", \"STEP\" or \"CUBICSPLINE\"", 2);
@@ -241,6 +242,7 @@ TEST_CASE("gltf motion: a channel that cannot be played is skipped and the rest 
 		{ "extensions", { { "KHR_animation_pointer", { { "pointer", "/nodes/0/scale" } } } } } };
 	check(json, "KHR_animation_pointer is not read", 1);
 	json = motion.make(folder);
+	// A channel without target is valid, because an extension may define it: no message.
 	json["animations"][0]["channels"][0].erase("target");
 	std::vector<std::string> messages;
 	CHECK(load_with_log(folder, json, messages)->animations[0]->channels.size() == 1);

@@ -1,3 +1,5 @@
+// Tests that valid documents are read into the expected scene.
+
 #include "modules/gltf_scene/tests/gltf_test_files.h"
 
 #include <doctest/doctest.h>
@@ -72,14 +74,14 @@ TEST_CASE("[GltfReader] strips and fans become triangles with their winding; poi
 	buffer.store(json, folder);
 	Json &primitive = json["meshes"][0]["primitives"][0];
 	primitive.erase("indices");
-	primitive["mode"] = 5;
+	primitive["mode"] = 5; // TRIANGLE_STRIP
 	CHECK(get_mesh(*folder.load(json)).indices == std::vector<uint32_t>{ 0, 1, 2, 1, 3, 2 });
-	primitive["mode"] = 6;
+	primitive["mode"] = 6; // TRIANGLE_FAN
 	CHECK(get_mesh(*folder.load(json)).indices == std::vector<uint32_t>{ 1, 2, 0, 2, 3, 0 });
-	primitive["mode"] = 4; // the fourth vertex makes no triangle
+	primitive["mode"] = 4; // TRIANGLES: the fourth vertex makes no triangle
 	CHECK(get_mesh(*folder.load(json)).positions_node.size() == 3);
 	CHECK(log.warnings.empty());
-	primitive["mode"] = 0;
+	primitive["mode"] = 0; // POINTS
 	json["meshes"][0]["primitives"].push_back(primitive);
 	CHECK(get_instance(*folder.load(json)).surfaces.empty());
 	CHECK(log.warnings.size() == 1);
@@ -145,7 +147,7 @@ TEST_CASE("[GltfReader] the default scene and its size are read, and names are m
 			Json::parse(R"([{"name": "A"}, {"name": "A"}, {"name": "A"}, {}, {"name": "A\nB"}])");
 	json["scenes"] = Json::parse(
 			R"([{"nodes": [0]}, {"nodes": [0, 1, 2, 3, 4], "extras": {"scene_size": 4}}])");
-	CHECK(folder.load(json)->root->children.size() == 1);
+	CHECK(folder.load(json)->root->children.size() == 1); // without "scene": the first scene
 	json["scene"] = 1;
 	const auto scene = folder.load(json);
 	CHECK(scene->scene_size_m == 4);
@@ -164,6 +166,7 @@ TEST_CASE("[GltfReader] material values are read from glTF and from extras; inva
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_triangle(folder);
+	// Without a material. glTF's default material would have metallic 1.
 	CHECK(get_instance(*folder.load(json)).surfaces[0].material->metallic == 0);
 	json["meshes"][0]["primitives"][0]["material"] = 0;
 	json["materials"] = Json::parse(R"([{"name": "Wax", "doubleSided": true,
@@ -215,13 +218,13 @@ TEST_CASE("[GltfReader] perspective cameras and the shadow flags of meshes are r
 	CHECK(cameras[0]->vertical_fov_rad == 0.5f);
 	CHECK(cameras[0]->near_m == 0.01f);
 	CHECK(cameras[1]->name == "Camera 2");
-	CHECK(cameras[1]->near_m == 0.05f);
-	CHECK(log.errors.size() == 2);
+	CHECK(cameras[1]->near_m == 0.05f); // the default of Camera3D
+	CHECK(log.errors.size() == 2);		// yfov and znear of cameras[2]
 	CHECK(GltfTestLog::contains(log.warnings, "cameras[1] is not perspective"));
 }
 
 TEST_CASE(
-		"[GltfReader] a node that is a mesh, a light and a camera becomes one with two children") {
+		"[GltfReader] the light and the camera of a node with a mesh become children of the mesh") {
 	GltfTestFolder folder;
 	Json json = make_triangle(folder);
 	json["extensions"] = make_spot_light_document()["extensions"];
@@ -248,6 +251,7 @@ TEST_CASE("[GltfReader] buffers come from data URIs, escaped names and the BIN c
 								"AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
 	CHECK(get_mesh(*folder.load(json)).positions_node[1] == glm::vec3(1, 0, 0));
 	json["buffers"][0].erase("uri");
-	folder.write("a.glb", build_glb({ json, bytes, {} }, { "a.glb", {} }));
+	folder.write(
+			"a.glb", build_glb({ json, bytes, /*other_chunks=*/{} }, { "a.glb", /*logged=*/{} }));
 	CHECK(get_mesh(*load_gltf(folder.path / "a.glb")).positions_node[1] == glm::vec3(1, 0, 0));
 }

@@ -1,3 +1,5 @@
+// Tests how textures are read from glTF files and how their images are decoded.
+
 #include "modules/core/png.h"
 #include "modules/gltf_scene/image_decoder.h"
 #include "modules/gltf_scene/tests/gltf_test_files.h"
@@ -15,6 +17,9 @@ using namespace gnomon;
 
 namespace {
 
+const int GLTF_TEST_UBYTE = 5121; // componentType UNSIGNED_BYTE
+
+/// Four RGBA8 texels, the content of encode_small_png.
 const std::vector<uint8_t> TEXELS = { 255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 10, 20, 30,
 	40 };
 
@@ -23,7 +28,7 @@ std::vector<uint8_t> to_bytes(std::string_view p_text) {
 }
 
 std::vector<uint8_t> encode_small_png() {
-	return encode_png({ 2, 2 }, 4, TEXELS);
+	return encode_png({ 2, 2 }, /*p_channel_count=*/4, TEXELS);
 }
 
 std::vector<uint8_t> encode_jpeg(
@@ -31,8 +36,8 @@ std::vector<uint8_t> encode_jpeg(
 	const tjhandle encoder = tjInitCompress();
 	unsigned char *bytes = nullptr;
 	unsigned long size = 0;
-	const int result = tjCompress2(encoder, p_rgb.data(), p_size_px, 0, p_size_px, p_format, &bytes,
-			&size, TJSAMP_444, 95, 0);
+	const int result = tjCompress2(encoder, p_rgb.data(), p_size_px, /*pitch=*/0, p_size_px,
+			p_format, &bytes, &size, TJSAMP_444, /*jpegQual=*/95, /*flags=*/0);
 	std::vector<uint8_t> file(bytes, bytes + (result == 0 ? size : 0));
 	tjFree(bytes);
 	tjDestroy(encoder);
@@ -40,6 +45,7 @@ std::vector<uint8_t> encode_jpeg(
 }
 
 /// Returns a document of a triangle whose material has a base colour texture from an image file.
+/// The triangle also has two sets of UVs, tangents and vertex colours.
 Json make_textured(const GltfTestFolder &p_folder) {
 	Json json = make_triangle(p_folder);
 	GltfTestBuffer buffer;
@@ -56,7 +62,7 @@ Json make_textured(const GltfTestFolder &p_folder) {
 			GLTF_TEST_FLOAT, "VEC4", 3);
 	buffer.add_accessor(
 			buffer.add_view(std::vector<uint8_t>{ 255, 0, 51, 0, 0, 255, 0, 0, 0, 0, 0, 0 }, 4),
-			5121, "VEC3", 3);
+			GLTF_TEST_UBYTE, "VEC3", 3);
 	buffer.accessors[5]["normalized"] = true;
 	buffer.store(json, p_folder);
 	json["meshes"][0]["primitives"][0]["material"] = 0;
@@ -84,10 +90,11 @@ void write_big_endian(uint32_t p_number, uint8_t *r_bytes) {
 	}
 }
 
-/// Writes the checksum of the PNG chunk that begins at offset p_chunk.
+/// Writes the checksum of the PNG chunk that begins at offset p_chunk: length, type, data, CRC. Its
+/// data must be shorter than 256 bytes.
 void write_png_checksum(std::vector<uint8_t> &r_bytes, size_t p_chunk) {
 	const size_t length_bytes = r_bytes[p_chunk + 3];
-	uint32_t crc = 0xffffffffu;
+	uint32_t crc = 0xffffffffu; // CRC-32 of type and data (PNG specification, annex D)
 	for (size_t index = p_chunk + 4; index < p_chunk + 8 + length_bytes; ++index) {
 		crc ^= r_bytes[index];
 		for (int bit = 0; bit < 8; ++bit) {
@@ -108,7 +115,7 @@ std::string get_decode_error(const std::vector<uint8_t> &p_bytes) {
 	return warning;
 }
 
-/// Returns a PNG file of 2 x 1 pixels. p_depth: bits per channel. p_row: the encoded pixels.
+/// Returns a PNG file of 2 x 1 pixels. p_depth: bits per channel. p_row: the packed pixels.
 std::vector<uint8_t> encode_png_of_type(
 		int p_color_type, int p_depth, const std::vector<uint8_t> &p_row) {
 	struct File {
@@ -157,7 +164,7 @@ TEST_CASE("[GltfTextures] images are read from files, data URIs and buffer views
 	CHECK(texture.image->texels == TEXELS);
 	CHECK(texture.image == surfaces.at(1).material->base_color_texture.image);
 	CHECK(texture.wrap_u == TextureWrap::REPEAT);
-	CHECK(scene->side_files.size() == 2);
+	CHECK(scene->side_files.size() == 2); // the buffer and the image
 
 	const std::vector<uint8_t> png = encode_small_png();
 	GltfTestBuffer buffer;
@@ -208,7 +215,7 @@ TEST_CASE("[GltfTextures] JPEG images are read, and damaged ones in part") {
 		rgb.insert(rgb.end(), { uint8_t(index % 64 * 4), 100, uint8_t(index / 64 * 4) });
 	}
 	const std::vector<uint8_t> jpeg = encode_jpeg(rgb, 64);
-	REQUIRE(jpeg.size() > 500);
+	REQUIRE(jpeg.size() > 500);		  // so that its first half, below, is more than a header
 	folder.write("wood a.png", jpeg); // the bytes decide, not the name
 	const Texture texture = load_base_color(folder, json);
 	REQUIRE(texture.image);
@@ -237,7 +244,7 @@ TEST_CASE("[GltfTextures] images that cannot be read are reported; the scene loa
 	std::vector<uint8_t> huge = encode_small_png();
 	huge[16] = 0x7f; // its width, whose checksum is wrong now too
 	std::vector<uint8_t> cut = encode_small_png();
-	cut.resize(50);
+	cut.resize(50); // in the image data, which begins at 41
 	const std::vector<std::pair<std::vector<uint8_t>, std::string>> bad = {
 		{ huge, "cannot be read" }, { cut, "PNG image that cannot be read: it ends too early" },
 		{ {}, "is empty, must be PNG or JPEG. Export" },
@@ -277,10 +284,11 @@ TEST_CASE("[GltfTextures] images that cannot be read are reported; the scene loa
 	}
 }
 
-TEST_CASE("[GltfTextures] an image that is too large is rejected before memory is allocated") {
-	// A real header with its checksum, and no rows.
-	std::vector<uint8_t> png = encode_png({ 1, 1 }, 4, std::vector<uint8_t>(4));
-	const size_t header = 8;
+TEST_CASE("[GltfTextures] an image that is too large is rejected because of its header") {
+	// The header has a valid checksum, but the only row is that of a 1 x 1 image: if rows were
+	// decoded, the error would be another.
+	std::vector<uint8_t> png = encode_png({ 1, 1 }, /*p_channel_count=*/4, std::vector<uint8_t>(4));
+	const size_t header = 8; // the chunk IHDR, behind the file's signature
 	const std::vector<std::pair<uint32_t, uint32_t>> sizes = { { 16384, 16384 }, { 20000, 20000 },
 		{ 20000, 2 }, { 1, 0x7fffffff } };
 	for (const auto &[width_px, height_px] : sizes) {
@@ -294,17 +302,17 @@ TEST_CASE("[GltfTextures] an image that is too large is rejected before memory i
 	}
 }
 
-TEST_CASE("[GltfTextures] only the first frame of an animated PNG image is read, with a message") {
+TEST_CASE("[GltfTextures] only the first frame of an animated PNG image is read, with an error") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const Json json = make_textured(folder);
 	std::vector<uint8_t> png = encode_small_png();
-	std::vector<uint8_t> chunk(20);
+	std::vector<uint8_t> chunk(20); // length, type, 8 bytes of data, checksum
 	write_big_endian(8, chunk.data());
 	std::memcpy(&chunk[4], "acTL", 4);
 	write_big_endian(2, &chunk[8]); // frames
 	write_png_checksum(chunk, 0);
-	const size_t header_end = 33;
+	const size_t header_end = 33; // signature and IHDR
 	png.insert(png.begin() + header_end, chunk.begin(), chunk.end());
 	folder.write("wood a.png", png);
 	const Texture texture = load_base_color(folder, json);
@@ -352,6 +360,7 @@ TEST_CASE("[GltfTextures] samplers, UV sets and transforms are read; invalid one
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_textured(folder);
+	// CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST, NEAREST_MIPMAP_NEAREST
 	json["samplers"] = Json::parse(
 			R"([{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728, "minFilter": 9984}])");
 	json["textures"][0]["sampler"] = 0;
@@ -385,7 +394,7 @@ TEST_CASE("[GltfTextures] samplers, UV sets and transforms are read; invalid one
 	const auto refused = folder.load(json);
 	const Texture &plain = get_surface(*refused).material->base_color_texture;
 	CHECK(plain.transform == glm::mat3x2(1, 0, 0, 1, 0, 0));
-	CHECK(plain.uv_set == 1);
+	CHECK(plain.uv_set == 1); // the texture's own texCoord
 	for (const char *expected_text :
 			{ "KHR_texture_transform.offset is an array of 2", "scale is an array of 1",
 					"rotation is \"x\"", "KHR_texture_transform.texCoord is -1" }) {
@@ -483,8 +492,9 @@ TEST_CASE("[GltfTextures] damaged images are decoded or rejected, without a cras
 	for (size_t index = 0; index < rgb.size(); ++index) {
 		rgb[index] = static_cast<uint8_t>(index * 7);
 	}
-	const std::vector<uint8_t> files[] = { encode_png({ 32, 32 }, 3, rgb), encode_jpeg(rgb, 32) };
-	std::mt19937 random(20100901);
+	const std::vector<uint8_t> files[] = { encode_png({ 32, 32 }, /*p_channel_count=*/3, rgb),
+		encode_jpeg(rgb, 32) };
+	std::mt19937 random(20100901); // any fixed seed
 	for (const std::vector<uint8_t> &file : files) {
 		for (int round = 0; round < 500; ++round) {
 			std::vector<uint8_t> bytes = file;

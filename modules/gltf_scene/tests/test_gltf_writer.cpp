@@ -1,3 +1,5 @@
+// Tests what saving preserves, changes and rejects, for loaded and for generated scenes.
+
 #include "modules/core/tests/killed_process.h"
 #include "modules/gltf_scene/tests/gltf_test_files.h"
 
@@ -72,7 +74,7 @@ std::unique_ptr<Scene> make_generated_scene() {
 		light->color = glm::vec3(0.1f, 0.7f, 1);
 		light->range_m = type == LightType::OMNI ? 9.9f : 0.0f;
 		light->inner_cone_rad = type == LightType::SPOT ? 0.1f : 0.0f;
-		light->outer_cone_rad = type == LightType::SPOT ? 0.76f : 0.785398163f;
+		light->outer_cone_rad = type == LightType::SPOT ? 0.76f : 0.785398163f; // default: pi / 4
 		light->properties = { { "light_size", 0.4 }, { "shadow_enabled", false },
 			{ "shadow_technique", std::string("later") }, { "later_taps", int64_t(32) } };
 		light->parent_from_node = glm::inverse(
@@ -85,11 +87,11 @@ std::unique_ptr<Scene> make_generated_scene() {
 }
 
 /// Loads a file in which one node has a mesh and a light.
-std::unique_ptr<Scene> load_mesh_with_light(GltfTestFolder &r_folder) {
-	Json json = make_triangle(r_folder);
+std::unique_ptr<Scene> load_mesh_with_light(const GltfTestFolder &p_folder) {
+	Json json = make_triangle(p_folder);
 	json["extensions"] = make_spot_light_document()["extensions"];
 	json["nodes"][0]["extensions"] = make_spot_light_document()["nodes"][0]["extensions"];
-	return r_folder.load(json);
+	return p_folder.load(json);
 }
 
 size_t count_files(const fs::path &p_folder) {
@@ -250,7 +252,7 @@ TEST_CASE("[GltfWriter] binary and text form can be converted; unknown chunks ar
 	const std::vector<uint8_t> chunk = { 4, 0, 0, 0, 'N', 'O', 'T', 'E', 1, 2, 3, 4 };
 	bytes.insert(bytes.end(), chunk.begin(), chunk.end());
 	const uint32_t length = static_cast<uint32_t>(bytes.size());
-	std::memcpy(bytes.data() + 8, &length, sizeof(length));
+	std::memcpy(bytes.data() + 8, &length, sizeof(length)); // the header's file length
 	folder.write("note.glb", bytes);
 	save_gltf(*load_gltf(folder.path / "note.glb"), folder.path / "note2.glb");
 	CHECK(load_file(folder.path / "note2.glb") == bytes);
@@ -267,7 +269,7 @@ TEST_CASE("[GltfWriter] a generated scene is saved in full, in both forms") {
 	const Json json = folder.read_json("made.gltf");
 	CHECK(json["meshes"].size() == 1); // shared by two nodes
 	CHECK(json["accessors"][0].contains("min"));
-	CHECK(json["extensionsUsed"].size() == 2);
+	CHECK(json["extensionsUsed"].size() == 2); // lights and emissive strength
 	CHECK(json["buffers"][0]["uri"] == "made.bin");
 	CHECK(json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"].dump() == "12.3");
 }
@@ -312,7 +314,7 @@ TEST_CASE("[GltfWriter] a process killed while saving leaves the old or the new 
 					CHECK((is_new || find_difference(*before, *found).empty()));
 					new_count += is_new;
 				});
-		CHECK(kill_count >= 4);
+		CHECK(kill_count >= 4); // a file is created, written, synced and renamed
 		CHECK(new_count >= 1);
 		// Files do not accumulate. One buffer may remain from a kill before the old one was
 		// removed.

@@ -11,5 +11,5 @@ TEST_CASE("[CommandRegistry] a module adds its command, and removes it when unin
 	CHECK(CommandRegistry::find("compare") == nullptr);
 	initialize_masks_module(ModuleLevel::FEATURES);
 	REQUIRE(CommandRegistry::find("compare") != nullptr);
-	CHECK(CommandRegistry::find("compare")->help_order == CommandInfo::LAST);
+	CHECK(CommandRegistry::find("compare")->help_order == CommandInfo::LAST); // the default
 }

@@ -49,7 +49,7 @@ void write_exr(const fs::path &p_path, const std::vector<std::string> &p_channel
 				static_cast<uintptr_t>(static_cast<intptr_t>(p_corner.x)) * stride;
 		buffer.insert(channel, Imf::Slice(p_type, reinterpret_cast<char *>(base), stride, 0));
 	}
-	Imf::OutputFile file(p_path.c_str(), header, 0);
+	Imf::OutputFile file(p_path.c_str(), header, /*numThreads=*/0);
 	file.setFrameBuffer(buffer);
 	file.writePixels(p_size_px);
 }
@@ -76,7 +76,7 @@ TEST_CASE("[MaskImage] a saved mask loads bit-identical, odd sizes and denormals
 		CHECK(loaded.visibility == image.visibility);
 		CHECK(loaded.receiver == image.receiver);
 	}
-	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1); // no temporary files
 }
 
 TEST_CASE("[MaskImage] images without pixels, unwritable paths and missing files are errors") {
@@ -111,7 +111,7 @@ TEST_CASE("[MaskImage] the error of a missing channel names it") {
 	CHECK(get_error(path).find("\"Y\" is missing") != std::string::npos);
 }
 
-TEST_CASE("[MaskImage] a header with too large a size is refused") {
+TEST_CASE("[MaskImage] a header with a size that is too large, 0 or negative is refused") {
 	TemporaryFolder folder;
 	std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "small");
 	// Layout of dataWindow: name, type, size, then four int32: xMin yMin xMax yMax.
@@ -136,18 +136,21 @@ TEST_CASE("[MaskImage] a header with too large a size is refused") {
 
 TEST_CASE("[MaskImage] multi-part files, deep pixels and attributes longer than a file fail") {
 	const std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "whole");
-	for (const uint8_t flag : { 0x08, 0x10 }) {
+	for (const uint8_t flag : { 0x08, 0x10 }) { // deep pixels, several parts
 		std::vector<uint8_t> changed = bytes;
 		changed[5] |= flag;
 		CHECK_THROWS_AS(decode_mask_exr(changed, "parts"), Error);
 	}
-	std::vector<uint8_t> longer = bytes; // the length of the first attribute: "channels" "chlist"
+	// The highest byte of the first attribute's length, which follows 8 bytes of magic and version,
+	// the name "channels" and the type "chlist".
+	std::vector<uint8_t> longer = bytes;
 	longer[8 + 9 + 7 + 3] = 0x7f;
 	CHECK_THROWS_WITH_AS(decode_mask_exr(longer, "longer"), doctest::Contains("cut short"), Error);
 }
 
 TEST_CASE("[MaskImage] a file truncated anywhere is an error") {
 	const std::vector<uint8_t> bytes = encode_mask_exr(make_image(40, 40), "whole");
+	// Every byte of the header, which is shorter than 600, then samples of the pixels' data.
 	for (size_t size = 0; size < bytes.size(); size += size < 600 ? 1 : 37) {
 		CAPTURE(size);
 		CHECK_THROWS_AS(decode_mask_exr(std::span(bytes).first(size), "cut"), Error);
@@ -162,7 +165,8 @@ TEST_CASE("[MaskImage] damaged files give a consistent image or an error, never 
 	for (int i = 0; i < 500; ++i) {
 		std::vector<uint8_t> damaged = bytes;
 		for (int flip = 0; flip <= i % 4; ++flip) {
-			// Two thirds of the damage is in the header, which has the lengths and types.
+			// Two thirds of the files are damaged in their first 400 bytes only: in the header,
+			// which has the lengths and types, or right after it.
 			const size_t range = i % 3 == 0 ? damaged.size() : 400;
 			damaged[random() % range] = static_cast<uint8_t>(random());
 		}
@@ -185,7 +189,8 @@ TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, even in
 		REQUIRE(table + sizeof(block) < bytes.size());
 		std::memcpy(&block, bytes.data() + table, sizeof(block));
 	}
-	// OpenEXR would refuse the sizes of this preview, or allocate memory for them.
+	// An attribute "x" of the type "preview" and 8 bytes: a width and a height, which OpenEXR would
+	// refuse or allocate memory for.
 	const std::string preview("x\0preview\0\x08\0\0\0\xff\xff\xff\x7f\xff\xff\0\0", 22);
 	block += preview.size();
 	std::memcpy(bytes.data() + table, &block, sizeof(block));
@@ -195,8 +200,8 @@ TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, even in
 
 TEST_CASE("[MaskImage] a channel list that is not as long as it states is refused") {
 	std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "whole");
-	const size_t length = 8 + 9 + 7; // behind the names "channels" and "chlist"
-	for (const int change : { -18, -1, 1 }) {
+	const size_t length = 8 + 9 + 7;		  // behind the names "channels" and "chlist"
+	for (const int change : { -18, -1, 1 }) { // 18: bytes of the channel "Y"
 		std::vector<uint8_t> changed = bytes;
 		changed[length] = static_cast<uint8_t>(changed[length] + change);
 		CHECK_THROWS_WITH_AS(decode_mask_exr(changed, "list"),

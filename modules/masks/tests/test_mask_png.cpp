@@ -40,11 +40,11 @@ std::vector<uint8_t> load_png(const fs::path &p_path, int p_channel_count) {
 
 } // namespace
 
-TEST_CASE("[MaskPng] a mask is written as linear grey, no receiver as black") {
+TEST_CASE("[MaskPng] saved files have the computed pixels; bad paths and empty masks are errors") {
 	const TemporaryFolder temporary;
 	const fs::path &folder = temporary.path;
 	MaskImage image = make_test_mask();
-	image.visibility[4] = 0.7f;
+	image.visibility[4] = 0.7f; // not a receiver: black
 	save_mask_png(folder / "mask.png", image);
 	CHECK(load_png(folder / "mask.png", 1) == std::vector<uint8_t>{ 0, 128, 255, 64, 0, 255 });
 
@@ -54,7 +54,7 @@ TEST_CASE("[MaskPng] a mask is written as linear grey, no receiver as black") {
 	CHECK(load_png(folder / "error.png", 3) == compute_error_pixels(make_test_mask(), result));
 	CHECK_THROWS_AS(save_mask_png(folder / "none" / "mask.png", image), Error);
 	CHECK_THROWS_AS(save_mask_png(folder / "empty.png", MaskImage()), Error);
-	CHECK(std::distance(fs::directory_iterator(folder), {}) == 2);
+	CHECK(std::distance(fs::directory_iterator(folder), {}) == 2); // mask.png and error.png
 }
 
 TEST_CASE("[MaskPng] errors are white at 0, blue when too dark, red when too light") {

@@ -85,7 +85,7 @@ TEST_CASE("[MaskTiming] each pass has the median of its frames, the total that o
 	CHECK(timing.cost_ms == 7);
 }
 
-TEST_CASE("[MaskTiming] a pass on the host costs its wall time, one on the device its GPU time") {
+TEST_CASE("[MaskTiming] a pass on the CPU costs its wall time, one on the GPU its GPU time") {
 	TimingSamples samples;
 	samples.add_frame({ { "depth", 1, 50 }, { "trace", 0, 20, true } });
 	samples.add_frame({ { "depth", 3, 60 }, { "trace", 0, 30, true } });

@@ -6,7 +6,8 @@ namespace gnomon {
 
 namespace {
 
-/// Mirrors is_light_facing in silhouette_inc.glsl: the same operations in the same order.
+/// Mirrors is_light_facing in silhouette_inc.glsl: the same operations in the same order, from the
+/// lowest vertex on. p_ids: the face's welded vertices.
 bool is_light_facing(
 		const MeshTopology &p_topology, const glm::vec4 &p_light, const glm::uvec3 &p_ids) {
 	const int first = p_ids.y < p_ids.x && p_ids.y < p_ids.z ? 1

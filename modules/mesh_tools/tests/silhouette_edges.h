@@ -13,8 +13,8 @@ namespace gnomon {
 /// with the same float32 operations in the same order. Returns ascending indices into
 /// MeshTopology::edges: all boundary edges, the edges between a light-facing and a back-facing
 /// face, and inconsistent edges whose faces are both light-facing or both back-facing. These are
-/// the edges of build_silhouette, except that they may differ where the light is in the plane of a
-/// face up to rounding.
+/// the edges of build_silhouette, but the two may differ where the light is, within rounding, in
+/// the plane of a face.
 std::vector<uint32_t> find_silhouette_edges(
 		const MeshTopology &p_topology, const glm::vec4 &p_light_position_node);
 

@@ -98,6 +98,7 @@ TEST_CASE("[Bvh] a query by planes finds the same boxes as brute force") {
 
 TEST_CASE("[Bvh] identical boxes, exponentially growing boxes and boxes of zero size are found") {
 	std::vector<Bounds> boxes(300, make_box(glm::dvec3(0), glm::dvec3(1)));
+	// Of boxes that grow like this, the surface area heuristic splits off few at each level.
 	for (int i = 0; i < 300; ++i) {
 		boxes.push_back(make_box(glm::dvec3(0), glm::dvec3(std::pow(1.9, i) * 1e-40)));
 		boxes.push_back(make_box(

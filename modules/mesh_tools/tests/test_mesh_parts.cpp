@@ -62,7 +62,7 @@ TEST_CASE("[MeshParts] a box is a closed part of a mesh that also has an open qu
 	REQUIRE(topology.counts.part_count == 2);
 	CHECK(topology.counts.closed_part_count == 1);
 	for (uint32_t face = 0; face < topology.get_face_count(); ++face) {
-		CHECK(topology.is_double_sided(face) == (face >= 12));
+		CHECK(topology.is_double_sided(face) == (face >= 12)); // the cube has 12 faces
 	}
 	CHECK(topology.parts[0].signed_volume_m3 == doctest::Approx(8));
 }

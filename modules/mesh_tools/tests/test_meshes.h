@@ -116,8 +116,8 @@ inline Mesh make_quad() {
 	return make({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { 0, 1, 2, 0, 2, 3 });
 }
 
-/// Returns a Moebius strip, a band with half a twist: it has one boundary and no consistent
-/// winding.
+/// Returns a Moebius strip of p_count quads, a band with half a twist: it has one boundary and no
+/// consistent winding.
 inline Mesh make_moebius(uint32_t p_count) {
 	Mesh mesh = make({}, {});
 	for (uint32_t i = 0; i < p_count; ++i) {

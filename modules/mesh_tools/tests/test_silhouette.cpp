@@ -50,6 +50,7 @@ DirectedEdges sum_weights(const Silhouette &p_silhouette) {
 	return edges;
 }
 
+/// Checks that as many edges lead to each vertex as away from it, counted by weight.
 void check_loops(const Silhouette &p_silhouette) {
 	std::map<uint32_t, int> balance;
 	for (const SilhouetteEdge &edge : p_silhouette.edges) {
@@ -61,6 +62,9 @@ void check_loops(const Silhouette &p_silhouette) {
 	}
 }
 
+/// Makes special lights and random ones. Special: above the cube, in a plane of its faces, at its
+/// corner and centre, at infinity (w = 0), very far, with negative w, all zero, and almost at
+/// infinity.
 std::vector<glm::dvec4> make_lights() {
 	std::vector<glm::dvec4> lights = { { 0, 0, 5, 1 }, { 0, 0, 1, 1 }, { 1, 1, 1, 1 },
 		{ 0, 0, 0, 1 }, { 0, 0, 1, 0 }, { 0.3, -0.2, 0.9, 0 }, { 1e6, 2e6, 3e5, 1 },
@@ -94,6 +98,7 @@ TEST_CASE("[Silhouette] the edges are the boundary of the lit surface, for all l
 		make_moebius(24), join(make_cube(), make_cube({ 2, 2, 0 })), Mesh() };
 	meshes.push_back(join(make_sphere(2), make_quad()));
 	meshes.push_back(make_cube());
+	// Non-manifold: a duplicate of a face, and a triangle across the inside.
 	meshes.back().indices.insert(meshes.back().indices.end(), { 0, 2, 3, 0, 7, 4 });
 	for (uint32_t seed = 0; seed < 10; ++seed) {
 		meshes.push_back(make_soup(seed, 6 + 2 * seed, 60));
@@ -143,6 +148,7 @@ TEST_CASE("[Silhouette] compute_light_facing agrees with the triple product of t
 			const glm::dvec3 c = mesh.positions_node[mesh.indices[3 * face + 2]];
 			const glm::dvec3 cross = glm::cross(b - a, c - a);
 			const double side = sign * glm::dot(cross, glm::dvec3(light) - light.w * a);
+			// Nearer to the plane, the rounding of FacePlane to float may decide.
 			if (std::abs(side) > 1e-5 * glm::length(cross) * glm::length(light)) {
 				CHECK((side > 0) == (is_facing[face] != 0));
 			}
@@ -169,8 +175,8 @@ TEST_CASE("[Silhouette] a quad has four edges from either side; the ridge of a r
 		CHECK(silhouette.edges.size() == 4);
 		CHECK(silhouette.is_facing[0] == (z > 0 ? 1 : 0));
 	}
-	// A roof of two open triangles. For a light in front of the first and behind the second, the
-	// ridge is an edge of two layers.
+	// A roof of two triangles. For a light in front of the first and behind the second, both
+	// outlines run along the ridge in the same direction.
 	const MeshTopology roof = build_topology(
 			make({ { 0, 0, 1 }, { 0, 1, 1 }, { 1, 0, 0 }, { -1, 0, 0 } }, { 0, 2, 1, 0, 1, 3 }));
 	const Silhouette silhouette = build_silhouette(roof, { 9, 0.3, 0, 1 });

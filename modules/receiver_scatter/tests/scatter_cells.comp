@@ -19,11 +19,11 @@ void main() {
 	}
 	const vec4 cell = cells[item];
 	const uint ring_count = count_rings(cell.x);
-	uint random = hash_pixel(uvec2(item, 7u));
+	uint random = hash_pixel(uvec2(item, 7u)); // a fixed seed per item
+	const float across = next_random(random);
 	const float along = next_random(random);
-	const float around = next_random(random);
 	const float radius_px = SCATTER_RADIUS_PX * cell.x;
 	const vec2 point = find_cell_point(
-			uvec2(cell.yz), uvec2(ring_count, uint(cell.w)), radius_px, vec2(along, around));
+			uvec2(cell.yz), uvec2(ring_count, uint(cell.w)), radius_px, vec2(across, along));
 	results[item] = vec4(point, find_disc_weight(length(point), radius_px), float(ring_count));
 }

@@ -16,8 +16,8 @@ inline std::shared_ptr<const Material> make_translucent_material(
 	return material;
 }
 
-/// Returns the id of a technique with sharp shadow edges, the default one, so that all blur comes
-/// from the filter.
+/// Returns the id of the default technique. Its shadow edges are sharp if the light has no size:
+/// then all blur comes from the filter.
 inline std::string get_sharp_technique() {
 	return ShadowRegistry::find_default()->id;
 }

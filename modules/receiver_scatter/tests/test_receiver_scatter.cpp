@@ -11,7 +11,8 @@ using namespace gnomon;
 namespace {
 
 /// A half plane whose hard shadow falls straight down on a translucent ground, with its edge at
-/// x = 0. The ground fills the image of a camera that looks straight down.
+/// x = 0 and the lit side at x > 0. The ground fills the image of a camera that looks straight down
+/// from a height of 4 m, below the half plane.
 struct EdgeScene : SmallScene {
 	EdgeScene(float p_scatter, float p_distance_m) : SmallScene(LightType::DIRECTIONAL) {
 		ground->surfaces[0].material = make_translucent_material(p_scatter, p_distance_m);
@@ -24,9 +25,10 @@ struct EdgeScene : SmallScene {
 	}
 
 	/// Returns the x coordinate on the ground that an image column shows: its distance from the
-	/// edge.
+	/// edge, above 0 on the lit side.
 	static float get_x_m(uint32_t p_column, uint32_t p_size_px) {
-		const float half_m = 4.0f * std::tan(0.5f * 0.785398163f);
+		const float fov_rad = 0.785398163f; // Camera3D's default
+		const float half_m = 4.0f * std::tan(0.5f * fov_rad);
 		return half_m * ((p_column + 0.5f) / p_size_px * 2.0f - 1.0f);
 	}
 	/// Returns a column's mean visibility over the middle half of the rows.
@@ -49,6 +51,7 @@ double compute_blurred_edge(double p_distance_radii) {
 	double far_fraction = 0;
 	for (int i = 0; i < STEPS; ++i) {
 		const double distance = spread.compute_distance((i + 0.5f) / STEPS);
+		// The part of the circle with this radius that is beyond the edge is acos(cosine) / pi.
 		const double cosine = std::abs(p_distance_radii) / distance;
 		far_fraction += cosine < 1 ? std::acos(cosine) / 3.14159265358979 / STEPS : 0;
 	}
@@ -86,7 +89,7 @@ TEST_CASE("[GPU][ReceiverScatter] in metres, a sharp edge is blurred as the dipo
 	CHECK(noise < 0.002);
 }
 
-TEST_CASE("[GPU][ReceiverScatter] the reference integrates the same edge") {
+TEST_CASE("[GPU][ReceiverScatter] the reference blurs the edge as the dipole predicts") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	REQUIRE(reference != nullptr);
 	MaskFixture fixture;
@@ -140,7 +143,7 @@ TEST_CASE("[GPU][ReceiverScatter] in pixels, the radius is 16 times s, near samp
 			if (std::abs(x_px) > radius_px + 1.5) { // points are rounded to pixels
 				CHECK(value == (x_px > 0 ? 1.0f : 0.0f));
 			}
-			CHECK(value >= last - 0.02f);
+			CHECK(value >= last - 0.02f); // rises towards the lit side, except for noise
 			last = value;
 		}
 		// A uniformly weighted disc would have 0.392 of its weight past a line at 0.17 R.
@@ -152,7 +155,7 @@ TEST_CASE("[GPU][ReceiverScatter] in pixels, the radius is 16 times s, near samp
 	}
 }
 
-TEST_CASE("[GPU][ReceiverScatter] opaque receivers stay bit-identical") {
+TEST_CASE("[GPU][ReceiverScatter] skipping the filter where nothing scatters changes no mask") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const MaskResult before = fixture.render_mask(scene, get_sharp_technique());
@@ -213,22 +216,23 @@ TEST_CASE("[GPU][ReceiverScatter] opaque pixels next to a translucent body stay 
 	CHECK(count > 50);
 }
 
-TEST_CASE("[GPU][ReceiverScatter] light leaks between surfaces only if the refusal is off") {
+TEST_CASE("[GPU][ReceiverScatter] light leaks between surfaces only if they are not refused") {
 	// A translucent box in front of a translucent ground: adjacent in the image, apart in space.
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.ground->surfaces[0].material = make_translucent_material(1.0f, 0.4f);
+	// 0.999 makes it another material than the ground's, and identifies its pixels below.
 	scene.box->surfaces[0].material = make_translucent_material(0.999f, 0.4f);
 	for (const char *method : { "metres", "pixels" }) {
 		CAPTURE(method);
 		scene.light->properties["receiver_scatter_method"] = std::string(method);
 		scene.light->properties["receiver_scatter_refusal"] = std::string("on");
-		const MaskResult rejecting =
+		const MaskResult refusing =
 				fixture.render_mask(scene, get_sharp_technique(), glm::uvec2(128));
 		scene.light->properties["receiver_scatter_refusal"] = std::string("off");
 		const MaskResult accepting =
 				fixture.render_mask(scene, get_sharp_technique(), glm::uvec2(128));
-		CHECK(is_valid_mask(rejecting));
+		CHECK(is_valid_mask(refusing));
 		CHECK(is_valid_mask(accepting));
 		// The box's top is fully lit: only a leak from the ground can darken it.
 		MaskRequest request;
@@ -237,17 +241,17 @@ TEST_CASE("[GPU][ReceiverScatter] light leaks between surfaces only if the refus
 		request.light = scene.light->name;
 		request.wants_surfaces = true;
 		const std::vector<SurfacePoint> surfaces = fixture.render(request).surfaces;
-		double rejecting_loss = 0;
+		double refusing_loss = 0;
 		double accepting_loss = 0;
 		for (size_t index = 0; index < surfaces.size(); ++index) {
 			if (surfaces[index].material.scatter < 1.0f &&
 					surfaces[index].material.scatter > 0.0f &&
 					surfaces[index].geometric_normal.y > 0.9f) {
-				rejecting_loss += 1 - rejecting.visibility[index];
+				refusing_loss += 1 - refusing.visibility[index];
 				accepting_loss += 1 - accepting.visibility[index];
 			}
 		}
-		CHECK(rejecting_loss == doctest::Approx(0));
+		CHECK(refusing_loss == doctest::Approx(0));
 		CHECK(accepting_loss > 1);
 	}
 }

@@ -1,4 +1,4 @@
-// Tests the extreme cases of doc/stability.md, and extreme materials and image sizes.
+// Tests extreme materials, image sizes, scene sizes and light positions.
 
 #include "modules/receiver_scatter/tests/scatter_fixture.h"
 
@@ -112,7 +112,7 @@ TEST_CASE("[GPU][ReceiverScatter] a scene of another size or position has the sa
 	}
 }
 
-TEST_CASE("[GPU][ReceiverScatter] degenerate light positions and sizes give valid masks") {
+TEST_CASE("[GPU][ReceiverScatter] extreme lights, no receivers, and 64 lights give masks") {
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.ground->surfaces[0].material = make_translucent_material(1.0f, 0.7f);
@@ -120,7 +120,7 @@ TEST_CASE("[GPU][ReceiverScatter] degenerate light positions and sizes give vali
 	const glm::dvec3 positions[] = { { 0, 1.0, 0 }, // inside the box
 		{ 0, 0, 0 }, { 0.3, 1e-6, 0.3 },			// on the ground
 		{ 0, -3, 0 },								// below it
-		{ 40, 0.01, 0 } };							// grazing
+		{ 40, 0.01, 0 } };							// 40 m away, the cone misses it
 	for (const glm::dvec3 &position : positions) {
 		CAPTURE(position.x);
 		CAPTURE(position.y);

@@ -19,6 +19,7 @@ bool overlaps(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 } // namespace
 
 TEST_CASE("[TransientPool] blocks that live one after the other share their memory") {
+	// Size, alignment, first and last pass.
 	std::vector<PlacedBlock> blocks = { { 100, 1, 0, 1 }, { 100, 1, 2, 3 }, { 60, 1, 4, 4 } };
 	CHECK(place_blocks(blocks) == 100);
 	CHECK(blocks[0].offset_bytes == blocks[1].offset_bytes);
@@ -26,7 +27,7 @@ TEST_CASE("[TransientPool] blocks that live one after the other share their memo
 
 TEST_CASE("[TransientPool] blocks that live at the same time do not overlap and are aligned") {
 	std::vector<PlacedBlock> blocks = { { 100, 64, 0, 2 }, { 100, 64, 2, 3 } };
-	CHECK(place_blocks(blocks) == 228);
+	CHECK(place_blocks(blocks) == 228); // 128, the first multiple of 64 above 100, plus 100
 	CHECK(blocks[1].offset_bytes % 64 == 0);
 }
 

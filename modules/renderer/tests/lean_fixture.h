@@ -2,6 +2,8 @@
 
 #include "modules/renderer/tests/render_fixture.h"
 
+// Helpers of the tests of doc/lean.md: a frame skips the passes that it does not need.
+
 namespace gnomon {
 
 /// Returns why the light was skipped; empty if it was not.
@@ -14,8 +16,8 @@ inline std::string find_skip_reason(const RenderResult &p_result, const std::str
 	return "";
 }
 
-/// A scene with a second light, a spot light whose cone reaches 46 degrees from its axis. The
-/// camera looks down at the ground and the box.
+/// A scene with a second light, a spot light whose cone reaches 46 degrees (0.8 rad) from its axis.
+/// The camera looks down at the ground and the box.
 struct TwoLights {
 	SmallScene scene;
 	Light3D &second;

@@ -15,7 +15,7 @@ RenderResult render_both(RenderFixture &r_fixture, const SmallScene &p_scene) {
 	const RenderResult whole = r_fixture.render_image(p_scene, "", false);
 	CHECK(lean.image == whole.image);
 	for (const FramePlanEntry &entry : whole.plan.get_entries()) {
-		CHECK_FALSE((entry.pass == "light" && !entry.runs)); // nothing is skipped
+		CHECK_FALSE((entry.pass == "light" && !entry.runs)); // no light is skipped
 	}
 	return lean;
 }
@@ -57,10 +57,10 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is skipped, the i
 		{ "one that is dark", "its intensity is 0",
 				[](TwoLights &r_lights) { r_lights.second.intensity = 0.0f; } },
 		{ "one that lights what is seen", "", [](TwoLights &) {} },
-		{ "one whose range ends just on a surface", "",
+		{ "one whose range just reaches a surface", "",
 				[](TwoLights &r_lights) {
 					r_lights.second.type = LightType::OMNI;
-					r_lights.second.range_m = 0.75f; // to the box's upper side at 1.3 m
+					r_lights.second.range_m = 0.75f; // the box's upper side is 0.7 m away
 					r_lights.aim_second_light({ 0, 2.0, 0 }, { 0, 0, 0.1 });
 				} },
 		{ "one behind the camera that lights the view", "",
@@ -118,11 +118,12 @@ TEST_CASE("[GPU][Lean] skipping light views without receivers does not change a 
 			continue; // it draws no views
 		}
 		CAPTURE(info.id);
-		RenderFixture turning;
+		RenderFixture skipping;
 		RenderFixture whole;
 		SmallScene scene(LightType::OMNI);
 		scene.light->parent_from_node = look_at({ 0.2, 1.9, 0.3 }, { 0.1, 0, 0.2 });
 		scene.light->properties["light_size"] = 0.1;
+		// Cheap settings: this test does not check precision.
 		for (const PropertyInfo &property :
 				ShadowRegistry::get_light_properties(info.id).get_properties()) {
 			if (property.name.ends_with("_map_size")) {
@@ -142,7 +143,7 @@ TEST_CASE("[GPU][Lean] skipping light views without receivers does not change a 
 					look_at({ 0, 1.2, 0 }, glm::dvec3(0, 1.2, 0) + towards);
 			scene.camera->vertical_fov_rad = 0.7f;
 			scene.light->parent_from_node[3].x += 0.01 * towards.y; // moves a little each frame
-			const RenderResult lean = turning.render_mask(scene, info.id, glm::uvec2(48));
+			const RenderResult lean = skipping.render_mask(scene, info.id, glm::uvec2(48));
 			const RenderResult all = whole.render_mask(scene, info.id, glm::uvec2(48), false);
 			CHECK(count_receivers(lean) > 500);
 			CHECK(lean.visibility == all.visibility);
@@ -177,7 +178,7 @@ TEST_CASE("[GPU][Lean] maps stay cached while the camera looks away for a short 
 		scene.camera->parent_from_node = towards;
 		CHECK(get_reason().starts_with("cached"));
 		scene.camera->parent_from_node = look_at({ 2.5, 3, 2.5 }, { 2.6, 0, 2.6 });
-		for (int frame = 0; frame < 64; ++frame) {
+		for (int frame = 0; frame < 64; ++frame) { // above MAX_UNUSED_FRAMES
 			get_reason();
 		}
 		scene.camera->parent_from_node = towards;
@@ -185,7 +186,7 @@ TEST_CASE("[GPU][Lean] maps stay cached while the camera looks away for a short 
 	}
 }
 
-TEST_CASE("[GPU][TranslucentCasters] skipping does not change the image behind glass") {
+TEST_CASE("[GPU][TranslucentCasters] skipping does not change an image with a glass caster") {
 	RenderFixture fixture;
 	SmallScene scene;
 	const std::string id = ShadowRegistry::find_default()->id;

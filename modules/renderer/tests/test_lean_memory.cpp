@@ -114,7 +114,7 @@ TEST_CASE("[GPU][Lean] closing a scene frees all of its memory") {
 	empty.ground->surfaces.clear();
 	empty.box->surfaces.clear();
 	const auto render_empty = [&] {
-		for (int frame = 0; frame < 64; ++frame) { // temporary caches expire too
+		for (int frame = 0; frame < 64; ++frame) { // above MAX_UNUSED_FRAMES: caches expire
 			fixture.render_image(empty);
 		}
 		return measure_use(*fixture.device);
@@ -147,13 +147,15 @@ TEST_CASE("[GPU][Lean] the maps of a light out of view are freed after a while, 
 	RenderFixture fixture(DeviceChoice::NEW);
 	TwoLights lights;
 	const std::string id = ShadowRegistry::find_default()->id;
+	constexpr int EXPIRY_FRAME_COUNT = 64; // above MAX_UNUSED_FRAMES
 	const ResourceUse without = [&] {
 		lights.aim_second_light({ 1, 3, 0 }, { 1.2, 9, 0 });
-		for (int frame = 0; frame < 64; ++frame) {
+		for (int frame = 0; frame < EXPIRY_FRAME_COUNT; ++frame) {
 			fixture.render_image(lights.scene, id);
 		}
 		return measure_use(*fixture.device);
 	}();
+	// Whether resources named after the second light exist.
 	const auto has_own = [&] {
 		const std::vector<std::string> names = list_live_resources(*fixture.device);
 		return std::any_of(names.begin(), names.end(), [](const std::string &p_name) {
@@ -167,7 +169,7 @@ TEST_CASE("[GPU][Lean] the maps of a light out of view are freed after a while, 
 	lights.aim_second_light({ 1, 3, 0 }, { 1.2, 9, 0 });
 	fixture.render_image(lights.scene, id);
 	CHECK(has_own()); // the light may come back into view
-	for (int frame = 0; frame < 64; ++frame) {
+	for (int frame = 0; frame < EXPIRY_FRAME_COUNT; ++frame) {
 		fixture.render_image(lights.scene, id);
 	}
 	CHECK_FALSE(has_own());
@@ -190,7 +192,7 @@ TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible need the work and memor
 			// Spots point away from the scene, omni lights have a short range.
 			light.range_m = index % 2 ? 2.0f : 0.0f;
 		}
-		fixture.render_image(scene);
+		fixture.render_image(scene); // fills the caches
 		const RenderResult result = fixture.render_image(scene);
 		r_used = measure_use(*fixture.device);
 		return result;

@@ -10,6 +10,7 @@ using namespace gnomon;
 
 namespace {
 
+/// Collects the lines of the log during its lifetime, instead of printing them.
 struct CaughtLines {
 	std::vector<std::string> lines;
 	LogSink before;
@@ -85,7 +86,7 @@ TEST_CASE(
 			max_error = std::max(
 					max_error, std::abs(encode(sum / (factor * factor)) - double(found[byte])));
 		}
-		CHECK(max_error <= 1.5);
+		CHECK(max_error <= 1.5); // of 255; both images are rounded to 8 bits
 	}
 	request.antialiasing = 4;
 	request.mask_light = scene.light->name;
@@ -100,7 +101,7 @@ TEST_CASE(
 				fixture.renderer->render(request), doctest::Contains("must be 1..4"), Error);
 	}
 	request.antialiasing = 4;
-	request.size_px = { 8000, 4 };
+	request.size_px = { 8000, 4 }; // drawn 32000 wide, above MAX_IMAGE_SIZE_PX
 	CHECK_THROWS_WITH_AS(
 			fixture.renderer->render(request), doctest::Contains("with antialiasing 4"), Error);
 }
@@ -141,7 +142,7 @@ TEST_CASE(
 	CHECK(fixture.renderer->render(request).image.size() == 16 * 16 * 4);
 }
 
-TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that names it") {
+TEST_CASE("[GPU][Renderer] an unknown technique or light, or a size out of range, is an error") {
 	RenderFixture fixture;
 	SmallScene scene;
 	CHECK_THROWS_WITH_AS(fixture.render_image(scene, "no_such_technique"),
@@ -219,7 +220,7 @@ TEST_CASE("[GPU][Renderer] a value out of range is reported once and its default
 	}
 }
 
-TEST_CASE("[GPU][Renderer] memory is freed when the scene's meshes are gone") {
+TEST_CASE("[GPU][Renderer] memory does not grow when the scene is replaced") {
 	RenderFixture fixture;
 	uint64_t used_bytes = 0;
 	for (int round = 0; round < 3; ++round) {
@@ -278,7 +279,7 @@ TEST_CASE("[GPU][Renderer] surfaces are within the bounds of the meshes and face
 	CHECK(count > 48 * 32 / 8);
 }
 
-TEST_CASE("[GPU][Renderer] a mask's standard error is that of its technique") {
+TEST_CASE("[GPU][Renderer] the standard error falls with the samples, the default has none") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (!reference) {
 		return; // no technique of this build samples
@@ -293,7 +294,7 @@ TEST_CASE("[GPU][Renderer] a mask's standard error is that of its technique") {
 	const float rough = render(16);
 	const float fine = render(1024);
 	CHECK(fine > 0.0f);
-	CHECK(rough > 4.0f * fine);
+	CHECK(rough > 4.0f * fine); // 64 times the samples: about an eighth of the error
 	CHECK(fixture.render_mask(scene, ShadowRegistry::find_default()->id).standard_error == 0.0f);
 }
 

@@ -16,6 +16,9 @@ using namespace gnomon;
 namespace {
 
 const uint32_t SIZE_PX = 64;
+// For the argument p_is_srgb of sample and make_mip_levels.
+const bool SRGB = true;
+const bool LINEAR = false;
 
 double srgb_to_linear(double p_value) {
 	return p_value <= 0.04045 ? p_value / 12.92 : std::pow((p_value + 0.055) / 1.055, 2.4);
@@ -25,7 +28,8 @@ double linear_to_srgb(double p_value) {
 	return p_value <= 0.0031308 ? p_value * 12.92 : 1.055 * std::pow(p_value, 1 / 2.4) - 0.055;
 }
 
-/// An image of noise that is the same every time.
+/// An image of noise that is the same for the same size and seed. (The constants are those of the
+/// PCG random number generators.)
 std::shared_ptr<const Image> make_noise(glm::uvec2 p_size_px, uint32_t p_seed = 1) {
 	std::vector<uint8_t> texels;
 	uint32_t state = p_seed * 747796405u + 2891336453u;
@@ -74,6 +78,7 @@ glm::dvec4 sample(const Texture &p_texture, glm::dvec2 p_uv, bool p_is_srgb) {
 			glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), fraction.x), fraction.y);
 }
 
+/// The G-buffer's textures as bytes, rows from the top.
 struct Texels {
 	std::vector<uint8_t> base_color, normal, material, emissive, depth;
 
@@ -124,7 +129,7 @@ struct Square {
 	Texels draw(RenderFixture &r_fixture) const {
 		Scene scene;
 		auto camera = std::make_unique<Camera3D>();
-		camera->vertical_fov_rad = float(2 * std::atan(0.5));
+		camera->vertical_fov_rad = float(2 * std::atan(0.5)); // the square is 2 m high, 2 m away
 		camera->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 2));
 		MeshAttributes all = attributes;
 		if (all.uvs[0].empty()) {
@@ -156,11 +161,11 @@ struct Square {
 				graph, device, meshes, materials, *snapshot, size_px, frame, drawn_count);
 		CHECK(drawn_count == 1);
 		Texels texels;
-		add_readback(graph, gbuffer.base_color, texels.base_color, 0);
-		add_readback(graph, gbuffer.shading_normal, texels.normal, 0);
-		add_readback(graph, gbuffer.material, texels.material, 0);
-		add_readback(graph, gbuffer.emissive, texels.emissive, 0);
-		add_readback(graph, gbuffer.depth, texels.depth, 0);
+		add_readback(graph, gbuffer.base_color, texels.base_color);
+		add_readback(graph, gbuffer.shading_normal, texels.normal);
+		add_readback(graph, gbuffer.material, texels.material);
+		add_readback(graph, gbuffer.emissive, texels.emissive);
+		add_readback(graph, gbuffer.depth, texels.depth);
 		graph.execute(RenderGraph::Mode::WAIT);
 		return texels;
 	}
@@ -181,8 +186,8 @@ double find_base_color_error(const Texels &p_texels, const Expect &p_expect) {
 	return max_error;
 }
 
-/// Tolerances in units of 1/255. Many devices interpolate texels with 8-bit weights, so that linear
-/// filtering needs a larger one.
+/// Tolerances in units of 1/255. 0.5 is the rounding to bytes. Many devices interpolate texels with
+/// 8-bit weights, so that linear filtering needs a larger one.
 const double LINEAR_TOLERANCE = 1.51;
 const double NEAREST_TOLERANCE = 0.51;
 
@@ -206,14 +211,14 @@ TEST_CASE("[GPU][Textures] a base colour is repeated, mirrored or clamped, inter
 				texture.wrap_v = wrap_v;
 				texture.is_magnified_nearest = is_nearest;
 				CHECK(find_base_color_error(square.draw(fixture), [&](uint32_t p_pixel) {
-					return sample(texture, square.get_uv(p_pixel), true);
+					return sample(texture, square.get_uv(p_pixel), SRGB);
 				}) <= (is_nearest ? NEAREST_TOLERANCE : LINEAR_TOLERANCE));
 			}
 		}
 	}
 }
 
-TEST_CASE("[GPU][Textures] factor and vertex colours multiply the base colour") {
+TEST_CASE("[GPU][Textures] the base colour's texture is multiplied by factor and vertex colours") {
 	RenderFixture fixture;
 	Square square;
 	square.material.base_color = glm::vec3(0.5f, 0.25f, 1.0f);
@@ -226,7 +231,7 @@ TEST_CASE("[GPU][Textures] factor and vertex colours multiply the base colour") 
 				glm::dvec3(square.material.base_color);
 		if (square.material.base_color_texture.image) {
 			color *= glm::dvec3(
-					sample(square.material.base_color_texture, square.get_uv(p_pixel), true));
+					sample(square.material.base_color_texture, square.get_uv(p_pixel), SRGB));
 		}
 		return glm::dvec4(color, 1.0);
 	};
@@ -250,7 +255,7 @@ TEST_CASE("[GPU][Textures] texture coordinates are scaled, rotated and moved, an
 	uint32_t wrong_count = 0; // at texel borders, where rounding decides
 	const Texels texels = square.draw(fixture);
 	for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
-		const glm::dvec4 expected = sample(texture, square.get_uv(pixel), true);
+		const glm::dvec4 expected = sample(texture, square.get_uv(pixel), SRGB);
 		wrong_count +=
 				std::abs(texels.get_base_color(pixel).x - linear_to_srgb(expected.x)) > 1 / 255.0;
 	}
@@ -261,7 +266,7 @@ TEST_CASE("[GPU][Textures] texture coordinates are scaled, rotated and moved, an
 	square.attributes.uvs[0].assign(4, glm::vec2(0.0f));
 	square.attributes.uvs[1] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } };
 	CHECK(find_base_color_error(square.draw(fixture), [&](uint32_t p_pixel) {
-		return sample(texture, square.get_uv(p_pixel), true);
+		return sample(texture, square.get_uv(p_pixel), SRGB);
 	}) <= NEAREST_TOLERANCE);
 }
 
@@ -286,15 +291,16 @@ TEST_CASE("[GPU][Textures] roughness is green, metal blue, occlusion red, emissi
 		double max_error = 0;
 		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 			const glm::dvec2 uv = square.get_uv(pixel);
-			const glm::dvec4 surface = sample(material.metallic_roughness_texture, uv, false);
+			const glm::dvec4 surface = sample(material.metallic_roughness_texture, uv, LINEAR);
 			const glm::dvec4 drawn = texels.get_half(texels.material, pixel);
+			// Phong's model is stored as -1 - roughness.
 			const double roughness = model == ShadingModel::PHONG ? -1 - drawn.z : drawn.z;
 			max_error = std::max({ max_error, std::abs(roughness - 0.5 * surface.y),
 					std::abs(drawn.w - 0.75 * surface.z) });
 			const double occlusion =
-					1 + 0.5 * (sample(material.occlusion_texture, uv, false).x - 1);
+					1 + 0.5 * (sample(material.occlusion_texture, uv, LINEAR).x - 1);
 			max_error = std::max(max_error, std::abs(texels.get_base_color(pixel).w - occlusion));
-			const glm::dvec4 emissive = sample(material.emissive_texture, uv, true);
+			const glm::dvec4 emissive = sample(material.emissive_texture, uv, SRGB);
 			const glm::dvec4 emitted = texels.get_half(texels.emissive, pixel);
 			for (int channel = 0; channel < 3; ++channel) {
 				max_error = std::max(max_error,
@@ -321,11 +327,11 @@ TEST_CASE("[GPU][Textures] a normal map perturbs normals, with the mesh's tangen
 		double max_error = 0;
 		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 			glm::dvec2 uv = square.get_uv(pixel);
-			if (square.world_from_node[0].x < 0) {
+			if (square.world_from_node[0].x < 0) { // mirrored: u grows to the left
 				uv.x = 1 - uv.x;
 			}
 			const glm::dvec3 map =
-					glm::dvec3(sample(square.material.normal_texture, uv, false)) * 2.0 - 1.0;
+					glm::dvec3(sample(square.material.normal_texture, uv, LINEAR)) * 2.0 - 1.0;
 			const glm::dvec3 expected = glm::normalize(p_tangent * (map.x * 0.5) +
 					bitangent * (map.y * 0.5) + glm::dvec3(0, 0, map.z));
 			max_error = std::max(
@@ -333,9 +339,9 @@ TEST_CASE("[GPU][Textures] a normal map perturbs normals, with the mesh's tangen
 		}
 		return max_error;
 	};
-	const double NORMAL_TOLERANCE = 2e-4;
-	CHECK(find_error({ 1, 0, 0 }, 1) <=
-			NORMAL_TOLERANCE); // x along u; y against v, which grows downwards
+	const double NORMAL_TOLERANCE = 2e-4; // packing alone: up to 7e-5, see normal_inc.glsl
+	// x along u; y against v, which grows downwards
+	CHECK(find_error({ 1, 0, 0 }, 1) <= NORMAL_TOLERANCE);
 	square.attributes.tangents.assign(4, glm::vec4(0, 1, 0, -1));
 	CHECK(find_error({ 0, 1, 0 }, -1) <= NORMAL_TOLERANCE);
 	square.attributes.tangents.clear();
@@ -357,7 +363,7 @@ TEST_CASE("[GPU][Textures] pixels below the alpha cutoff are not drawn, opaque m
 		uint32_t seen_count = 0;
 		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
 			const double alpha =
-					0.8 * sample(square.material.base_color_texture, square.get_uv(pixel), true).w;
+					0.8 * sample(square.material.base_color_texture, square.get_uv(pixel), SRGB).w;
 			const bool is_expected = mode == AlphaMode::OPAQUE || alpha >= 0.4;
 			const bool is_seen = texels.get_depth(pixel) > 0;
 			seen_count += is_seen;
@@ -377,19 +383,19 @@ TEST_CASE("[Textures] each mip level has the mean light of the texels that it co
 	}
 	const auto board = make_image("board", { 8, 8 }, texels);
 	uint32_t level_count = 0;
-	std::vector<uint8_t> levels = make_mip_levels(*board, true, level_count);
+	std::vector<uint8_t> levels = make_mip_levels(*board, SRGB, level_count);
 	CHECK(level_count == 4);
 	REQUIRE(levels.size() == (64 + 16 + 4 + 1) * 4);
 	CHECK(std::equal(texels.begin(), texels.end(), levels.begin()));
 	for (size_t index = 64 * 4; index < levels.size(); ++index) {
 		CHECK(std::abs(levels[index] - (index % 4 == 3 ? 255 : 188)) <= 1);
 	}
-	levels = make_mip_levels(*board, false, level_count);
-	CHECK(std::abs(levels.back() - 255) == 0);
+	levels = make_mip_levels(*board, LINEAR, level_count);
+	CHECK(levels.back() == 255); // alpha
 	CHECK(std::abs(levels[64 * 4] - 128) <= 1);
 	// Odd sizes: nothing is skipped, nothing counts twice.
 	const auto odd = make_noise({ 7, 5 });
-	levels = make_mip_levels(*odd, false, level_count);
+	levels = make_mip_levels(*odd, LINEAR, level_count);
 	CHECK(level_count == 3);
 	double mean = 0;
 	for (uint32_t index = 0; index < 35; ++index) {
@@ -398,14 +404,14 @@ TEST_CASE("[Textures] each mip level has the mean light of the texels that it co
 	CHECK(std::abs(levels[levels.size() - 4] - mean) <= 2);
 	// Colours of transparent texels do not bleed into opaque ones.
 	const auto leaf = make_image("leaf", { 2, 1 }, { 0, 255, 0, 255, 255, 0, 0, 0 });
-	levels = make_mip_levels(*leaf, true, level_count);
+	levels = make_mip_levels(*leaf, SRGB, level_count);
 	CHECK(levels[8] == 0);
 	CHECK(levels[9] == 255);
 	CHECK(levels[11] == 128);
 }
 
-TEST_CASE("[GPU][Textures] a minified texture shows its mean, or texels of its first level without "
-		  "mip levels") {
+TEST_CASE("[GPU][Textures] a minified texture shows its mean, or, without mip levels, texels of "
+		  "its first level") {
 	RenderFixture fixture;
 	Square square;
 	square.high = { 256, 256 }; // 4 repetitions per pixel along each axis
@@ -436,6 +442,7 @@ TEST_CASE("[GPU][Textures] textures of images that no longer exist are freed") {
 	const uint64_t with_one = fixture.device->get_memory_use().used_bytes;
 	store.get(second);
 	CHECK(store.get_texture_count() == 2); // one as sRGB, one as linear values
+	// The second material adds its constants only.
 	CHECK(fixture.device->get_memory_use().used_bytes - with_one < 1024);
 	first.reset();
 	second.reset();

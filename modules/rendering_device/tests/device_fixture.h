@@ -70,7 +70,8 @@ struct DeviceFixture {
 		return values;
 	}
 
-	/// Reads a layer of a texture. p_before: its last access.
+	/// Reads a layer of a texture. p_before: its last access; a texture that was created with data
+	/// and not used yet is in SHADER_READ_FRAGMENT.
 	template <typename T>
 	std::vector<T> read_texture(TextureRID p_texture, Access p_before, uint32_t p_layer = 0) {
 		const TextureDesc desc = device->get_desc(p_texture);

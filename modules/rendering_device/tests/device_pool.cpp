@@ -39,7 +39,7 @@ TestDevice create_test_device(
 	if (is_shared && !idle_devices.empty()) {
 		std::unique_ptr<RenderingDevice> device = std::move(idle_devices.back());
 		idle_devices.pop_back();
-		return TestDevice(device.release(), { true });
+		return TestDevice(device.release(), { /*is_shared=*/true });
 	}
 	DeviceOptions options;
 	options.validation = true;

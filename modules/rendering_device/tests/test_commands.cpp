@@ -9,15 +9,18 @@ using SubmitMode = RenderingDevice::SubmitMode;
 
 namespace {
 
+/// Push constants of scale.comp.
 struct ScalePush {
 	uint32_t item_count;
 	uint32_t offset;
 };
 
+const uint32_t FACTOR = 3; // of scale.comp
+
 PipelineRID get_scale_pipeline(RenderingDevice &r_device, uint32_t p_local_size = 64) {
 	return r_device.get_compute_pipeline({ .name = "scale",
 			.shader = "tests/scale.comp",
-			.constants = { { 0, p_local_size }, { 1, 3 } } });
+			.constants = { { 0, p_local_size }, { 1, FACTOR } } });
 }
 
 } // namespace
@@ -51,7 +54,7 @@ TEST_CASE("[GPU][RenderingDevice] a compute pass reads uploaded data and its res
 		const auto results = fixture.read<uint32_t>(readback, 1000);
 		bool is_equal = true;
 		for (uint32_t index = 0; index < values.size(); ++index) {
-			is_equal = is_equal && results[index] == values[index] * 3 + local_size;
+			is_equal = is_equal && results[index] == values[index] * FACTOR + local_size;
 		}
 		CHECK(is_equal);
 	}
@@ -287,7 +290,7 @@ TEST_CASE("[GPU][RenderingDevice] fragments can be counted without any target") 
 	commands.begin_rendering_without_targets(glm::uvec2(16));
 	commands.bind_pipeline(device.get_raster_pipeline(desc));
 	commands.bind_resources({ { 0, count.get() } });
-	commands.push_constants(glm::vec4(1));
+	commands.push_constants(glm::vec4(1)); // store.frag adds x for each fragment
 	const BufferRID buffer = vertices.get();
 	commands.bind_vertex_buffers({ &buffer, 1 });
 	commands.draw(3);
@@ -343,7 +346,7 @@ TEST_CASE("[GPU][RenderingDevice] a depth texture is filled from the middle of a
 	CommandList &commands = device.begin_commands();
 	const Barrier barrier = { .texture = texture.get(), .after = Access::COPY_WRITE };
 	commands.barriers({ &barrier, 1 });
-	commands.copy_buffer_to_texture(source.get(), texture.get(), 0, 4 * sizeof(float));
+	commands.copy_buffer_to_texture(source.get(), texture.get(), /*p_layer=*/0, 4 * sizeof(float));
 	device.submit_commands(SubmitMode::WAIT);
 	CHECK(fixture.read_texture<float>(texture.get(), Access::COPY_WRITE) ==
 			std::vector<float>{ 0.25f, 0.5f, 0.75f, 1 });

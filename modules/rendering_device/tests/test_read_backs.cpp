@@ -84,7 +84,7 @@ TEST_CASE("[GPU][RenderingDevice] a layer of a texture is read back in tightly p
 		.texture = texture.get(), .before = Access::SHADER_READ_FRAGMENT, .after = Access::COPY_READ
 	};
 	commands.barriers({ &barrier, 1 });
-	fixture.device->read_back(texture.get(), 1, [&](std::span<const uint8_t> p_bytes) {
+	fixture.device->read_back(texture.get(), /*p_layer=*/1, [&](std::span<const uint8_t> p_bytes) {
 		found.assign(p_bytes.begin(), p_bytes.end());
 	});
 	fixture.device->submit_commands(SubmitMode::WAIT);

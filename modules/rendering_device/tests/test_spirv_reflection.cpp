@@ -13,6 +13,8 @@ ReflectedShader reflect(
 	return reflect_spirv(p_name, find_embedded_shader(p_name), p_constants);
 }
 
+const uint32_t LOCAL_SIZE_ID = 0; // constant_id of LOCAL_SIZE in scale.comp
+
 } // namespace
 
 TEST_CASE("[SpirvReflection] each kind of resource is recognised") {
@@ -32,9 +34,9 @@ TEST_CASE("[SpirvReflection] each kind of resource is recognised") {
 	CHECK(reflect("tests/scale.comp").bindings.at(0).kind == ResourceKind::STORAGE_BUFFER);
 }
 
-TEST_CASE("[SpirvReflection] the local size follows its specialization constant") {
+TEST_CASE("[SpirvReflection] the specialized local size and the size of push constants are found") {
 	CHECK(reflect("tests/scale.comp").local_size.x == 64);
-	CHECK(reflect("tests/scale.comp", { { 0, 32 } }).local_size.x == 32);
+	CHECK(reflect("tests/scale.comp", { { LOCAL_SIZE_ID, 32 } }).local_size.x == 32);
 	CHECK(reflect("tests/scale.comp").push_constant_bytes == 8);
 }
 

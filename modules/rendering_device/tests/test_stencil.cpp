@@ -105,7 +105,7 @@ TEST_CASE("[GPU][RenderingDevice] front and back faces have their own stencil op
 	const RasterPipelineDesc both = fixture.make_desc("front up, back down",
 			make_passing(StencilOp::INCREMENT_WRAP, StencilOp::DECREMENT_WRAP));
 	CHECK(fixture.count_drawn(both, 3) != 0);
-	CHECK(fixture.count_drawn(both, 3, true) == 0); // counted up as often as down
+	CHECK(fixture.count_drawn(both, 3, /*p_with_mirrored=*/true) == 0); // as often up as down
 }
 
 TEST_CASE("[GPU][RenderingDevice] the stencil reference is written by REPLACE and used in "
@@ -113,13 +113,13 @@ TEST_CASE("[GPU][RenderingDevice] the stencil reference is written by REPLACE an
 	StencilFixture fixture;
 	const RasterPipelineDesc writing =
 			fixture.make_desc("writing", make_passing(StencilOp::REPLACE, StencilOp::REPLACE));
-	CHECK(fixture.count_drawn(writing, 1, false, 0) == 0);
-	CHECK(fixture.count_drawn(writing, 1, false, 7) != 0);
+	CHECK(fixture.count_drawn(writing, 1, /*p_with_mirrored=*/false, 0) == 0);
+	CHECK(fixture.count_drawn(writing, 1, /*p_with_mirrored=*/false, 7) != 0);
 	StencilTest test = make_passing(StencilOp::INCREMENT_WRAP, StencilOp::INCREMENT_WRAP);
 	test.front.compare = test.back.compare = CompareOp::EQUAL;
 	const RasterPipelineDesc comparing = fixture.make_desc("comparing", test);
-	CHECK(fixture.count_drawn(comparing, 1, false, 0) != 0);
-	CHECK(fixture.count_drawn(comparing, 1, false, 1) == 0);
+	CHECK(fixture.count_drawn(comparing, 1, /*p_with_mirrored=*/false, 0) != 0);
+	CHECK(fixture.count_drawn(comparing, 1, /*p_with_mirrored=*/false, 1) == 0);
 }
 
 TEST_CASE(

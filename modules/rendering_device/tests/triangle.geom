@@ -1,5 +1,5 @@
 #version 460
-// For the tests of the device: passes the triangle through.
+// For the tests of the device: passes the triangle through; its neighbours are the odd vertices.
 layout(triangles_adjacency) in;
 layout(triangle_strip, max_vertices = 3) out;
 layout(location = 0) in vec4 color[];

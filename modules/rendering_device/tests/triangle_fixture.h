@@ -33,7 +33,7 @@ inline RasterPipelineDesc make_triangle_desc() {
 		.vertex_shader = "tests/triangle.vert",
 		.fragment_shader = "tests/triangle.frag",
 		.attributes = { { .location = 0 } },
-		.vertex_strides_bytes = { 12 },
+		.vertex_strides_bytes = { 3 * sizeof(float) },
 		.color_formats = { Format::RGBA8_UNORM } };
 }
 

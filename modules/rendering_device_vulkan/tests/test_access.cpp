@@ -4,18 +4,17 @@
 
 using namespace gnomon;
 
-TEST_CASE("[Access] a second reader in another stage is chained to the first") {
+TEST_CASE("[Access] only a reader in the stage and layout of the one before needs no barrier") {
 	const TextureRID texture{ 1 };
-	const auto read_after = [&](Access p_before, Access p_after) {
+	const auto compute = [&](Access p_before, Access p_after) {
 		return compute_dependency({ .texture = texture, .before = p_before, .after = p_after });
 	};
-	CHECK_FALSE(read_after(Access::SHADER_READ_COMPUTE, Access::SHADER_READ_COMPUTE).is_needed);
-	const Dependency chained =
-			read_after(Access::SHADER_READ_FRAGMENT, Access::SHADER_READ_COMPUTE);
+	CHECK_FALSE(compute(Access::SHADER_READ_COMPUTE, Access::SHADER_READ_COMPUTE).is_needed);
+	const Dependency chained = compute(Access::SHADER_READ_FRAGMENT, Access::SHADER_READ_COMPUTE);
 	CHECK(chained.is_needed);
 	CHECK(chained.source_access == 0); // nothing new was written
-	CHECK(read_after(Access::SHADER_READ_COMPUTE, Access::COPY_READ).is_needed); // other layout
-	CHECK(read_after(Access::COLOR_WRITE, Access::COLOR_WRITE).is_needed);
+	CHECK(compute(Access::SHADER_READ_COMPUTE, Access::COPY_READ).is_needed); // other layout
+	CHECK(compute(Access::COLOR_WRITE, Access::COLOR_WRITE).is_needed);
 }
 
 TEST_CASE("[Access] a discarded texture waits for the earlier users of its memory") {

@@ -9,9 +9,9 @@ using SubmitMode = RenderingDevice::SubmitMode;
 
 namespace {
 
-const uint64_t TARGET_BYTES = 64 * sizeof(float);
-const uint32_t ITERATION_COUNT =
-		65535; // loop iterations per invocation; software drivers stop there
+const double WAIT_LIMIT_S = 1.0;
+const uint64_t TARGET_BYTES = 64 * sizeof(float); // a float per invocation of a group of slow.comp
+const uint32_t ITERATION_COUNT = 65535; // of the loop; software drivers end an invocation there
 const uint32_t MAX_GROUP_COUNT = 65535; // every device allows this many; takes seconds on 128 cores
 
 OwnedBuffer make_target(RenderingDevice &r_device) {
@@ -66,7 +66,7 @@ struct EnvironmentVariable {
 
 TEST_CASE("[GPU][RenderingDevice] a pass that exceeds the timeout is named, and the device is "
 		  "treated as lost") {
-	DeviceFixture fixture({ .wait_limit_s = 1.0 });
+	DeviceFixture fixture({ .wait_limit_s = WAIT_LIMIT_S });
 	RenderingDevice &device = *fixture.device;
 	if (!is_slow(device)) {
 		return;
@@ -88,20 +88,21 @@ TEST_CASE("[GPU][RenderingDevice] a pass that exceeds the timeout is named, and 
 }
 
 TEST_CASE("[GPU][RenderingDevice] passes that exceed the timeout only together do not time out") {
-	DeviceFixture fixture({ .wait_limit_s = 1.0 });
+	DeviceFixture fixture({ .wait_limit_s = WAIT_LIMIT_S });
 	RenderingDevice &device = *fixture.device;
 	if (!is_slow(device)) {
 		return;
 	}
 	const OwnedBuffer target = make_target(device);
 	warm_up(device, target.get());
-	// Double the work until the passes together exceed the timeout. Then each takes at most about a
-	// twentieth of it.
+	// Double the work until the passes together exceed the timeout. Then each takes at most about
+	// 2 / PASS_COUNT of it.
+	const uint32_t PASS_COUNT = 40;
 	double seconds = 0;
-	for (uint32_t groups = 1; seconds <= 1.0; groups *= 2) {
+	for (uint32_t groups = 1; seconds <= WAIT_LIMIT_S; groups *= 2) {
 		REQUIRE(groups <= MAX_GROUP_COUNT);
 		CommandList &commands = device.begin_commands();
-		for (uint32_t index = 0; index < 40; ++index) {
+		for (uint32_t index = 0; index < PASS_COUNT; ++index) {
 			record_work(device, commands, text("pass ", index), target.get(), groups);
 		}
 		const auto start = std::chrono::steady_clock::now();
@@ -111,10 +112,10 @@ TEST_CASE("[GPU][RenderingDevice] passes that exceed the timeout only together d
 }
 
 TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its first pass") {
-	DeviceFixture fixture({ .wait_limit_s = 1.0 });
+	DeviceFixture fixture({ .wait_limit_s = WAIT_LIMIT_S });
 	RenderingDevice &device = *fixture.device;
 	OwnedBuffer target = make_target(device);
-	record_work(device, device.begin_commands(), "shown before", target.get());
+	record_work(device, device.begin_commands(), "earlier pass", target.get());
 	device.submit_commands(SubmitMode::WAIT);
 	record_work(device, device.begin_commands(), "G-buffer", target.get());
 	inject_fault(device, "hang");
@@ -122,7 +123,7 @@ TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its
 	device.submit_commands(SubmitMode::QUEUE); // the next call that waits notices it
 	const std::string error = catch_error([&] { device.wait_idle(); });
 	CHECK(contains(error, "before pass 'G-buffer' began"));
-	CHECK(compute_seconds_since(start) >= 1.0);
+	CHECK(compute_seconds_since(start) >= WAIT_LIMIT_S);
 	release_injected_hang(device);
 	target.reset();
 	fixture.device.reset();

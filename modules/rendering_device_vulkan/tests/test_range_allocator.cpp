@@ -18,7 +18,7 @@ TEST_CASE("[RangeAllocator] random allocations do not overlap and can all be fre
 	uint64_t taken_bytes = 0;
 	bool is_correct = true;
 	for (int step = 0; step < 20000; ++step) {
-		if (ranges.empty() || random() % 5 < 3) {
+		if (ranges.empty() || random() % 5 < 3) { // allocates more often than it frees: fills up
 			const uint64_t size = 1 + random() % 3000;
 			const uint64_t alignment = uint64_t(1) << random() % 10;
 			const auto begin = allocator.allocate(size, alignment);

@@ -8,6 +8,7 @@ using SubmitMode = RenderingDevice::SubmitMode;
 namespace {
 
 constexpr uint64_t MIB = 1 << 20;
+constexpr uint64_t BLOCK_BYTES = 64 * MIB; // MemoryAllocator::BLOCK_BYTES
 
 BufferDesc make_desc(const std::string &p_name, uint64_t p_size_bytes) {
 	return { .name = p_name,
@@ -45,7 +46,7 @@ TEST_CASE("[GPU][RenderingDevice] an error about the budget names the three larg
 					"buffer 'part 1'", "buffer 'part 20'", "buffer 'part 40'", "texture 'fits'" });
 }
 
-TEST_CASE("[GPU][RenderingDevice] sizes above the device's limits are errors that name them") {
+TEST_CASE("[GPU][RenderingDevice] unsupported sizes and formats are errors that name the reason") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const uint32_t max_size_px = device.get_features().max_texture_size_px;
@@ -70,15 +71,16 @@ TEST_CASE("[GPU][RenderingDevice] sizes above the device's limits are errors tha
 }
 
 TEST_CASE("[GPU][RenderingDevice] memory of a freed resource is reused after its submission") {
-	DeviceFixture fixture({ .memory_budget_bytes = 64 * MIB });
+	DeviceFixture fixture({ .memory_budget_bytes = 64 * MIB }); // for one buffer of 40 MiB
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer readback = fixture.make_readback(4);
 	const OwnedBuffer numbers = fixture.make_buffer(
 			"numbers", std::vector<uint32_t>{ 0, 1, 2, 3, 4, 5 }, BufferUsage::COPY_SOURCE);
 	for (uint32_t frame = 0; frame < 6; ++frame) {
 		CommandList &commands = device.begin_commands();
-		const OwnedBuffer buffer(device, device.create_buffer(make_desc("half", 40 * MIB)));
-		commands.copy_buffer(numbers.get(), buffer.get(), 4, 4 * frame, 20 * MIB);
+		const OwnedBuffer buffer(device, device.create_buffer(make_desc("large", 40 * MIB)));
+		commands.copy_buffer(numbers.get(), buffer.get(), /*p_size_bytes=*/4,
+				/*p_source_offset_bytes=*/4 * frame, /*p_target_offset_bytes=*/20 * MIB);
 		const Barrier barrier = {
 			.buffer = buffer.get(), .before = Access::COPY_WRITE, .after = Access::COPY_READ
 		};
@@ -90,7 +92,6 @@ TEST_CASE("[GPU][RenderingDevice] memory of a freed resource is reused after its
 	device.wait_idle();
 	CHECK(fixture.read<uint32_t>(readback, 1)[0] == 5);
 	CHECK(device.get_memory_use().used_bytes < MIB);
-	CHECK(device.get_memory_use().peak_bytes < 64 * MIB);
 }
 
 TEST_CASE("[GPU][RenderingDevice] blocks of memory return to the driver") {
@@ -103,10 +104,11 @@ TEST_CASE("[GPU][RenderingDevice] blocks of memory return to the driver") {
 			buffers.emplace_back(device, device.create_buffer(make_desc("part", 20 * MIB)));
 		}
 		const OwnedBuffer large(device, device.create_buffer(make_desc("large", 100 * MIB)));
-		// 12 x 20 + 100 MiB, of which up to 64 MiB may fit into a block that existed before.
-		CHECK(device.get_memory_use().allocated_bytes >= allocated_before + 340 * MIB - 64 * MIB);
+		// 12 x 20 + 100 MiB, of which some may fit into one block that existed before.
+		CHECK(device.get_memory_use().allocated_bytes >=
+				allocated_before + 340 * MIB - BLOCK_BYTES);
 	}
-	CHECK(device.get_memory_use().allocated_bytes <= allocated_before + 64 * MIB); // one spare
+	CHECK(device.get_memory_use().allocated_bytes <= allocated_before + BLOCK_BYTES); // one spare
 }
 
 TEST_CASE("[GPU][RenderingDevice] resources alive when the device is destroyed are reported by "
@@ -140,8 +142,10 @@ TEST_CASE("[GPU][RenderingDevice] textures placed in the same memory can be used
 	const auto needs = device.get_placement_requirements(color_desc);
 	CHECK(needs.size_bytes >= 64 * 64 * 8);
 	const OwnedMemory memory(device, device.create_texture_memory("shared", needs.size_bytes));
-	const OwnedTexture color(device, device.create_placed_texture(color_desc, memory.get(), 0));
-	const OwnedTexture result(device, device.create_placed_texture(result_desc, memory.get(), 0));
+	const OwnedTexture color(
+			device, device.create_placed_texture(color_desc, memory.get(), /*p_offset_bytes=*/0));
+	const OwnedTexture result(
+			device, device.create_placed_texture(result_desc, memory.get(), /*p_offset_bytes=*/0));
 	const OwnedBuffer readback = fixture.make_readback(64 * 64 * 8);
 	CommandList &commands = device.begin_commands();
 	const auto change = [&](const Barrier &p_barrier) { commands.barriers({ &p_barrier, 1 }); };
@@ -159,7 +163,7 @@ TEST_CASE("[GPU][RenderingDevice] textures placed in the same memory can be used
 	CHECK(fixture.read<uint16_t>(readback, 1)[0] == 0x3c00); // 1.0 as a half
 	CHECK(fixture.read_texture<uint32_t>(result.get(), Access::COPY_WRITE) ==
 			std::vector<uint32_t>(64 * 64, 42));
-	CHECK(list_live_resources(device).size() == 4);
+	CHECK(list_live_resources(device).size() == 4); // memory, color, result, readback
 }
 
 TEST_CASE("[GPU][RenderingDevice] abandoned commands leave the device usable") {

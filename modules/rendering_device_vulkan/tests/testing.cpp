@@ -20,7 +20,7 @@ void release_injected_hang(RenderingDevice &r_device) {
 	VulkanDevice &device = get_vulkan_device(r_device);
 	const VkSemaphoreSignalInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO,
 		.semaphore = device.hang_semaphore,
-		.value = 1 };
+		.value = 1 }; // the value that the blocked submission waits for
 	device.check(vkSignalSemaphore(device.device, &info), "vkSignalSemaphore");
 }
 

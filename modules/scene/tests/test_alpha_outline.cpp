@@ -13,6 +13,8 @@ using namespace gnomon;
 
 namespace {
 
+const uint32_t EDGE_BUDGET = 20000; // enough for an exact outline, unless a test passes another
+
 std::shared_ptr<const Image> make_alpha_image(
 		glm::uvec2 p_size_px, const std::function<double(glm::uvec2)> &p_alpha) {
 	std::vector<uint8_t> texels;
@@ -25,6 +27,7 @@ std::shared_ptr<const Image> make_alpha_image(
 	return make_image("mask", p_size_px, std::move(texels));
 }
 
+/// Returns the outline's fraction of the tile's area.
 double compute_area(const AlphaOutline &p_outline) {
 	int64_t twice = 0;
 	for (size_t i = 0; i < p_outline.triangles.size(); i += 3) {
@@ -85,13 +88,15 @@ void check_points(const AlphaTest &p_test, const AlphaOutline &p_outline, double
 
 } // namespace
 
-TEST_CASE("[AlphaOutline] polygons with holes are triangulated exactly, invalid ones not at all") {
+TEST_CASE("[AlphaOutline] triangulation adds no points and refuses invalid polygons") {
 	const PolygonLoop square = { { 0, 0 }, { 100, 0 }, { 100, 100 }, { 0, 100 } };
 	const PolygonLoop hole = { { 20, 20 }, { 20, 40 }, { 40, 40 }, { 40, 20 } };
 	const PolygonLoop other_hole = { { 60, 20 }, { 50, 80 }, { 80, 70 }, { 70, 60 } };
-	CHECK(triangulate(std::vector<PolygonLoop>{ square }).size() == 6);
+	// A polygon of n points with h holes has n + 2 h - 2 triangles.
+	CHECK(triangulate(std::vector<PolygonLoop>{ square }).size() == 3 * 2);
 	CHECK(triangulate(std::vector<PolygonLoop>{ square, hole }).size() == 3 * 8);
 	CHECK(triangulate(std::vector<PolygonLoop>{ square, hole, other_hole }).size() == 3 * 14);
+	// Clockwise, crossing itself, and with two points only.
 	CHECK(triangulate(
 			std::vector<PolygonLoop>{ PolygonLoop{ { 0, 0 }, { 0, 9 }, { 9, 9 }, { 9, 0 } } })
 					.empty());
@@ -109,7 +114,7 @@ TEST_CASE("[AlphaOutline] the outline of smooth masks is within half a texel") {
 		std::uniform_real_distribution<double> uniform(0, 1);
 		double phases[6];
 		for (double &phase : phases) {
-			phase = 6.3 * uniform(random);
+			phase = 6.3 * uniform(random); // 0..2 pi
 		}
 		const auto image = make_alpha_image({ 40u + 3 * seed, 48 }, [&](const glm::uvec2 &p_texel) {
 			const glm::dvec2 at = glm::dvec2(p_texel) * (seed % 2 ? 0.3 : 0.9);
@@ -122,9 +127,9 @@ TEST_CASE("[AlphaOutline] the outline of smooth masks is within half a texel") {
 				{ TextureWrap::CLAMP, TextureWrap::REPEAT, TextureWrap::MIRROR }) {
 			AlphaTest test;
 			test.image = image.get();
-			test.cutoff = 0.2f + 0.07f * seed;
+			test.cutoff = 0.2f + 0.07f * seed; // 0.27..0.76
 			test.wrap_u = test.wrap_v = wrap;
-			const AlphaOutline outline = make_alpha_outline(test, 20000);
+			const AlphaOutline outline = make_alpha_outline(test, EDGE_BUDGET);
 			REQUIRE(!outline.is_empty());
 			CHECK(outline.block_size_px == 0);
 			check_points(test, outline, 0.5);
@@ -139,16 +144,17 @@ TEST_CASE("[AlphaOutline] the outline of a disc has the disc's area and few edge
 	});
 	AlphaTest test;
 	test.image = image.get();
-	const AlphaOutline outline = make_alpha_outline(test, 20000);
+	const AlphaOutline outline = make_alpha_outline(test, EDGE_BUDGET);
 	const double expected = 3.14159265 * radius_px * radius_px / (64 * 64);
 	CHECK(std::abs(compute_area(outline) / expected - 1) < 0.01);
+	// 29 chords are within the default tolerance, 1/8 texel, of the circle.
 	CHECK(outline.edge_count >= 12);
 	CHECK(outline.edge_count <= 40);
 	test.cutoff = 0;
-	CHECK(make_alpha_outline(test, 20000).covers_tile);
-	CHECK(make_alpha_outline(test, 20000).edge_count == 4);
-	test.cutoff = 1.5f;
-	CHECK(make_alpha_outline(test, 20000).is_empty());
+	CHECK(make_alpha_outline(test, EDGE_BUDGET).covers_tile);
+	CHECK(make_alpha_outline(test, EDGE_BUDGET).edge_count == 4);
+	test.cutoff = 1.5f; // above every alpha
+	CHECK(make_alpha_outline(test, EDGE_BUDGET).is_empty());
 }
 
 TEST_CASE("[AlphaOutline] noise is outlined with any wrap mode, and as squares if nearest") {
@@ -161,12 +167,12 @@ TEST_CASE("[AlphaOutline] noise is outlined with any wrap mode, and as squares i
 		for (const TextureWrap wrap :
 				{ TextureWrap::CLAMP, TextureWrap::REPEAT, TextureWrap::MIRROR }) {
 			test.wrap_u = test.wrap_v = wrap;
-			const AlphaOutline outline = make_alpha_outline(test, 20000);
+			const AlphaOutline outline = make_alpha_outline(test, EDGE_BUDGET);
 			CHECK(outline.block_size_px == 0);
 			check_points(test, outline, 0.4);
 		}
 		test.is_nearest = true;
-		const AlphaOutline squares = make_alpha_outline(test, 20000);
+		const AlphaOutline squares = make_alpha_outline(test, EDGE_BUDGET);
 		CHECK(squares.block_size_px == 0);
 		check_points(test, squares, 0.05);
 		// More edges than the budget: a half-tone of the same area.
@@ -190,9 +196,10 @@ TEST_CASE("[AlphaOutline] a half-tone has few triangles where blocks are fully c
 		test.is_nearest = true;
 		const AlphaOutline half_tone = make_alpha_outline(test, budget);
 		CHECK(half_tone.block_size_px > 1);
-		CHECK(half_tone.edge_count <= std::max(budget, 8u));
-		CHECK(half_tone.triangles.size() / 3 <= 2 * std::max(budget, 8u));
-		const AlphaOutline exact = make_alpha_outline(test, 100000);
+		const uint32_t max_edges = std::max(budget, 8u); // a tile of one block with a hole has 8
+		CHECK(half_tone.edge_count <= max_edges);
+		CHECK(half_tone.triangles.size() / 3 <= 2 * max_edges);
+		const AlphaOutline exact = make_alpha_outline(test, /*p_edge_budget=*/100000);
 		CHECK(exact.block_size_px == 0);
 		CHECK(std::abs(compute_area(half_tone) - compute_area(exact)) < 0.01);
 	}
@@ -204,9 +211,9 @@ TEST_CASE("[AlphaOutline] each straight border of a large image becomes one edge
 	AlphaTest test;
 	test.image = image.get();
 	test.wrap_u = test.wrap_v = TextureWrap::CLAMP;
-	const AlphaOutline outline = make_alpha_outline(test, 20000);
+	const AlphaOutline outline = make_alpha_outline(test, EDGE_BUDGET);
 	CHECK(outline.block_size_px == 0);
-	CHECK(outline.edge_count == 16);
+	CHECK(outline.edge_count == 16); // 4 stripes
 	CHECK(compute_area(outline) == doctest::Approx(0.5).epsilon(0.01));
 }
 
@@ -216,7 +223,7 @@ TEST_CASE("[AlphaOutline] outlines of tiles that repeat match at the tile border
 	});
 	AlphaTest test;
 	test.image = image.get();
-	const AlphaOutline outline = make_alpha_outline(test, 20000);
+	const AlphaOutline outline = make_alpha_outline(test, EDGE_BUDGET);
 	std::map<int, std::set<int>> on_x, on_y;
 	for (const glm::ivec2 &point : outline.points) {
 		if (point.y != 0 && point.y != outline.size.y) {

@@ -12,7 +12,10 @@ using namespace gnomon;
 
 namespace {
 
-const double ROUNDING = 1e-12;
+const double ROUNDING = 1e-12; // relative, of doubles
+// Values of p_is_rotation of AnimationSampler::sample.
+const bool NUMBERS = false;
+const bool ROTATION = true;
 
 AnimationSampler make_sampler(Interpolation p_interpolation, std::vector<float> p_times,
 		uint32_t p_components, std::vector<float> p_values) {
@@ -45,22 +48,22 @@ std::shared_ptr<Animation> make_animation(std::vector<AnimationChannel> p_channe
 TEST_CASE("animation: STEP keeps each value until the next time") {
 	const AnimationSampler sampler =
 			make_sampler(Interpolation::STEP, { 0.5f, 1, 2 }, 1, { 3, 5, 9 });
-	CHECK(sampler.sample(-1, false)[0] == 3);
-	CHECK(sampler.sample(0.5, false)[0] == 3);
-	CHECK(sampler.sample(0.999, false)[0] == 3);
-	CHECK(sampler.sample(1, false)[0] == 5);
-	CHECK(sampler.sample(1.9, false)[0] == 5);
-	CHECK(sampler.sample(2, false)[0] == 9);
-	CHECK(sampler.sample(7, false)[0] == 9);
+	CHECK(sampler.sample(-1, NUMBERS)[0] == 3);
+	CHECK(sampler.sample(0.5, NUMBERS)[0] == 3);
+	CHECK(sampler.sample(0.999, NUMBERS)[0] == 3);
+	CHECK(sampler.sample(1, NUMBERS)[0] == 5);
+	CHECK(sampler.sample(1.9, NUMBERS)[0] == 5);
+	CHECK(sampler.sample(2, NUMBERS)[0] == 9);
+	CHECK(sampler.sample(7, NUMBERS)[0] == 9);
 }
 
 TEST_CASE("animation: LINEAR interpolates vectors, and is clamped at both ends") {
 	const AnimationSampler sampler =
 			make_sampler(Interpolation::LINEAR, { 1, 3 }, 3, { 0, 2, 4, 8, -2, 4 });
-	CHECK(sampler.sample(0, false) == std::vector<double>{ 0, 2, 4 });
-	CHECK(sampler.sample(1.5, false) == std::vector<double>{ 2, 1, 4 });
-	CHECK(sampler.sample(2, false) == std::vector<double>{ 4, 0, 4 });
-	CHECK(sampler.sample(9, false) == std::vector<double>{ 8, -2, 4 });
+	CHECK(sampler.sample(0, NUMBERS) == std::vector<double>{ 0, 2, 4 });
+	CHECK(sampler.sample(1.5, NUMBERS) == std::vector<double>{ 2, 1, 4 });
+	CHECK(sampler.sample(2, NUMBERS) == std::vector<double>{ 4, 0, 4 });
+	CHECK(sampler.sample(9, NUMBERS) == std::vector<double>{ 8, -2, 4 });
 }
 
 TEST_CASE("animation: LINEAR rotations have constant speed on the shorter arc, for any sign") {
@@ -71,7 +74,7 @@ TEST_CASE("animation: LINEAR rotations have constant speed on the shorter arc, f
 				{ 0, 0, 0, 1, 0, float(sign * std::sin(angle / 2)), 0,
 						float(sign * std::cos(angle / 2)) });
 		for (const double t : { 0.1, 0.25, 0.5, 0.9 }) {
-			const std::vector<double> rotation = sampler.sample(t, true);
+			const std::vector<double> rotation = sampler.sample(t, ROTATION);
 			// A quaternion has the half angle, t * angle / 2. Keys are floats.
 			CHECK(std::abs(rotation[1]) == doctest::Approx(std::sin(t * angle / 2)).epsilon(1e-6));
 			CHECK(std::abs(rotation[3]) == doctest::Approx(std::cos(t * angle / 2)).epsilon(1e-6));
@@ -84,20 +87,21 @@ TEST_CASE("animation: LINEAR rotations have constant speed on the shorter arc, f
 }
 
 TEST_CASE("animation: CUBICSPLINE is a Hermite spline with tangents per second") {
-	// The cubic t^3 - 2 t + 1 from 1 s to 3 s, which Hermite's form reproduces.
+	// The cubic t^3 - 2 t + 1 from 1 s to 3 s, which Hermite's form reproduces. 77 and 99 are the
+	// tangents before the first and after the last key, which have no effect.
 	const auto value = [](double p_t) { return p_t * p_t * p_t - 2 * p_t + 1; };
 	const auto slope = [](double p_t) { return 3 * p_t * p_t - 2; };
 	const AnimationSampler sampler = make_sampler(Interpolation::CUBIC_SPLINE, { 1, 3 }, 1,
 			{ 77, float(value(1)), float(slope(1)), float(slope(3)), float(value(3)), 99 });
 	for (const double t : { 1.0, 1.3, 2.0, 2.7, 3.0 }) {
-		CHECK(sampler.sample(t, false)[0] == doctest::Approx(value(t)).epsilon(ROUNDING));
+		CHECK(sampler.sample(t, NUMBERS)[0] == doctest::Approx(value(t)).epsilon(ROUNDING));
 	}
-	CHECK(sampler.sample(0, false)[0] == value(1));
-	CHECK(sampler.sample(4, false)[0] == value(3));
+	CHECK(sampler.sample(0, NUMBERS)[0] == value(1));
+	CHECK(sampler.sample(4, NUMBERS)[0] == value(3));
 	// An interpolated rotation is normalized.
 	const AnimationSampler rotation = make_sampler(Interpolation::CUBIC_SPLINE, { 0, 1 }, 4,
 			{ 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0 });
-	const std::vector<double> half = rotation.sample(0.5, true);
+	const std::vector<double> half = rotation.sample(0.5, ROTATION);
 	CHECK(half[1] == doctest::Approx(std::sqrt(0.5)).epsilon(ROUNDING));
 	CHECK(half[3] == doctest::Approx(std::sqrt(0.5)).epsilon(ROUNDING));
 }
@@ -129,7 +133,7 @@ TEST_CASE("animation: channels pose nodes and weights, and do not change what is
 	SUBCASE("a copy of a node is at rest") {
 		CHECK_FALSE(node.copy()->posed_parent_from_node);
 	}
-	SUBCASE("components without a channel are the file's, or those that the user set") {
+	SUBCASE("a component without a channel is the one that the user set") {
 		node.parent_from_node = glm::scale(
 				glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0, 1, 0)), glm::dvec3(-2, 1, 1));
 		pose_scene(scene, animation.get(), 0);

@@ -21,6 +21,7 @@ std::shared_ptr<const Material> make_disc_material() {
 			const glm::dvec2 position = (glm::dvec2(x, y) + 0.5) / double(IMAGE_SIZE_PX) - 0.5;
 			const double distance_outside =
 					glm::length(position) - std::sqrt(0.5 / 3.141592653589793);
+			// Falls from 1 to 0 over four texels.
 			const double alpha =
 					std::clamp(0.5 - distance_outside * IMAGE_SIZE_PX * 0.25, 0.0, 1.0);
 			texels.insert(texels.end(), { 255, 255, 255, static_cast<uint8_t>(alpha * 255) });
@@ -91,7 +92,7 @@ TEST_CASE("[CutLevels] coarser outlines have fewer edges and as much area") {
 		finer_count = mesh->get_triangle_count();
 		CHECK(compute_area(*mesh) == doctest::Approx(0.5).epsilon(0.002));
 	}
-	CHECK(finer_count < 30);
+	CHECK(finer_count < 30); // the coarsest level
 }
 
 TEST_CASE("[CutLevels] a wider penumbra gets a coarser level, a hard shadow the base level") {
@@ -100,10 +101,11 @@ TEST_CASE("[CutLevels] a wider penumbra gets a coarser level, a hard shadow the 
 	CHECK(levels.choose_level(1e-9) == 0);
 	CHECK(levels.choose_level(1e9) == CutLevels::TOLERANCES_PX.size() - 1);
 	uint32_t before = 0;
-	for (double radius = 0.01; radius < 10; radius *= 1.2) {
-		const uint32_t level = levels.choose_level(radius);
+	for (double half_width = 0.01; half_width < 10; half_width *= 1.2) {
+		const uint32_t level = levels.choose_level(half_width);
 		CHECK(level >= before);
-		CHECK(CutLevels::TOLERANCES_PX[level] / IMAGE_SIZE_PX < radius / 20);
+		// 1/80 where a level qualifies; at 0.01 m none does, and the finest has 1/20.5.
+		CHECK(CutLevels::TOLERANCES_PX[level] / IMAGE_SIZE_PX < half_width / 20);
 		before = level;
 	}
 	// Texels are a third as large with three repeats, so an equal choice would need a third of the
@@ -118,7 +120,7 @@ TEST_CASE("[CutLevels] a wide penumbra gets a second, coarse level for the recei
 	CHECK(levels.choose_coarse_level(3, 1e-9) == 3);
 	CHECK(levels.choose_coarse_level(3, 1e9) == last);
 	CHECK(levels.choose_coarse_level(last, 1e9) == last);
-	CHECK(levels.choose_coarse_level(last - 1, 1e9) == last - 1); // not worth it
+	CHECK(levels.choose_coarse_level(last - 1, 1e9) == last - 1); // one level is not worth it
 	size_t coarse_count = 0;
 	for (double half_width = 0.001; half_width < 10; half_width *= 1.2) {
 		const uint32_t level = levels.choose_level(half_width);
@@ -130,7 +132,7 @@ TEST_CASE("[CutLevels] a wide penumbra gets a second, coarse level for the recei
 			CHECK(levels.get_min_half_width(coarse) >= 4 * levels.get_min_half_width(level));
 		}
 	}
-	CHECK(coarse_count > 5);
+	CHECK(coarse_count > 5); // the checks above were not skipped
 }
 
 TEST_CASE("[CutLevels] a larger light gets coarser outlines") {
@@ -162,7 +164,7 @@ TEST_CASE("[CutLevels] the widest penumbra is that on the farthest receiver") {
 	CHECK(make_light(LightType::DIRECTIONAL, 0.1f)
 					.compute_max_penumbra_half_width(caster, bounds) == doctest::Approx(0.2));
 	CHECK(make_light(LightType::OMNI, 0).compute_max_penumbra_half_width(caster, bounds) == 0);
-	// A caster at the light's position, and one without a receiver behind it.
+	// A caster at the light's position, and a scene without a receiver behind the caster.
 	LightSnapshot light = make_light(LightType::OMNI, 0.3f);
 	light.position_world = glm::dvec3(0, 0, 2);
 	CHECK(light.compute_max_penumbra_half_width(caster, bounds) <= 0.3f);

@@ -35,7 +35,8 @@ Material make_material(std::shared_ptr<const Image> p_image) {
 	return material;
 }
 
-/// A grid of quads in the plane z = x / 2; texture coordinates grow by p_repeats over it.
+/// A grid of p_count x p_count quads in the plane z = x / 2; texture coordinates grow by p_repeats
+/// over it.
 std::shared_ptr<const Mesh> make_grid(uint32_t p_count, double p_repeats, double p_offset = 0) {
 	std::vector<glm::vec3> positions;
 	MeshAttributes attributes;
@@ -57,6 +58,7 @@ std::shared_ptr<const Mesh> make_grid(uint32_t p_count, double p_repeats, double
 	return make_mesh("grid", positions, {}, indices, attributes);
 }
 
+/// Returns the area of a mesh in the plane of make_grid; of others, that of its projection onto it.
 double compute_area(const Mesh &p_mesh) {
 	double area = 0;
 	for (size_t i = 0; i < p_mesh.indices.size(); i += 3) {
@@ -185,7 +187,7 @@ TEST_CASE("[CutMesh] the diagonal of a flat quad does not divide the outline") {
 		return count_open_edges(*cut.mesh);
 	};
 	const uint32_t flat = count_edges(glm::dmat4(1.0), 0, 0);
-	CHECK(flat > 12);
+	CHECK(flat > 12); // four sides of the quad, and the hole
 	// The hole crosses the diagonal twice.
 	CHECK(count_edges(glm::dmat4(1.0), 0.01, 0) == flat + 2);
 	CHECK(count_edges(glm::dmat4(1.0), 0, 0.02f) > flat); // other texture coordinates beyond it
@@ -237,7 +239,7 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel; extreme ones ar
 						 attributes),
 				material);
 	}
-	// Thin and long, far away, and of one repeated axis.
+	// Coordinates that are long and thin, or far away; v is repeated or clamped.
 	for (const glm::vec2 &far_uv :
 			{ glm::vec2(1e20f, 1e-20f), glm::vec2(1e7f, 1e7f), glm::vec2(3e38f, 1) }) {
 		for (const TextureWrap wrap : { TextureWrap::REPEAT, TextureWrap::CLAMP }) {
@@ -252,10 +254,10 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel; extreme ones ar
 	}
 	material.base_color_texture.wrap_v = TextureWrap::REPEAT;
 	// More tiles than the mesh may have edges: each square represents many tiles.
-	const OutlineBudget small = { 1 << 10, 1 << 14 };
+	const OutlineBudget small = { .edges_per_tile = 1 << 10, .edges_per_mesh = 1 << 14 };
 	const CutMesh many = cut_mesh(make_grid(1, 400), material, small);
 	REQUIRE(many.mesh);
-	CHECK(many.block_size_px > 8);
+	CHECK(many.block_size_px > 8); // the image has 8 x 8 texels
 	CHECK(many.mesh->get_triangle_count() < 12u * small.edges_per_mesh);
 }
 
@@ -278,7 +280,7 @@ TEST_CASE("[CutMesh] an outlier among the texture coordinates does not make many
 
 TEST_CASE("[CutMesh] triangles that are thin in texture space stay within the mesh's budget") {
 	const Material material = make_material(make_wave_image({ 24, 24 }, 0.9));
-	const OutlineBudget small = { 1 << 10, 1 << 14 };
+	const OutlineBudget small = { .edges_per_tile = 1 << 10, .edges_per_mesh = 1 << 14 };
 	const auto cut_thin = [&](const std::vector<glm::vec2> &p_uvs) {
 		MeshAttributes attributes;
 		attributes.uvs[0] = p_uvs;
@@ -367,7 +369,7 @@ TEST_CASE("[CutMesh] unused cut meshes are freed") {
 	CHECK(cut.expired());
 }
 
-TEST_CASE("[CutMesh] random masks on random triangles keep their area") {
+TEST_CASE("[CutMesh] random masks at random texture coordinates keep their area") {
 	std::minstd_rand random(11);
 	std::uniform_real_distribution<double> uniform(0, 1);
 	for (int i = 0; i < 60; ++i) {
@@ -386,7 +388,8 @@ TEST_CASE("[CutMesh] random masks on random triangles keep their area") {
 		const CutMesh cut = cut_mesh(make_grid(1 + i % 4, repeats, offset), material);
 		const double coverage =
 				cut.mesh ? compute_area(*cut.mesh) / compute_area(*make_grid(1, 1)) : 0.0;
-		// Lines approximate hyperbolas, which matters if alpha changes from texel to texel.
+		// Of the whole area. Lines approximate hyperbolas, which matters if alpha changes from
+		// texel to texel.
 		const double tolerance = material.base_color_texture.is_magnified_nearest ? 0.02 : 0.08;
 		CHECK(std::abs(coverage - sample_coverage(material, repeats, offset)) < tolerance);
 	}

@@ -12,6 +12,7 @@ using namespace gnomon;
 
 namespace {
 
+/// Returns the sum of the lengths of the triangles' sides; a diagonal counts twice.
 double compute_length(std::span<const glm::ivec2> p_points, std::span<const uint32_t> p_triangles) {
 	double length = 0;
 	for (size_t side = 0; side < p_triangles.size(); ++side) {
@@ -22,8 +23,8 @@ double compute_length(std::span<const glm::ivec2> p_points, std::span<const uint
 	return length;
 }
 
-/// The triangles' sum of areas, times two. Checks that each has an area, and that no side is in two
-/// triangles in the same direction.
+/// Returns twice the sum of the triangles' areas. Checks that each has an area, and that no side is
+/// in two triangles in the same direction.
 int64_t check_triangles(
 		std::span<const glm::ivec2> p_points, std::span<const uint32_t> p_triangles) {
 	int64_t sum = 0;
@@ -107,6 +108,7 @@ TEST_CASE("[DiagonalFlips] random stars keep their area, and no flip would short
 					glm::ivec2(0), points[i], points[(i + 1) % points.size()]);
 		}
 		CHECK(check_triangles(points, triangles) == area);
+		// triangulate has flipped the diagonals already.
 		const std::vector<uint32_t> before = triangles;
 		shorten_diagonals(points, triangles);
 		CHECK(triangles == before);

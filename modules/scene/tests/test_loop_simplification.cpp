@@ -15,7 +15,8 @@ namespace {
 const glm::ivec2 SIZE(40000);
 const glm::ivec2 CENTER = SIZE / 2;
 
-/// A regular polygon around CENTER whose sides have many points, starting inside a side.
+/// A regular polygon around CENTER whose sides have many points, starting inside a side. Each
+/// coordinate is off by up to p_noise.
 PolygonLoop make_polygon(
 		uint32_t p_sides, double p_radius, uint32_t p_points_per_side, int p_noise) {
 	std::minstd_rand random(7);
@@ -50,8 +51,9 @@ double compute_area(const PolygonLoop &p_loop) {
 TEST_CASE("[Loops] a noisy polygon that starts inside a side gets one point per corner") {
 	for (const uint32_t sides : { 3u, 5u, 6u, 9u }) {
 		CAPTURE(sides);
-		const PolygonLoop loop = make_polygon(sides, 10000, 40, 20);
-		const auto simplified = simplify_loops({ loop }, 200, SIZE);
+		const PolygonLoop loop =
+				make_polygon(sides, 10000, /*p_points_per_side=*/40, /*p_noise=*/20);
+		const auto simplified = simplify_loops({ loop }, /*p_tolerance=*/200, SIZE);
 		REQUIRE(simplified.size() == 1);
 		REQUIRE(simplified[0].size() == sides);
 		CHECK(compute_area(simplified[0]) == doctest::Approx(compute_area(loop)).epsilon(1e-4));
@@ -72,7 +74,7 @@ TEST_CASE("[Loops] a circle gets as few points as the tolerance allows, and line
 	// A chord of a circle of radius r is a tolerance t away from its arc if it spans the angle
 	// 2 arccos(1 - t / r): the least number of points is 2 pi over that, rounded up.
 	const double RADIUS = 10000;
-	const PolygonLoop loop = make_polygon(720, RADIUS, 1, 0);
+	const PolygonLoop loop = make_polygon(720, RADIUS, /*p_points_per_side=*/1, /*p_noise=*/0);
 	for (const int32_t tolerance : { 50, 150, 400, 1100 }) {
 		CAPTURE(tolerance);
 		const double span = 2 * std::acos(1 - tolerance / RADIUS);
@@ -82,7 +84,7 @@ TEST_CASE("[Loops] a circle gets as few points as the tolerance allows, and line
 		CHECK(simplified[0].size() <= expected + 1);
 		CHECK(compute_area(simplified[0]) == doctest::Approx(compute_area(loop)).epsilon(2e-4));
 		// Chords have their ends on the circle. Lines that fit it cross it, so their ends are
-		// outside.
+		// outside: by 2/3 of the tolerance if the chords use all of it.
 		for (const glm::ivec2 &point : simplified[0]) {
 			const double distance = glm::length(glm::dvec2(point - CENTER)) - RADIUS;
 			CHECK(distance > 0);
@@ -97,7 +99,7 @@ TEST_CASE("[Loops] tiny and thin loops remain triangles at least") {
 	const PolygonLoop thin = { CENTER, CENTER + glm::ivec2(500, 0), CENTER + glm::ivec2(1000, 0),
 		CENTER + glm::ivec2(1000, 2), CENTER + glm::ivec2(500, 3), CENTER + glm::ivec2(0, 2) };
 	for (const PolygonLoop &loop : { tiny, thin }) {
-		const auto simplified = simplify_loops({ loop }, 100, SIZE);
+		const auto simplified = simplify_loops({ loop }, /*p_tolerance=*/100, SIZE);
 		CHECK(simplified[0].size() >= 3);
 		CHECK(compute_area(simplified[0]) > 0);
 	}

@@ -17,7 +17,8 @@ namespace {
 
 const float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
-/// A strip of quads along x. Weights blend from joint 0 at its start to joint 1 at its end.
+/// A strip of quads along x, 2 m long. Weights blend from joint 0 at its start to joint 1 at its
+/// end. Target i at weight 1 raises y by i + 1 times x.
 std::shared_ptr<const Mesh> make_strip(uint32_t p_influences = 4, size_t p_targets = 0) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -49,13 +50,15 @@ std::shared_ptr<const Mesh> make_strip(uint32_t p_influences = 4, size_t p_targe
 	return make_mesh("strip", positions, {}, indices, attributes);
 }
 
-std::vector<glm::dmat4> make_bend(double p_angle) {
+/// Returns skinning matrices: joint 0 stays, joint 1 rotates around z through x = 1.
+std::vector<glm::dmat4> make_bend(double p_angle_rad) {
 	return { glm::dmat4(1.0),
-		glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 0, 0)), p_angle,
+		glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 0, 0)), p_angle_rad,
 				glm::dvec3(0, 0, 1)) *
 				glm::translate(glm::dmat4(1.0), glm::dvec3(-1, 0, 0)) };
 }
 
+/// Returns the error of make_mesh_rig; empty if there is none.
 std::string get_rig_error(MeshRig p_rig, size_t p_vertices) {
 	try {
 		make_mesh_rig(std::move(p_rig), std::vector<glm::vec3>(p_vertices), "mesh \"Body\"");
@@ -102,7 +105,7 @@ TEST_CASE("mesh pose: the weighted sum of the joints transforms vertices") {
 			const glm::dvec3 rest = mesh->positions_node[vertex];
 			// Both targets raise y by x, the second twice as much.
 			const glm::dvec4 morphed(rest.x, rest.x * (0.5 - 2 * 0.25), rest.z, 1);
-			const double fraction = double(vertex / 2) / 8;
+			const double fraction = double(vertex / 2) / 8; // column, of 0..8
 			const glm::dvec4 expected =
 					(1 - fraction) * (joints[0] * morphed) + fraction * (joints[1] * morphed);
 			CHECK(glm::distance(glm::dvec3(vertices.positions[vertex]), glm::dvec3(expected)) <
@@ -119,7 +122,7 @@ TEST_CASE("mesh pose: bounds enclose all vertices of random poses") {
 	for (int round = 0; round < 200; ++round) {
 		std::vector<glm::dmat4> joints(2);
 		for (glm::dmat4 &joint : joints) {
-			for (int element = 0; element < 12; ++element) {
+			for (int element = 0; element < 12; ++element) { // all but the last row
 				joint[element / 3][element % 3] = 3 * number(generator);
 			}
 		}
@@ -158,7 +161,7 @@ TEST_CASE("mesh pose: a slot reuses an unchanged pose, and its meshes") {
 	CHECK(slot.get_deformed(mesh) != deformed);
 }
 
-TEST_CASE("mesh pose: poses outside the range of floats are errors that name the object") {
+TEST_CASE("mesh pose: a pose that is not finite or beyond 1e18 m is an error that names its node") {
 	const auto mesh = make_strip();
 	for (const double scale : { 1e300, double(NOT_A_NUMBER), -1e19 }) {
 		std::string message;
@@ -187,10 +190,11 @@ TEST_CASE("mesh pose: a cut mesh follows the triangles of its source") {
 	std::vector<uint8_t> texels;
 	for (int y = 0; y < 16; ++y) {
 		for (int x = 0; x < 16; ++x) {
-			const double depth = glm::distance(glm::dvec2(x, y), glm::dvec2(7.5)) - 5;
+			// A round hole of radius 5 texels: its edge is where alpha is 0.5.
+			const double outside_px = glm::distance(glm::dvec2(x, y), glm::dvec2(7.5)) - 5;
 			texels.insert(texels.end(),
 					{ 255, 255, 255,
-							uint8_t(std::lround(255 * std::clamp(0.5 + depth, 0.0, 1.0))) });
+							uint8_t(std::lround(255 * std::clamp(0.5 + outside_px, 0.0, 1.0))) });
 		}
 	}
 	material.base_color_texture.image = make_image("hole", { 16, 16 }, texels);
@@ -269,7 +273,7 @@ TEST_CASE("skin: a mesh is where its joints are, wherever its node is") {
 		CHECK(bent->instances[0].pose != before->instances[0].pose);
 		CHECK(bent->instances[0].mesh == before->instances[0].mesh);
 		CHECK(bent->instances[0].compute_hash(1) != before->instances[0].compute_hash(1));
-		CHECK(bent->instances[0].bounds_world.maximum.y > 0.3);
+		CHECK(bent->instances[0].bounds_world.maximum.y > 0.3); // the end is at sin(0.5) = 0.48
 	}
 	SUBCASE("the vertices of a deleted joint stay at rest") {
 		joint0->remove_child(*joint1);

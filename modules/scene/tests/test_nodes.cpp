@@ -48,7 +48,7 @@ TEST_CASE("[Scene] an unknown name is an error that lists the existing ones") {
 			"Scene \"desk.gltf\" has no light \"Lamp\". Name one of these: \"A\", \"B\".", Error);
 }
 
-TEST_CASE("[Light3D] every property has a tooltip, and penumbra widths may be -1") {
+TEST_CASE("[Light3D] every property has a tooltip, and only penumbra widths may be -1") {
 	const PropertyList &list = Light3D::get_property_list();
 	for (const char *name : { "light_size", "light_angular_distance", "shadow_enabled",
 				 "shadow_technique", "penumbra_outer_width", "penumbra_inner_width" }) {

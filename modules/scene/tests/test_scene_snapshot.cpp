@@ -36,7 +36,7 @@ struct SmallScene {
 TEST_CASE("[SceneSnapshot] penumbra widths that are not set become the light's size, others stay") {
 	SmallScene small;
 	small.light->properties = { { "light_size", 0.4 }, { "penumbra_inner_width", 0.25 },
-		{ "x_taps", int64_t(8) } };
+		{ "x_taps", int64_t(8) } }; // of another module: copied as it is
 	const LightSnapshot light = small.build()->lights[0];
 	CHECK(light.penumbra_outer_width_m == 0.4f);
 	CHECK(light.penumbra_inner_width_m == 0.25f);
@@ -73,7 +73,7 @@ TEST_CASE("[SceneSnapshot] a value out of range is an error that names the light
 	small.light->properties = { { "light_size", -1.0 } };
 	CHECK_THROWS_WITH_AS(
 			small.build(), doctest::Contains("Light \"Lamp\": light_size is -1"), Error);
-	small.light->properties = { { "light_size", int64_t(2) } };
+	small.light->properties = { { "light_size", int64_t(2) } }; // an integer is converted
 	CHECK(small.build()->lights[0].light_size_m == 2.0f);
 }
 
@@ -83,9 +83,9 @@ TEST_CASE("[SceneSnapshot] a light's orientation ignores scale and mirroring") {
 			glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
 	small.light->parent_from_node = rotation * glm::scale(glm::dmat4(1.0), glm::dvec3(-2, 3, 1e-5));
 	const LightSnapshot light = small.build()->lights[0];
-	const glm::dmat3 identity = glm::transpose(light.world_from_light) * light.world_from_light;
+	const glm::dmat3 product = glm::transpose(light.world_from_light) * light.world_from_light;
 	for (int axis = 0; axis < 3; ++axis) {
-		CHECK(glm::length(identity[axis] - glm::dmat3(1.0)[axis]) < 1e-12);
+		CHECK(glm::length(product[axis] - glm::dmat3(1.0)[axis]) < 1e-12);
 	}
 	CHECK(glm::determinant(light.world_from_light) == doctest::Approx(1.0));
 	CHECK(glm::length(light.get_direction_world() + glm::dvec3(rotation[2])) < 1e-12);
@@ -107,7 +107,7 @@ TEST_CASE("[SceneSnapshot] invalid transforms are errors that name their node") 
 	CHECK_THROWS_WITH_AS(small.build(), doctest::Contains("Camera \"Camera\""), Error);
 }
 
-TEST_CASE("[SceneSnapshot] the scene size is the set one, else the casters' diagonal, never 0") {
+TEST_CASE("[SceneSnapshot] the scene size is the given one, else the casters' diagonal, never 0") {
 	SmallScene small;
 	CHECK(small.build()->scene_size_m == doctest::Approx(std::sqrt(2.0)));
 	small.scene.scene_size_m = 4;

@@ -37,7 +37,7 @@ CountEdgeBundle make_bundle(uint p_first, uint p_end) {
 		maximum = max(maximum, max(get_a(i), get_b(i)));
 	}
 	return CountEdgeBundle(vec4(0.5 * (minimum + maximum), -COUNT_FAR),
-			vec4(0.5001 * (maximum - minimum), COUNT_FAR));
+			vec4(0.5001 * (maximum - minimum), COUNT_FAR)); // above 0.5 for rounding of the centre
 }
 
 void main() {

@@ -19,8 +19,8 @@ double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 	return p_a.x * p_b.y - p_a.y * p_b.x;
 }
 
-bool is_in_front(const glm::dvec4 &p_plane, const glm::dvec3 &p_r) {
-	return glm::dot(glm::dvec3(p_plane), p_r) + p_plane.w > 0.0;
+bool is_in_front(const glm::dvec4 &p_plane, const glm::dvec3 &p_point) {
+	return glm::dot(glm::dvec3(p_plane), p_point) + p_plane.w > 0.0;
 }
 
 int find_light_side(const CountSpace &p_space, const glm::dvec4 &p_plane) {
@@ -35,10 +35,10 @@ int find_light_side(const CountSpace &p_space, const glm::dvec4 &p_plane) {
 /// Maps points to (X, d) as seen from a receiver: X / d is in the plane of the disc that faces it.
 class Receiver {
 public:
-	Receiver(const CountSpace &p_space, const glm::dvec3 &p_r) :
-			r(p_r), x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), to_light(0.0, 0.0, -1.0) {
+	Receiver(const CountSpace &p_space, const glm::dvec3 &p_position) :
+			position(p_position), x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), to_light(0.0, 0.0, -1.0) {
 		if (!p_space.is_directional) {
-			const glm::dvec3 n = glm::normalize(p_r);
+			const glm::dvec3 n = glm::normalize(p_position);
 			// The same basis as in make_count_receiver, so that the points of the light are the
 			// same.
 			const double sign_z = n.z >= 0 ? 1.0 : -1.0;
@@ -46,32 +46,37 @@ public:
 			const double b = n.x * n.y * a;
 			x = { 1.0 + sign_z * n.x * n.x * a, sign_z * b, -sign_z * n.x };
 			y = { b, sign_z + n.y * n.y * a, -n.y };
-			to_light = -p_r / glm::dot(p_r, p_r);
+			to_light = -p_position / glm::dot(p_position, p_position);
 		}
 	}
 	glm::dvec3 find_offset(const glm::dvec3 &p_point) const {
-		const glm::dvec3 o = p_point - r;
+		const glm::dvec3 o = p_point - position;
 		return { glm::dot(x, o), glm::dot(y, o), glm::dot(to_light, o) };
 	}
 
 private:
-	glm::dvec3 r;
+	glm::dvec3 position;
 	glm::dvec3 x;
 	glm::dvec3 y;
 	glm::dvec3 to_light;
 };
 
+/// Counts, for one receiver, the solids in front of each point of the light, and the area of the
+/// disc behind edges.
 class Counter {
 public:
-	Counter(const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const DiscLookup> p_masks) :
-			space(p_space), r(p_r), receiver(p_space, p_r), masks(p_masks), counts(p_masks.size()) {
+	Counter(const CountSpace &p_space, const glm::dvec3 &p_receiver,
+			std::span<const DiscLookup> p_masks) :
+			space(p_space),
+			position(p_receiver), receiver(p_space, p_receiver), masks(p_masks),
+			counts(p_masks.size()) {
 		for (auto &samples : counts) {
 			samples.fill(0);
 		}
 	}
 
 	void add_edge(const CountEdge &p_edge) {
-		const int weight = p_edge.compute_weight(r);
+		const int weight = p_edge.compute_weight(position);
 		const glm::dvec3 a = receiver.find_offset(p_edge.a);
 		const glm::dvec3 b = receiver.find_offset(p_edge.b);
 		const double side = cross(glm::dvec2(a), glm::dvec2(b));
@@ -87,7 +92,7 @@ public:
 	/// mesh parts, only faces with the receiver in front have such a line; otherwise, only those
 	/// with the receiver behind.
 	void add_cut(const CountFace &p_face, bool p_uses_front_faces) {
-		const bool is_receiver_in_front = is_in_front(p_face.plane, r);
+		const bool is_receiver_in_front = is_in_front(p_face.plane, position);
 		if (!p_face.is_double_sided && is_receiver_in_front != p_uses_front_faces) {
 			return;
 		}
@@ -122,7 +127,7 @@ public:
 				const int other = p_solid_count + samples[(index + 2) % DiscMasks::SAMPLE_COUNT];
 				hidden += count >= 1 ? 1 : 0;
 				sum += count;
-				const double change = std::min(std::abs(count - other), 15); // see sum_changes
+				const double change = std::min(std::abs(count - other), 15); // as sum_changes
 				products += (count >= 1) != (other >= 1) ? change : 0;
 				squares += change * change;
 				overlaps = overlaps || count < 0 || count > 1;
@@ -130,7 +135,7 @@ public:
 		}
 		const double mean = p_solid_count + area;
 		const double regression_slope = !overlaps ? 1.0 : squares > 0 ? products / squares : 0.0;
-		hidden = overlaps ? hidden : sum;
+		hidden = overlaps ? hidden : sum; // without overlaps the result is 1 - mean
 		return std::clamp(
 				1.0 - hidden / points - regression_slope * (mean - sum / points), 0.0, 1.0);
 	}
@@ -157,7 +162,7 @@ private:
 	}
 
 	/// Adds the region of the disc beyond an edge, seen from the centre: a circular sector without
-	/// its triangle. It is subtracted if p_side > 0.
+	/// its triangle. It is subtracted if p_side > 0. Limits for rounding: as in make_count_sectors.
 	void add_sector(const glm::dvec2 &p_a, const glm::dvec2 &p_b, double p_side, int p_weight) {
 		const glm::dvec2 edge_direction = p_b - p_a;
 		if (glm::dot(edge_direction, edge_direction) < 1e-16) {
@@ -190,7 +195,7 @@ private:
 	}
 
 	const CountSpace &space;
-	const glm::dvec3 r;
+	const glm::dvec3 position;
 	const Receiver receiver;
 	const std::span<const DiscLookup> masks;
 	double area = 0; // as a fraction of the disc's area
@@ -199,9 +204,9 @@ private:
 
 } // namespace
 
-int CountEdge::compute_weight(const glm::dvec3 &p_r) const {
-	const int first = is_in_front(plane0, p_r) ? 1 : -1;
-	const int sum = first - (is_in_front(plane1, p_r) ? 1 : -1);
+int CountEdge::compute_weight(const glm::dvec3 &p_point) const {
+	const int first = is_in_front(plane0, p_point) ? 1 : -1;
+	const int sum = first - (is_in_front(plane1, p_point) ? 1 : -1);
 	return !has_face1 ? first : is_double_sided ? sum : sum / 2;
 }
 
@@ -254,20 +259,22 @@ void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &
 
 namespace {
 
+/// Numbers of faces that the segment from a receiver to the light's centre crosses.
 struct Crossings {
 	int back_facing = 0;
 	int light_facing = 0;
 	int double_sided = 0;
 
+	/// See sum_crossings in count_faces_inc.glsl.
 	int get_solid_count() const { return double_sided + std::max(back_facing, light_facing); }
 };
 
-Crossings count_crossings(
-		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces) {
-	const Receiver receiver(p_space, p_r);
+Crossings count_crossings(const CountSpace &p_space, const glm::dvec3 &p_receiver,
+		std::span<const CountFace> p_faces) {
+	const Receiver receiver(p_space, p_receiver);
 	Crossings found;
 	for (const CountFace &face : p_faces) {
-		const bool is_receiver_in_front = is_in_front(face.plane, p_r);
+		const bool is_receiver_in_front = is_in_front(face.plane, p_receiver);
 		if (is_receiver_in_front == (p_space.get_light_side(face.plane) > 0.0)) {
 			continue;
 		}
@@ -289,16 +296,16 @@ Crossings count_crossings(
 
 } // namespace
 
-int count_solids_in_double(
-		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces) {
-	return count_crossings(p_space, p_r, p_faces).get_solid_count();
+int count_solids_in_double(const CountSpace &p_space, const glm::dvec3 &p_receiver,
+		std::span<const CountFace> p_faces) {
+	return count_crossings(p_space, p_receiver, p_faces).get_solid_count();
 }
 
-double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
+double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_receiver,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
 		std::span<const DiscLookup> p_masks) {
-	Counter counter(p_space, p_r, p_masks);
-	const Crossings crossings = count_crossings(p_space, p_r, p_faces);
+	Counter counter(p_space, p_receiver, p_masks);
+	const Crossings crossings = count_crossings(p_space, p_receiver, p_faces);
 	if (p_space.disc_radius > 0) {
 		for (const CountEdge &edge : p_edges) {
 			counter.add_edge(edge);

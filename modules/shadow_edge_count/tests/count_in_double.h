@@ -39,15 +39,17 @@ struct CountEdge {
 	bool is_double_sided = false; // it belongs to a mesh part that is not closed
 
 	/// Signed weight as seen from a point: the change of the number of solids across the edge.
-	int compute_weight(const glm::dvec3 &p_r) const;
+	int compute_weight(const glm::dvec3 &p_point) const;
 };
 
+/// A face in light space, in the winding order of its front.
 struct CountFace {
 	glm::dvec3 corners[3];
 	glm::dvec4 plane = glm::dvec4(0.0);
 	bool is_double_sided = false;
 };
 
+/// The faces and edges of a light's casters, in light space.
 struct CountedCasters {
 	std::vector<CountEdge> edges;
 	std::vector<CountFace> faces;
@@ -58,14 +60,14 @@ struct CountedCasters {
 			const CountSpace &p_space);
 };
 
-/// Number of solids between a receiver at p_r and the light's centre.
-int count_solids_in_double(
-		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces);
+/// Number of solids between a receiver at p_receiver and the light's centre.
+int count_solids_in_double(const CountSpace &p_space, const glm::dvec3 &p_receiver,
+		std::span<const CountFace> p_faces);
 
-/// The fraction of the light that a receiver sees, 0..1. p_r: its position, already moved off its
-/// surface. p_edges: all edges that may matter to it. p_masks: one per set of 64 points of the
-/// light.
-double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
+/// The fraction of the light that a receiver sees, 0..1. p_receiver: its position, already moved
+/// off its surface. p_edges: all edges that may matter to it. p_masks: one per set of 64 points of
+/// the light.
+double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_receiver,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
 		std::span<const DiscLookup> p_masks);
 

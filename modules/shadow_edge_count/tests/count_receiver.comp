@@ -58,6 +58,7 @@ void main() {
 	if (item >= uint(items.length())) {
 		return;
 	}
+	// 0.0: any distance will do, since all faces have one level of detail.
 	const CountReceiver receiver = make_count_receiver(light, items[item].xyz, 0.0);
 	const CountCrossings crossings = count_crossings(light, 0u, vec2(0.0), receiver);
 	CountState state = make_count_state(sum_crossings(crossings));

@@ -26,7 +26,7 @@ struct CountArrays {
 	}
 
 	explicit CountArrays(const CountScene &p_scene, uint32_t p_map_size_px = 64) {
-		const float FAR = 3e38f; // every receiver sees the faces
+		const float FAR = 3e38f; // the faces exist for receivers at all distances
 		for (const CountFace &face : p_scene.get_faces()) {
 			faces.push_back(
 					{ pack(face.corners[0], face.is_double_sided ? EDGE_COUNT_DOUBLE_SIDED : 0u),
@@ -48,6 +48,7 @@ struct CountArrays {
 		light.views[0] = { glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0),
 			glm::vec2(float(p_scene.half_extent)), glm::uvec2(p_map_size_px) };
 		light.disc_radius = float(space.disc_radius);
+		// Beyond all receivers; warp() in test_count_cull.cpp uses the same depth.
 		light.depth_far_m = 3.0f * float(space.scene_size_m);
 		light.scene_size_m = float(space.scene_size_m);
 		light.nearer_tolerance = float(space.nearer_tolerance);

@@ -41,6 +41,9 @@ inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p
 	return make_mesh("sphere", std::move(positions), {}, std::move(indices));
 }
 
+/// How far receivers are moved off their surfaces, in S; as RECEIVER_OFFSET in light_shared.h.
+constexpr double RECEIVER_OFFSET_SIZES = 5e-5;
+
 /// Meshes and a light. Computes the visibility of a point by counting and by tracing rays.
 class CountScene {
 public:
@@ -66,6 +69,7 @@ public:
 		view_from_world[3] = glm::dvec4(-(rotation * light), 1.0);
 		space.is_directional = is_directional;
 		space.disc_radius = radius;
+		// As in make_count_light_constants, apart from views of great depth.
 		space.nearer_tolerance = 2e-5 * (is_directional ? scene_size : 1.0);
 		space.scene_size_m = scene_size;
 		casters = {};
@@ -85,8 +89,8 @@ public:
 
 	/// The position of a receiver in light space, moved off its surface.
 	glm::dvec3 make_receiver(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
-		return glm::dvec3(
-				view_from_world * glm::dvec4(p_position + p_normal * (5e-5 * scene_size), 1.0));
+		const glm::dvec3 moved = p_position + p_normal * (RECEIVER_OFFSET_SIZES * scene_size);
+		return glm::dvec3(view_from_world * glm::dvec4(moved, 1.0));
 	}
 
 	/// Visibility of a receiver by counting. p_receiver: see make_receiver.
@@ -100,7 +104,7 @@ public:
 	/// Visibility by tracing rays: the fraction of p_count points of the light that no triangle
 	/// hides. The points are on the disc that faces p_position.
 	double trace(const glm::dvec3 &p_position, const glm::dvec3 &p_normal, uint32_t p_count) const {
-		const glm::dvec3 from = p_position + p_normal * (5e-5 * scene_size);
+		const glm::dvec3 from = p_position + p_normal * (RECEIVER_OFFSET_SIZES * scene_size);
 		const glm::dvec3 to_light = is_directional ? glm::normalize(light - target) : light - from;
 		const glm::dvec3 axis = glm::normalize(to_light);
 		const glm::dvec3 u = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 1.0, 0.2)));
@@ -108,8 +112,9 @@ public:
 		uint32_t seen = 0;
 		for (uint32_t index = 0; index < p_count; ++index) {
 			const double r = std::sqrt((index + 0.5) / p_count) * radius;
-			const double angle = 2.399963229728653 * index;
+			const double angle = 2.399963229728653 * index; // the golden angle
 			const glm::dvec3 to = to_light + u * (r * std::cos(angle)) + v * (r * std::sin(angle));
+			// Directional: to beyond all casters.
 			seen += is_hidden(from, is_directional ? to * (10.0 * scene_size) : to) ? 0 : 1;
 		}
 		return double(seen) / p_count;
@@ -126,7 +131,8 @@ private:
 		glm::dmat4 world_from_node;
 	};
 
-	/// True if a triangle intersects the segment from p_from to p_from + p_segment.
+	/// True if a triangle intersects the segment from p_from to p_from + p_segment (Möller and
+	/// Trumbore 1997).
 	bool is_hidden(const glm::dvec3 &p_from, const glm::dvec3 &p_segment) const {
 		for (size_t first = 0; first < triangles.size(); first += 3) {
 			const glm::dvec3 e1 = triangles[first + 1] - triangles[first];

@@ -15,6 +15,7 @@ const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
 
 uint32_t DiscLookup::find_sector(const glm::dvec2 &p_direction) const {
 	const double angle = std::atan2(p_direction.y, p_direction.x) / SECTOR_RAD;
+	// + 1 rounds up, + SAMPLE_COUNT makes it positive.
 	const double position = angle + 1.0 + SAMPLE_COUNT - (sample_set + 0.5) / sample_set_count;
 	return static_cast<uint32_t>(position) % SAMPLE_COUNT;
 }
@@ -37,6 +38,7 @@ uint32_t DiscLookup::find_direction(const glm::dvec2 &p_direction) {
 }
 
 uint32_t DiscLookup::find_offset(double p_offset) {
+	// Below 1, so that the row exists.
 	return static_cast<uint32_t>(OFFSET_COUNT * std::clamp(p_offset, 0.0, 0.9999));
 }
 

@@ -76,7 +76,7 @@ public:
 	double compute(const SurfacePoint &p_surface) const {
 		const glm::dvec3 normal = glm::normalize(glm::dvec3(p_surface.geometric_normal));
 		const glm::dvec3 position_world = camera_position_world + glm::dvec3(p_surface.position) +
-				normal * (5e-5 * scene_size_m);
+				normal * (RECEIVER_OFFSET_SIZES * scene_size_m);
 		return compute_count_visibility(space,
 				glm::dvec3(light_from_world * glm::dvec4(position_world, 1.0)), casters.edges,
 				casters.faces, masks);

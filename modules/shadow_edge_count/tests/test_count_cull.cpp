@@ -21,13 +21,16 @@ struct ReceiverBox {
 	shader::CountBlockBox box;
 };
 
+/// (x', y', w) of a point, see CountViewConstants.
 glm::dvec3 warp(const CountScene &p_scene, const glm::dvec3 &p_r) {
 	return p_scene.get_space().is_directional
+			// The same depth_far_m as in CountArrays.
 			? glm::dvec3(p_r.x, p_r.y, 3.0 * p_scene.get_space().scene_size_m - p_r.z)
 			: glm::dvec3(p_r.x, p_r.y, 1.0) / p_r.z;
 }
 
-/// Random receivers within p_width_m, on a plane or anywhere, and their box.
+/// Random receivers near a random point, on a plane if p_is_flat, and their box. p_width_m: scale
+/// of their distances from the point.
 ReceiverBox make_box(
 		const CountScene &p_scene, TestRandom &r_random, double p_width_m, bool p_is_flat) {
 	for (;;) {
@@ -47,14 +50,14 @@ ReceiverBox make_box(
 			result.receivers.push_back(receiver);
 		}
 		const glm::dvec3 normal_world = glm::normalize(glm::cross(u, v));
-		const glm::dvec3 normal =
+		const glm::dvec3 normal = // in light space
 				p_scene.make_receiver(normal_world, {}) - p_scene.make_receiver({}, {});
 		const double height =
 				p_scene.is_directional ? normal.z : glm::dot(normal, result.receivers[0]);
 		if (!is_in_front || std::abs(height) < 1e-3) {
-			continue;
+			continue; // a receiver is behind the light or too close, or the plane is edge-on
 		}
-		const glm::vec2 slope(glm::dvec2(normal) / height);
+		const glm::vec2 slope(glm::dvec2(normal) / height); // w per x' and y' of the plane
 		glm::vec2 minimum(1e30f);
 		glm::vec2 maximum(-1e30f);
 		glm::vec2 range(1e30f, -1e30f);
@@ -71,7 +74,7 @@ ReceiverBox make_box(
 }
 
 struct CullResult {
-	std::vector<bool> is_used;		// by box, then by edge
+	std::vector<bool> is_used;		// the box may need the edge; by box, then by edge
 	std::vector<int> known_weights; // by box, then by edge; may be UNKNOWN_WEIGHT
 	size_t wrong_bundle_count = 0;	// bundles that are rejected although an edge of theirs is used
 };
@@ -103,7 +106,8 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 
 enum class LightSetup { SPOT_ON_AXIS, SPOT_FAR_OFF, DIRECTIONAL };
 
-/// Two solids and an open mesh at random positions above the ground.
+/// Two solids and an open mesh at random positions above the ground. p_radius_sizes: R as a
+/// fraction of S; directional: a tangent.
 CountScene make_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_random) {
 	CountScene scene;
 	scene.is_directional = p_setup == LightSetup::DIRECTIONAL;
@@ -138,12 +142,12 @@ CountScene make_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_r
 }
 
 struct CullCheck {
-	double max_change = 0;
-	size_t wrong_weight_count = 0;
-	size_t known_weight_count = 0;
-	size_t rejected_count = 0; // pairs of a box and an edge
-	size_t used_count = 0;	   // pairs of a box and an edge
-	size_t penumbra_count = 0; // receivers
+	double max_change = 0;		   // of a receiver's visibility
+	size_t wrong_weight_count = 0; // receivers whose weight differs from the known one
+	size_t known_weight_count = 0; // pairs of a box and an edge
+	size_t rejected_count = 0;	   // pairs of a box and an edge
+	size_t used_count = 0;		   // pairs of a box and an edge
+	size_t penumbra_count = 0;	   // receivers
 };
 
 /// Counts the receivers of small and large boxes with all edges, and with the used ones only.
@@ -198,7 +202,7 @@ TEST_CASE("[GPU][EdgeCount] edges that a box of receivers rejects change nothing
 			for (int scene = 0; scene < 3; ++scene) {
 				check_boxes(fixture, make_scene(setup, radius, random), random, check);
 			}
-			CHECK(check.max_change < 1e-12);
+			CHECK(check.max_change < 1e-12); // 0 but for rounding
 			CHECK(check.wrong_weight_count == 0);
 			// The scenes have enough cases of each kind.
 			CHECK(check.known_weight_count > 50);
@@ -230,6 +234,6 @@ TEST_CASE("[GPU][EdgeCount] a small box of receivers rejects most edges of a fin
 				size_t(std::count(result.is_used.begin(), result.is_used.end(), true));
 		CHECK(scene.get_edges().size() > 1000);
 		CHECK(used_count > 0);
-		CHECK(used_count * 5 < result.is_used.size());
+		CHECK(used_count * 5 < result.is_used.size()); // of all pairs of a box and an edge
 	}
 }

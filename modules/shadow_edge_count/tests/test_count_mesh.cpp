@@ -11,7 +11,7 @@ using namespace gnomon;
 
 TEST_CASE("[EdgeCount] consecutive edges of a mesh are in the same cell or in neighbouring ones") {
 	const uint32_t CELLS = 8; // per axis
-	const float SIZE = 0.05f; // of a triangle; the distance of two cells is 1
+	const float SIZE = 0.05f; // of a triangle; neighbouring cells are 1 apart
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
 	for (uint32_t cell = 0; cell < CELLS * CELLS * CELLS; ++cell) {
@@ -33,11 +33,12 @@ TEST_CASE("[EdgeCount] consecutive edges of a mesh are in the same cell or in ne
 				(topology.welded_positions_node[p_edge.a] +
 						topology.welded_positions_node[p_edge.b]);
 	};
-	float longest = 0.0f;
+	float max_distance = 0.0f; // between the midpoints of consecutive edges
 	for (size_t index = 1; index < counted.edges.size(); ++index) {
-		longest = std::max(longest,
+		max_distance = std::max(max_distance,
 				glm::distance(
 						find_middle(counted.edges[index - 1]), find_middle(counted.edges[index])));
 	}
-	CHECK(longest < 1.0f + 2.0f * SIZE); // edges follow a Hilbert curve; a Morton curve would jump
+	// Edges follow a Hilbert curve; a Morton curve would jump.
+	CHECK(max_distance < 1.0f + 2.0f * SIZE);
 }

@@ -1,3 +1,6 @@
+// The points of the light's disc (DiscMasks), and the masks of its wedges in the double version
+// (DiscLookup).
+
 #include "modules/shadow_edge_count/tests/disc_lookup.h"
 
 #include <doctest/doctest.h>
@@ -11,14 +14,14 @@ namespace gnomon {
 
 namespace {
 
-double compute_angle(const glm::dvec2 &p_direction) {
+double compute_angle_rad(const glm::dvec2 &p_direction) {
 	const double angle = std::atan2(p_direction.y, p_direction.x);
 	return angle < 0 ? angle + 2.0 * std::numbers::pi : angle;
 }
 
 } // namespace
 
-TEST_CASE("[EdgeCount] each ring and each sector of the disc has one point of all sample sets") {
+TEST_CASE("[EdgeCount] each ring and each sector of the disc has exactly one point") {
 	for (const uint32_t sample_set_count : { 1u, 4u }) {
 		CAPTURE(sample_set_count);
 		const uint32_t count = DiscMasks::SAMPLE_COUNT * sample_set_count;
@@ -28,8 +31,9 @@ TEST_CASE("[EdgeCount] each ring and each sector of the disc has one point of al
 			const DiscLookup masks(sample_set, sample_set_count);
 			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
 				const glm::dvec2 point = masks.compute_sample(index);
+				// Rings of equal area, sectors of equal angle; as many of each as points.
 				++rings.at(size_t(glm::dot(point, point) * count));
-				++sectors.at(size_t(compute_angle(point) / (2.0 * std::numbers::pi) * count));
+				++sectors.at(size_t(compute_angle_rad(point) / (2.0 * std::numbers::pi) * count));
 			}
 		}
 		CHECK(std::count(rings.begin(), rings.end(), 1u) == count);
@@ -45,13 +49,14 @@ TEST_CASE("[EdgeCount] a wedge has the points between its directions, in each sa
 			CAPTURE(sample_set);
 			const DiscLookup masks(sample_set, sample_set_count);
 			for (uint32_t pair = 0; pair < 500; ++pair) {
+				// Quasi-random numbers: multiples of 1 / g and 1 / g^2, g^3 = g + 1.
 				const double from = std::fmod(pair * 0.7548776662, 1.0) * two_pi;
 				// Seen from the centre, an edge spans less than half a circle.
 				const double width = std::fmod(pair * 0.5698402910, 1.0) * std::numbers::pi;
 				const double to = std::fmod(from + width, two_pi);
 				uint64_t expected = 0;
 				for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
-					const double angle = compute_angle(masks.compute_sample(index));
+					const double angle = compute_angle_rad(masks.compute_sample(index));
 					const bool is_between =
 							from <= to ? angle >= from && angle < to : angle >= from || angle < to;
 					expected |= uint64_t(is_between) << index;

@@ -1,4 +1,5 @@
-// Blocks of pixels that have more edges than the budget, and lists that do not fit.
+// Blocks of pixels that have more edges than the budget, edge lists and face lists that do not fit,
+// and the size of the maps that have the face lists.
 
 #include "modules/shadow_edge_count/block_passes.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
@@ -55,6 +56,8 @@ std::shared_ptr<const Mesh> make_floors(uint32_t p_count) {
 } // namespace
 
 TEST_CASE("[EdgeCount] edge lists are large enough for small images, and at most 24 MB") {
+	// 128 x 128 pixels are 256 blocks. Each may have all edges, rounded up to a power of two, but
+	// 2048 on average at most. An edge takes 4 bytes.
 	CHECK(choose_chunk_capacity({ 128, 128 }, 100) == 256 * 128 / EDGE_COUNT_CHUNK_SIZE);
 	CHECK(choose_chunk_capacity({ 128, 128 }, 1'000'000) == 256 * 2048 / EDGE_COUNT_CHUNK_SIZE);
 	CHECK(choose_chunk_capacity({ 8192, 8192 }, 1'000'000) == 6'000'000 / EDGE_COUNT_CHUNK_SIZE);
@@ -74,6 +77,7 @@ TEST_CASE("[GPU][EdgeCount] a block with more edges than its budget is filtered,
 		CHECK_FALSE(find_entry(counted, "filter").runs);
 		CHECK(find_entry(counted, "filter").reason.starts_with("edge_count_budget is -1"));
 		CHECK(count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_FILTERED) == 0);
+		// 256 pixels are 4 blocks.
 		CHECK(count_pixels(fixture, scene, options.size_px, EDGE_COUNT_BLOCKS_LISTED) > 256);
 
 		scene.light->properties["edge_count_budget"] = int64_t(65536);
@@ -151,7 +155,7 @@ TEST_CASE("[GPU][EdgeCount] face lists that do not fit are rebuilt within the fi
 			SmallScene scene(type);
 			scene.light->properties["edge_count_map_size"] = int64_t(16);
 			if (has_floors) {
-				// More than MAX_BOUNDED_FACES faces, each of which covers much of the map.
+				// More than MAX_BOUNDED_FACES of count_casters.cpp. Each covers much of the map.
 				add_mesh(scene.scene, "Floors", make_floors(21'000), {});
 			}
 			const FrameOptions options = { .size_px = glm::uvec2(48) };

@@ -54,9 +54,9 @@ void check_changes(LightType p_type) {
 		{ "first frame", set("edge_count_map_size", int64_t(128)), true },
 		{ "camera", [&] { scene.camera->parent_from_node[3].x += 0.2; }, false },
 		{ "R", set("light_size", 0.35), true },
-		{ "r alone", set("penumbra_outer_width", 0.1), true },
-		{ "points", set("edge_count_quality", std::string("256")), false },
-		{ "points again", set("edge_count_quality", std::string("64")), false },
+		{ "r without t", set("penumbra_outer_width", 0.1), true },
+		{ "256 points, the default", set("edge_count_quality", std::string("256")), false },
+		{ "64 points", set("edge_count_quality", std::string("64")), false },
 		// The filter reads a depth map, which is drawn together with all other results.
 		{ "budget", set("edge_count_budget", int64_t(100)), true },
 		{ "no budget", set("edge_count_budget", int64_t(-1)), false },
@@ -86,8 +86,8 @@ void check_changes(LightType p_type) {
 		CAPTURE(std::string(step.what));
 		step.change();
 		const MaskResult reused = render(caching, scene);
-		CHECK((count_casters(reused, true) > 0) == step.finds);
-		CHECK(reused.visibility == render(fresh, scene, false).visibility);
+		CHECK((count_casters(reused, /*p_is_found=*/true) > 0) == step.finds);
+		CHECK(reused.visibility == render(fresh, scene, /*p_may_reuse=*/false).visibility);
 	}
 }
 
@@ -102,9 +102,9 @@ TEST_CASE("[GPU][EdgeCount] in a static scene no faces or edges are found again"
 		const MaskResult first = render(fixture, scene);
 		const MaskResult second = render(fixture, scene);
 		CHECK(first.visibility == second.visibility);
-		CHECK(count_casters(first, true) >= 3);
-		CHECK(count_casters(first, false) == 0);
-		CHECK(count_casters(second, true) == 0);
+		CHECK(count_casters(first, /*p_is_found=*/true) >= 3);
+		CHECK(count_casters(first, /*p_is_found=*/false) == 0);
+		CHECK(count_casters(second, /*p_is_found=*/true) == 0);
 		for (const char *pass : { "caster faces", "mark edges", "list edges", "list faces" }) {
 			CAPTURE(std::string(pass));
 			CHECK(count_passes(first, pass) > 0);
@@ -126,9 +126,9 @@ TEST_CASE("[GPU][EdgeCount] edges of a static caster are reused, and the mask eq
 	MeshInstance3D &globe = add_globe(scene);
 	const auto check = [&](int p_found_count, int p_cached_count) {
 		const MaskResult reused = render(caching, scene);
-		CHECK(count_casters(reused, true) == p_found_count);
-		CHECK(count_casters(reused, false) == p_cached_count);
-		CHECK(reused.visibility == render(fresh, scene, false).visibility);
+		CHECK(count_casters(reused, /*p_is_found=*/true) == p_found_count);
+		CHECK(count_casters(reused, /*p_is_found=*/false) == p_cached_count);
+		CHECK(reused.visibility == render(fresh, scene, /*p_may_reuse=*/false).visibility);
 		CHECK(reused.visibility == render(caching, scene).visibility);
 	};
 	check(3, 0);
@@ -171,7 +171,8 @@ TEST_CASE("[GPU][EdgeCount] masks are equal bit for bit in repeated frames and o
 			for (int repeat = 0; repeat < 3; ++repeat) {
 				CAPTURE(device);
 				CAPTURE(repeat);
-				const std::vector<float> mask = render(fixture, scene, false).visibility;
+				const std::vector<float> mask =
+						render(fixture, scene, /*p_may_reuse=*/false).visibility;
 				std::vector<float> &expected = first[type == LightType::OMNI ? 1 : 0];
 				expected = expected.empty() ? mask : expected;
 				CHECK(mask == expected);
@@ -200,6 +201,7 @@ TEST_CASE("[GPU][EdgeCount] the mask does not depend on previous contents of mem
 		r_device.submit_commands(RenderingDevice::SubmitMode::WAIT);
 	};
 	std::vector<float> expected;
+	// As floats: 0, NaN, 3.4e38 and almost 0.
 	for (const uint32_t value : { 0u, 0xffffffffu, 0x7f7f7f7fu, 0x00000fffu }) {
 		CAPTURE(value);
 		MaskFixture fixture;

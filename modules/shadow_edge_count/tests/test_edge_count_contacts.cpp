@@ -20,7 +20,8 @@ glm::dmat4 look_down(double p_height_m) {
 }
 
 /// Compares the mask with the double version, and, in a build with the reference, with that.
-/// Returns the difference from the reference, or zeros without one.
+/// Returns the difference from the reference, or zeros without one. p_reference_limit: limit of the
+/// mean of that difference.
 MaskDifference check_mask(MaskFixture &r_fixture, SmallScene &r_scene, double p_reference_limit,
 		glm::uvec2 p_size_px = glm::uvec2(96)) {
 	const MaskResult frame =
@@ -55,7 +56,7 @@ TEST_CASE("[GPU][EdgeCount] solids that are sunk into the ground leak no light")
 					make_box_mesh("pole", { 0.06f, 0.8f, 0.05f }), { -0.4, 0.5, 1.1 });
 			pole.parent_from_node = glm::rotate(pole.parent_from_node, 0.3, { 0.2, 0.3, 1.0 });
 			const MaskDifference error = check_mask(fixture, scene, 0.001);
-			CHECK(error.maximum <= 0.1);
+			CHECK(error.maximum <= 0.1); // a leak would be close to 1
 		}
 	}
 }
@@ -68,7 +69,11 @@ TEST_CASE("[GPU][EdgeCount] outlines on the borders of texels or close to them c
 	scene.light->parent_from_node = look_down(height_m);
 	scene.light->properties["light_size"] = 0.03;
 	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
-	const LightView view = build_light_views(snapshot->lights[0], *snapshot, 256, 1)[0];
+	const uint32_t map_size_px = 256; // the default of edge_count_map_size
+	const uint32_t border_px = 1;	  // as in ShadowEdgeCount::get_light_views
+	const LightView view =
+			build_light_views(snapshot->lights[0], *snapshot, map_size_px, border_px)[0];
+	// The position of the box's side whose upper edge is p_texels from the border of the map.
 	const auto find_side_m = [&](double p_texels) {
 		return (2.0 * p_texels / view.size_px.x - 1.0) * view.half_extent.x * (height_m - top_m);
 	};

@@ -13,16 +13,15 @@ namespace {
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 const glm::uvec2 SIZE_PX(72);
 
-/// Difference of the mask from the reference. In a build without the reference it is 0.
+/// Difference of the mask from the reference. In a build without the reference its errors are 0.
 MaskDifference compare_with_reference(
 		MaskFixture &r_fixture, SmallScene &r_scene, int64_t p_sample_count = 1024) {
 	const MaskResult frame = render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
 	if (!has_reference()) {
 		return compare_masks(frame.visibility, frame);
 	}
-	const MaskDifference difference = compare_masks(
+	return compare_masks(
 			frame.visibility, render_reference(r_fixture, r_scene, SIZE_PX, p_sample_count));
-	return difference;
 }
 
 /// A box with each of its triangles twice, the second time with inverted winding if p_is_flipped.
@@ -78,7 +77,7 @@ TEST_CASE("[GPU][EdgeCount] a device without subgroup operations is refused, and
 	CHECK(std::count(lit.visibility.begin(), lit.visibility.end(), 1.0f) > 100);
 }
 
-TEST_CASE("[GPU][EdgeCount] a file with the property edge_count_layers loads with one warning") {
+TEST_CASE("[GPU][EdgeCount] the removed property edge_count_layers only logs one warning") {
 	std::vector<std::string> lines;
 	const LogSink before =
 			set_log_sink([&](LogLevel, const std::string &p_line) { lines.push_back(p_line); });
@@ -295,8 +294,8 @@ TEST_CASE("[GPU][EdgeCount] shadows of meshes that are not simple solids match r
 	const auto box = make_box_mesh("box", { 0.5f, 0.3f, 0.4f });
 	const auto inside_out = make_mesh("inside out", box->positions_node, {},
 			std::vector<uint32_t>(box->indices.rbegin(), box->indices.rend()));
-	const std::shared_ptr<const Mesh> meshes[] = { make_double_box(false), make_double_box(true),
-		make_box_with_slivers(), inside_out, box, box };
+	const std::shared_ptr<const Mesh> meshes[] = { make_double_box(/*p_is_flipped=*/false),
+		make_double_box(/*p_is_flipped=*/true), make_box_with_slivers(), inside_out, box, box };
 	for (int index = 0; index < 6; ++index) {
 		CAPTURE(index);
 		SmallScene scene(ALL_TYPES[index % 3]);

@@ -16,7 +16,7 @@ namespace {
 
 const glm::uvec2 SIZE_PX(192);
 
-/// A round leaf.
+/// A round leaf with a radius of 26 of its image's 64 texels. Alpha changes over 5 texels.
 Material make_leaf_material() {
 	std::vector<uint8_t> texels;
 	for (int y = 0; y < 64; ++y) {
@@ -47,7 +47,7 @@ CountMesh cut_triangles(const std::vector<glm::vec3> &p_corners) {
 	return build_count_mesh(*get_topology(cut.mesh), cut.mesh->source);
 }
 
-/// Round leaves above the ground, under a light of some width.
+/// Round leaves above the ground, under a large light.
 SmallScene make_leaves(LightType p_type) {
 	SmallScene scene(p_type);
 	scene.box->surfaces.clear();
@@ -78,7 +78,8 @@ SmallScene make_leaves(LightType p_type) {
 	return scene;
 }
 
-/// Renders the mask, with or without a coarse level.
+/// Renders the mask, with or without a coarse level. Without, each caster has only the level that
+/// select_casters chooses for the light.
 MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_levels) {
 	auto snapshot = std::make_shared<SceneSnapshot>(*p_scene.snap());
 	const LightSnapshot light = snapshot->lights[0];
@@ -110,7 +111,7 @@ TEST_CASE("[EdgeCount] source parts are connected by edges, whatever their windi
 	const CountMesh fan = cut_triangles(
 			{ low, high, { 1, 0, 0 }, low, high, { -1, 0, 0.5f }, high, low, { -1, 0, -0.5f } });
 	REQUIRE(fan.source_parts.size() == 1);
-	CHECK(fan.source_parts[0].w > 0.9f);
+	CHECK(fan.source_parts[0].w > 0.9f); // the radius: the fan is 2 wide
 	const CountMesh apart =
 			cut_triangles({ low, high, { 1, 0, 0 }, { 5, 0, 0 }, { 5, 1, 0 }, { 6, 0, 0 } });
 	REQUIRE(apart.source_parts.size() == 2);
@@ -129,10 +130,11 @@ TEST_CASE("[GPU][EdgeCount] only receivers that see a wide penumbra get coarse o
 		CAPTURE(std::string(get_light_type_name(type)));
 		const SmallScene scene = make_leaves(type);
 		const auto snapshot = scene.snap();
-		const MaskResult fine = render(fixture, scene, false);
-		const MaskResult found = render(fixture, scene, true);
+		const MaskResult fine = render(fixture, scene, /*p_has_levels=*/false);
+		const MaskResult found = render(fixture, scene, /*p_has_levels=*/true);
 		REQUIRE(found.receiver == fine.receiver);
-		size_t near_count = 0; // receivers on leaves
+		// Receivers high on leaves: the leaves above them are near, so their penumbras are narrow.
+		size_t near_count = 0;
 		size_t changed_near_count = 0;
 		size_t changed_count = 0;
 		float max_change = 0;
@@ -142,11 +144,12 @@ TEST_CASE("[GPU][EdgeCount] only receivers that see a wide penumbra get coarse o
 			}
 			const double height_m =
 					snapshot->camera.position_world.y + found.surfaces[index].position.y;
+			const bool is_near = height_m > 0.6;
 			const float change = std::abs(found.visibility[index] - fine.visibility[index]);
 			max_change = std::max(max_change, change);
 			changed_count += change > 0 ? 1 : 0;
-			near_count += height_m > 0.6 ? 1 : 0;
-			changed_near_count += height_m > 0.6 && change > 0 ? 1 : 0;
+			near_count += is_near ? 1 : 0;
+			changed_near_count += is_near && change > 0 ? 1 : 0;
 		}
 		CHECK(changed_count > 200);
 		CHECK(max_change < 0.03f);

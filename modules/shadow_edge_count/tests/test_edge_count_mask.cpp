@@ -1,4 +1,5 @@
-// Compares the whole technique with its double version, pixel by pixel.
+// Compares the whole technique, pixel by pixel, with its version in double precision
+// (count_in_double.h).
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -10,7 +11,8 @@ namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
-/// Rotates an omni light so that borders between its views cross what the camera sees.
+/// A small scene. An omni light is rotated, so that borders between its views cross what the camera
+/// sees.
 SmallScene make_scene(LightType p_type) {
 	SmallScene scene(p_type);
 	if (p_type == LightType::OMNI) {
@@ -92,7 +94,7 @@ TEST_CASE("[GPU][EdgeCount] the mask matches the double version where solids ove
 
 TEST_CASE("[GPU][EdgeCount] the mask matches the double version under many stacked solids") {
 	MaskFixture fixture;
-	for (const int count : { 12, 30, 130 }) {
+	for (const int count : { 12, 30, 130 }) { // 130 sets bit plane 7, see PointCounters
 		CAPTURE(count);
 		SmallScene scene;
 		scene.box->surfaces.clear();

@@ -29,6 +29,7 @@ SmallScene make_scene(LightType p_type) {
 	return scene;
 }
 
+/// p_interpolation: the property edge_count_interpolation; 0: every pixel is counted.
 MaskResult render_interpolated(
 		MaskFixture &r_fixture, SmallScene &r_scene, double p_interpolation) {
 	r_scene.light->properties["edge_count_interpolation"] = p_interpolation;
@@ -72,9 +73,9 @@ TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] no pixel is interpolated next to outlines and contacts") {
+TEST_CASE("[GPU][EdgeCount] a small light, whose penumbras are narrow, has no interpolated pixel") {
 	MaskFixture fixture;
-	SmallScene scene; // a box on the ground
+	SmallScene scene; // a box above the ground
 	scene.light->properties["light_size"] = 0.05;
 	const MaskResult counted = render_interpolated(fixture, scene, 0.0);
 	CHECK(compare(counted, render_interpolated(fixture, scene, 0.5)).count == 0);

@@ -1,4 +1,4 @@
-// The texels' lists of faces: none lacks a face that may be in front of a receiver there.
+// The texels' lists of faces: none lacks a face that may be between a receiver there and the light.
 
 #include "modules/shadow_edge_count/tests/count_in_double.h"
 #include "modules/shadows/fetched_buffers.h"
@@ -62,6 +62,7 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 			"light", std::vector<shader::CountLightConstants>{ p_light }, BufferUsage::STORAGE);
 	const OwnedBuffer faces = r_fixture.make_buffer(
 			"faces", records, get_fetched_usage(*r_fixture.device), Format::RGBA32_UINT);
+	// 77: values that the shader has to clear.
 	const OwnedBuffer heads =
 			r_fixture.make_buffer("heads", std::vector<uint32_t>(texel_count, 77u), usage);
 	const OwnedBuffer nodes =
@@ -79,7 +80,9 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 		};
 		commands.barriers({ &barrier, 1 });
 	};
-	const shader::CountFaceListPush push = { 0, 0, uint32_t(p_faces.size()), 1, 0, 1, 0, 0 };
+	const shader::CountFaceListPush push = {
+		.view = 0, .face_count = uint32_t(p_faces.size()), .is_first = 1, .may_overflow = 1
+	};
 	commands.bind_pipeline(r_fixture.device->get_compute_pipeline(
 			{ .name = "clear", .shader = "shadow_edge_count/clear_faces.comp" }));
 	commands.bind_resources({ { FACE_LIST_BINDING_LIGHT, light.get() },
@@ -132,7 +135,6 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 		  "cells") {
 	KernelFixture fixture;
 	TestRandom random;
-	size_t pair_count = 0;
 	size_t listed_count = 0; // faces in the lists of the positions' texels
 	size_t cell_count = 0;	 // of these, in the positions' cells (4 x 4 in each texel)
 	for (const bool is_directional : { false, true }) {
@@ -183,7 +185,6 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 						missing_count += in_cell.contains(face) ? 0 : 1;
 					}
 				}
-				pair_count += faces.size();
 			}
 			CHECK(missing_count == 0);
 			CHECK(met_count > 200);
@@ -192,7 +193,6 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 					node_count < faces.size() * map_size_px * map_size_px / 20));
 		}
 	}
-	CHECK(pair_count >= 1'000'000);
 	CHECK(cell_count < 0.9 * double(listed_count)); // the cells are selective, too
 }
 
@@ -206,14 +206,17 @@ TEST_CASE("[GPU][EdgeCount] face lists start with the size of texels that fitted
 	light.view_count = 1;
 	light.node_capacity = 1u << 17;
 	light.face_count = uint32_t(faces.size());
+	// The level (load_count_level) of the first attempt after a frame with this level and number of
+	// nodes.
 	const auto find_level = [&](uint32_t p_level, uint32_t p_node_count) {
 		std::vector<uint32_t> totals(EDGE_COUNT_TOTAL_COUNT);
 		totals[EDGE_COUNT_TOTAL_LEVELS] = p_level;
 		totals[EDGE_COUNT_TOTAL_NODES] = p_node_count;
-		return list_faces(fixture, faces, false, light, totals).totals[EDGE_COUNT_TOTAL_LEVELS];
+		return list_faces(fixture, faces, /*p_is_directional=*/false, light, totals)
+				.totals[EDGE_COUNT_TOTAL_LEVELS];
 	};
 	CHECK(find_level(0, 0) == 0);
 	CHECK(find_level(2, light.node_capacity / 2) == 2);
 	CHECK(find_level(2, light.node_capacity / 4) == 1); // smaller texels would fit, too
-	CHECK(find_level(31, light.node_capacity) == 6);	// a map of 64 texels has one at level 6
+	CHECK(find_level(31, light.node_capacity) == 6);	// 64 x 64 texels become one at level 6
 }

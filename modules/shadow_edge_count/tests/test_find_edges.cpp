@@ -1,3 +1,6 @@
+// The passes that find the faces and edges of a light's casters, compared with CountedCasters of
+// count_in_double.h, which finds them in double precision.
+
 #include "modules/shadow_edge_count/count_mesh.h"
 #include "modules/shadow_edge_count/tests/count_records.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
@@ -16,6 +19,7 @@ using namespace gnomon;
 
 namespace {
 
+/// One mesh in light space, and the buffers that the passes read.
 struct Caster {
 	std::shared_ptr<const MeshTopology> topology;
 	glm::dmat4 light_from_node;
@@ -27,7 +31,7 @@ struct Caster {
 	OwnedBuffer source_parts;
 };
 
-/// Results of the passes.
+/// Results of the passes, in light space.
 struct Found {
 	std::vector<shader::CountEdgeRecord> edges;
 	std::vector<shader::CountFaceRecord> faces;
@@ -52,6 +56,7 @@ Found find_edges(
 					(is_last ? EDGE_COUNT_CASTER_LAST : 0u) |
 					(p_space.is_directional ? EDGE_COUNT_CASTER_DIRECTIONAL : 0u),
 			float(p_space.disc_radius),
+			// SIDE_TOLERANCE_COSINE and SIDE_TOLERANCE_SIZES of count_casters.cpp.
 			p_space.is_directional ? 1e-6f : float(2.5e-7 * p_space.scene_size_m) };
 		std::vector<glm::vec4> positions;
 		for (const glm::vec3 &position : caster.topology->welded_positions_node) {

@@ -46,8 +46,8 @@ TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are skipp
 		const MaskResult lean = fixture.render_mask(scene, id);
 		// Only the wall towards +x is visible: the other five views are not needed.
 		CHECK(count_skipped(lean, NO_RECEIVERS) == 5);
-		CHECK(count_skipped(fixture.render_mask(scene, id, glm::uvec2(64), false), NO_RECEIVERS) ==
-				0);
+		const MaskResult all = fixture.render_mask(scene, id, glm::uvec2(64), /*p_may_skip=*/false);
+		CHECK(count_skipped(all, NO_RECEIVERS) == 0);
 		// From above all walls and the ground are visible, but nothing above the light.
 		scene.camera->parent_from_node = look_at({ 0.5, 12, 0.5 }, { 0, 0, 0 });
 		scene.camera->vertical_fov_rad = 1.0f;
@@ -56,7 +56,7 @@ TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are skipp
 	}
 }
 
-TEST_CASE("[GPU][ShadowMap] a skipped view keeps its map for when the camera turns back") {
+TEST_CASE("[GPU][ShadowMap] a skipped view's map is still cached when the camera turns back") {
 	MaskFixture fixture;
 	SmallScene scene = make_room();
 	const auto look = [&](double p_x) {

@@ -30,7 +30,8 @@ TEST_CASE("[GPU][ShadowMap] a static scene's second frame draws no light view") 
 	}
 }
 
-TEST_CASE("[GPU][ShadowMap] the map is redrawn when a caster or the light moves, not the camera") {
+TEST_CASE("[GPU][ShadowMap] the map is redrawn when a caster or the light moves or its own size "
+		  "changes, not when the camera moves") {
 	MaskFixture fixture;
 	SmallScene scene;
 	fixture.render_mask(scene, "shadow_map");

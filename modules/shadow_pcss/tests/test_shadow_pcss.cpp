@@ -28,12 +28,12 @@ TEST_CASE("[GPU][Pcss] a light without size has a hard shadow, a larger one a wi
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
 		size_t before = 0;
-		for (double size : { 0.0, 1.0, 3.0 }) {
-			scene.light->properties["light_size"] = 0.15 * size;
-			scene.light->properties["light_angular_distance"] = 4.0 * size;
+		for (double factor : { 0.0, 1.0, 3.0 }) {
+			scene.light->properties["light_size"] = 0.15 * factor;
+			scene.light->properties["light_angular_distance"] = 4.0 * factor;
 			const MaskResult mask = fixture.render_mask(scene, "pcss");
 			const size_t shades = count_shades(mask);
-			CHECK((size == 0.0 ? shades < 20 : shades > before + 20));
+			CHECK((factor == 0.0 ? shades < 20 : shades > before + 20));
 			before = shades;
 		}
 	}
@@ -86,12 +86,12 @@ TEST_CASE("[GPU][Pcss] a caster behind the light changes nothing") {
 		CAPTURE(get_light_type_name(type));
 		SmallScene scene(type);
 		const MaskResult without = fixture.render_mask(scene, "pcss", glm::uvec2(64));
-		const glm::dvec3 to_light = glm::normalize(glm::dvec3(1.2, 4.0, 0.8));
+		const glm::dvec3 light_position(1.2, 4.0, 0.8); // of a SmallScene
+		const glm::dvec3 behind = light_position + glm::normalize(light_position); // 1 m farther
 		MeshInstance3D &box =
-				add_mesh(scene.scene, "Behind", make_box_mesh("behind", glm::vec3(0.4f)),
-						glm::dvec3(1.2, 4.0, 0.8) + 1.0 * to_light);
+				add_mesh(scene.scene, "Behind", make_box_mesh("behind", glm::vec3(0.4f)), behind);
 		box.parent_from_node = scene.light->parent_from_node;
-		box.parent_from_node[3] = glm::dvec4(glm::dvec3(1.2, 4.0, 0.8) + 1.0 * to_light, 1.0);
+		box.parent_from_node[3] = glm::dvec4(behind, 1.0);
 		const MaskResult with = fixture.render_mask(scene, "pcss", glm::uvec2(64));
 		CHECK(compute_mask_difference(with, without) < 1e-3);
 	}
@@ -107,5 +107,5 @@ TEST_CASE("[GPU][Pcss] views without receivers are drawn, as taps reach into the
 		CHECK(entry.reason.find("receiver") == std::string::npos);
 	}
 	CHECK(result.visibility ==
-			fixture.render_mask(scene, "pcss", glm::uvec2(64), false).visibility);
+			fixture.render_mask(scene, "pcss", glm::uvec2(64), /*p_may_skip=*/false).visibility);
 }

@@ -30,6 +30,7 @@ void main() {
 	view.half_extent = vec2(0.5, 0.25);
 	view.is_orthographic = uint(widths.z);
 	view.view_far_m = 10.0;
+	// Orthographic: 1 / (far - near) with near = 0; perspective: near.
 	view.depth_scale = widths.z > 0.5 ? 0.1 : 0.001;
 	view.outer_width_m = widths.x;
 	view.inner_width_m = widths.y;

@@ -14,8 +14,9 @@ struct FinsFixture : MaskFixture {
 	using MaskFixture::MaskFixture;
 
 	MeshStore meshes{ *device };
-	TransientPool transients{ *device };
+	TransientPool transient_pool{ *device };
 
+	/// What make_inputs needs: a scene and the views of its first light.
 	struct Frame {
 		std::shared_ptr<const SceneSnapshot> scene;
 		std::vector<LightView> views;
@@ -29,7 +30,7 @@ struct FinsFixture : MaskFixture {
 		Frame frame;
 		frame.scene = p_scene.snap();
 		frame.views = build_light_views(
-				frame.scene->lights[0], *frame.scene, p_map_size_px, 2, p_margin_m);
+				frame.scene->lights[0], *frame.scene, p_map_size_px, /*p_border_px=*/2, p_margin_m);
 		CasterList all;
 		for (uint32_t index = 0; index < frame.scene->instances.size(); ++index) {
 			all.instances.push_back(index);
@@ -39,14 +40,15 @@ struct FinsFixture : MaskFixture {
 	}
 
 	ShadowTechnique::Inputs make_inputs(const Frame &p_frame) {
+		// The passes of depth layers and fins read no textures and buffers of the frame.
 		return { *device, meshes, *p_frame.scene, p_frame.scene->lights[0], p_frame.properties,
 			p_frame.settings, p_frame.views, p_frame.casters, glm::uvec2(1), {}, {}, {}, {}, {}, {},
-			{} };
+			/*may_skip=*/false };
 	}
 
 	/// Calls p_add(graph, inputs) and runs the graph.
 	template <typename Function> void run(const Frame &p_frame, Function p_add) {
-		RenderGraph graph(*device, transients);
+		RenderGraph graph(*device, transient_pool);
 		const ShadowTechnique::Inputs inputs = make_inputs(p_frame);
 		p_add(graph, inputs);
 		graph.execute(RenderGraph::Mode::WAIT);
@@ -133,8 +135,8 @@ struct FinsFixture : MaskFixture {
 		run(p_frame, [&](RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
 			const glm::uvec2 size_px = p_frame.views[0].size_px;
 			const TextureUsage usage = TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE;
-			const TextureDesc layer_desc = { "layer", Format::D32_SFLOAT, size_px, 2,
-				usage | TextureUsage::DEPTH_ATTACHMENT, true };
+			const TextureDesc layer_desc = { "layer", Format::D32_SFLOAT, size_px,
+				/*layer_count=*/2, usage | TextureUsage::DEPTH_ATTACHMENT, /*is_array=*/true };
 			const std::vector<RGTexture> layers = { r_graph.create_texture(layer_desc),
 				r_graph.create_texture(layer_desc) };
 			RGBuffer texels;

@@ -46,7 +46,8 @@ std::optional<glm::dvec3> find_top(const SceneSnapshot &p_scene, glm::uvec2 p_pi
 			camera.world_from_camera * glm::dvec3(ndc.x * tangent, -ndc.y * tangent, -1.0);
 	double nearest = 1e30;
 	std::optional<glm::dvec3> top;
-	for (const Cube &cube : { UPPER, LOWER, Cube{ { 0, -50, 0 }, 50 } }) {
+	const Cube ground = { { 0, -50, 0 }, 50 }; // its top is at y = 0, as that of the scene's plate
+	for (const Cube &cube : { UPPER, LOWER, ground }) {
 		const glm::dvec3 low = (cube.centre - cube.half_m - camera.position_world) / direction;
 		const glm::dvec3 high = (cube.centre + cube.half_m - camera.position_world) / direction;
 		const glm::dvec3 first = glm::min(low, high);
@@ -82,6 +83,7 @@ Expected compute_expected(const glm::dvec3 &p_point) {
 			return {};
 		}
 	}
+	// Visibility across a fin, section 2.1.3.
 	const auto outer = [&](const Cube &p_cube) {
 		const double theta = 0.5 + 0.5 * (from_axis_m - p_cube.half_m) / reach_m;
 		return std::sin((theta - 0.5) * M_PI) * 0.7 + 0.3;
@@ -171,7 +173,8 @@ TEST_CASE("[GPU][PenumbraFins] r = t = 0 gives a mask of 0 and 1, and skips fins
 		scene.light->properties["penumbra_inner_width"] = 0.0;
 		for (const std::string id : { "penumbra_fins", "outer_fins" }) {
 			const MaskResult lean = fixture.render_mask(scene, id);
-			const MaskResult all = fixture.render_mask(scene, id, glm::uvec2(64), false);
+			const MaskResult all =
+					fixture.render_mask(scene, id, glm::uvec2(64), /*p_may_skip=*/false);
 			CHECK(lean.visibility == all.visibility);
 			for (float value : lean.visibility) {
 				CHECK((value == 0.0f || value == 1.0f));
@@ -193,7 +196,8 @@ TEST_CASE("[GPU][PenumbraFins] a width of 0 skips only its half, and the mask st
 		SmallScene scene = make_scene(LightType::SPOT);
 		scene.light->properties[width] = 0.0;
 		const MaskResult lean = fixture.render_mask(scene, "penumbra_fins");
-		const MaskResult all = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(64), false);
+		const MaskResult all =
+				fixture.render_mask(scene, "penumbra_fins", glm::uvec2(64), /*p_may_skip=*/false);
 		CHECK(lean.visibility == all.visibility);
 		const bool is_inner = std::string(width) == "penumbra_inner_width";
 		CHECK(lean.plan.is_skipped("Light", is_inner ? "inner fins" : "outer fins"));

@@ -11,12 +11,19 @@ using namespace gnomon;
 
 namespace {
 
+// Corner encoding of fin_inc.glsl.
+constexpr uint32_t FIN_OFFSET_MASK = 6;
+constexpr uint32_t FIN_OUTSIDE = 2;
+constexpr uint32_t FIN_INSIDE = 4;
+
+/// The input of fin.comp for one corner.
 struct FinCase {
 	glm::vec4 position_corner; // position_node, corner
-	glm::vec4 normal;		   // normal_node, sign
-	glm::vec4 widths;		   // r, t, is orthographic
+	glm::vec4 normal;		   // normal_node, normal_sign
+	glm::vec4 widths;		   // r and t in metres, is orthographic
 };
 
+/// Computes a corner in clip space, with the light view (extent, depth range) of fin.comp.
 glm::dvec4 compute_clip(const FinCase &p_case, const glm::dmat4 &p_view_from_node) {
 	glm::dvec3 position =
 			glm::dvec3(p_view_from_node * glm::dvec4(glm::dvec3(p_case.position_corner), 1.0));
@@ -24,10 +31,11 @@ glm::dvec4 compute_clip(const FinCase &p_case, const glm::dmat4 &p_view_from_nod
 	// sign for mirrored transforms.
 	const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(glm::dmat3(p_view_from_node)));
 	const glm::dvec3 normal = glm::normalize(normal_matrix * glm::dvec3(p_case.normal));
-	const uint32_t corner = static_cast<uint32_t>(p_case.position_corner.w) & 6u;
-	position += corner == 2 ? double(p_case.widths.x) * normal
-			: corner == 4	? -double(p_case.widths.y) * normal
-							: glm::dvec3(0.0);
+	const uint32_t corner = static_cast<uint32_t>(p_case.position_corner.w);
+	const uint32_t side = corner & FIN_OFFSET_MASK;
+	position += side == FIN_OUTSIDE ? double(p_case.widths.x) * normal
+			: side == FIN_INSIDE	? -double(p_case.widths.y) * normal
+									: glm::dvec3(0.0);
 	const glm::dvec2 xy = glm::dvec2(position) / glm::dvec2(0.5, 0.25);
 	return p_case.widths.z > 0.5f ? glm::dvec4(xy, (10.0 - position.z) * 0.1, 1.0)
 								  : glm::dvec4(xy, 0.001, position.z);
@@ -61,22 +69,26 @@ TEST_CASE("[GPU][PenumbraFins] corners of fins are where the paper puts them, un
 		for (const FinCase &fin : cases) {
 			input.insert(input.end(), { fin.position_corner, fin.normal, fin.widths });
 		}
-		const auto results =
-				fixture.run_with_constants("fin.comp", constants[0], input, cases.size(), 2);
+		const auto results = fixture.run_with_constants(
+				"fin.comp", constants[0], input, cases.size(), /*p_output_per_item=*/2);
 		for (size_t item = 0; item < cases.size(); ++item) {
 			const glm::dvec4 expected = compute_clip(cases[item], view_from_node);
-			const double tolerance = 2e-6 * glm::length(expected);
+			const double tolerance = 2e-6 * glm::length(expected); // 17 float32 epsilons
 			CHECK(glm::length(glm::dvec4(results[2 * item]) - expected) < tolerance);
-			const uint32_t corner = static_cast<uint32_t>(cases[item].position_corner.w) & 6u;
-			CHECK(results[2 * item + 1].x == (corner == 2 ? 1.0f : corner == 4 ? 0.0f : 0.5f));
+			const uint32_t corner = static_cast<uint32_t>(cases[item].position_corner.w);
+			const uint32_t side = corner & FIN_OFFSET_MASK;
+			const float theta = side == FIN_OUTSIDE ? 1.0f : side == FIN_INSIDE ? 0.0f : 0.5f;
+			CHECK(results[2 * item + 1].x == theta);
 		}
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] with a zero normal, the fin's corners stay on the edge") {
+TEST_CASE("[GPU][PenumbraFins] with a zero normal, the fin's outer corner stays on the edge") {
 	KernelFixture fixture;
+	// Two FinCases with r = t = 5 m: the outer corner (2), and the one on the edge (0).
 	const std::vector<glm::vec4> input = { { 1, 2, 3, 2 }, { 0, 0, 0, 1 }, { 5, 5, 0, 0 },
 		{ 1, 2, 3, 0 }, { 0, 0, 0, 1 }, { 5, 5, 0, 0 } };
-	const auto results = fixture.run_with_constants("fin.comp", glm::mat4(1.0f), input, 2, 2);
+	const auto results = fixture.run_with_constants("fin.comp", glm::mat4(1.0f), input,
+			/*p_item_count=*/2, /*p_output_per_item=*/2);
 	CHECK(results[0] == results[2]);
 }

@@ -56,6 +56,7 @@ Mesh make_lathed(const std::vector<glm::vec2> &p_profile) {
 	return mesh;
 }
 
+/// Makes a scene of p_mesh alone, with a spot light above it.
 SmallScene make_scene(const std::shared_ptr<const Mesh> &p_mesh) {
 	SmallScene scene;
 	scene.ground->surfaces.clear();
@@ -95,7 +96,8 @@ TEST_CASE("[GPU][PenumbraFins] compute finds the CPU's silhouette edges, in orde
 		std::vector<uint8_t> list_bytes;
 		std::vector<uint8_t> draw_bytes;
 		fixture.run(frame, [&](RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
-			casters = build_silhouette_casters(p_inputs, collect_casters(p_inputs, { 0 }), 12);
+			casters = build_silhouette_casters(p_inputs, collect_casters(p_inputs, { 0 }),
+					/*p_vertices_per_edge=*/12);
 			const SilhouetteLists lists = add_silhouette_passes(r_graph, *fixture.device, casters);
 			FinsFixture::read_back(
 					r_graph, lists.list, casters.edge_count * sizeof(uint32_t), list_bytes);
@@ -132,7 +134,7 @@ TEST_CASE("[GPU][PenumbraFins] geometry shader and compute draw the same penumbr
 	for (const auto &[name, mesh] : make_meshes()) {
 		CAPTURE(name);
 		const SmallScene scene = make_scene(share_mesh(name, mesh));
-		const FinsFixture::Frame frame = fixture.make_frame(scene, 128, 0.2f);
+		const FinsFixture::Frame frame = fixture.make_frame(scene, 128, /*p_margin_m=*/0.2f);
 		for (const glm::vec2 widths : { glm::vec2(0.2f, 0.1f), glm::vec2(0.2f, 0.0f),
 					 glm::vec2(0.0f, 0.2f), glm::vec2(5.0f, 5.0f) }) {
 			CAPTURE(widths.x);
@@ -154,7 +156,7 @@ TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins wi
 			make_scene(share_mesh("cube", test_meshes::unweld(test_meshes::make_cube())));
 	scene.light->parent_from_node = look_at({ 0.3, 9, 0.2 }, { 0.1, 0, -0.1 });
 	scene.light->outer_cone_rad = 0.35f;
-	const FinsFixture::Frame frame = fixture.make_frame(scene, 256, 0.3f);
+	const FinsFixture::Frame frame = fixture.make_frame(scene, 256, /*p_margin_m=*/0.3f);
 	const auto maps = fixture.draw_fins(frame, make_settings(0.3f, 0.0f, FinMethod::COMPUTE));
 	// A flood fill over texels without a fin, from the cube's centre, must not reach the map's
 	// border.
@@ -187,26 +189,26 @@ TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins wi
 		}
 	}
 	CHECK_FALSE(has_left);
-	CHECK(reached.size() > 1000);
+	CHECK(reached.size() > 1000); // not only texels around the start
 }
 
-TEST_CASE("[GPU][PenumbraFins] inner fins of edges that the light does not see are dropped") {
+TEST_CASE("[GPU][PenumbraFins] fins of edges that are hidden from the light are dropped") {
 	FinsFixture fixture;
 	// A small cube right below a large one is hidden from the light.
 	SmallScene alone = make_scene(share_mesh("large", test_meshes::make_cube()));
 	SmallScene both = make_scene(share_mesh("large", test_meshes::make_cube()));
 	add_mesh(both.scene, "Hidden", make_box_mesh("hidden", glm::vec3(0.3f)), { -0.2, -2.0, -0.5 });
-	const FinsFixture::Frame frame = fixture.make_frame(alone, 128, 0.1f);
-	const FinsFixture::Frame frame_of_both = fixture.make_frame(both, 128, 0.1f);
+	const FinsFixture::Frame frame = fixture.make_frame(alone, 128, /*p_margin_m=*/0.1f);
+	const FinsFixture::Frame frame_of_both = fixture.make_frame(both, 128, /*p_margin_m=*/0.1f);
 	const FinsSettings settings = make_settings(0.1f, 0.1f, FinMethod::COMPUTE);
 	CHECK(fixture.draw_fins(frame_of_both, settings).color ==
 			fixture.draw_fins(frame, settings).color);
 }
 
 TEST_CASE("[GPU][PenumbraFins] beta drops the inner fins deep in a solid that hides their edge") {
-	// Figure 4 (b) of Sun et al. 2010. The silhouette at the foot of a mushroom is hidden by the
-	// cap. Its inner fin is inside the stem and in front of the second layer, so only beta removes
-	// it.
+	// Figure 4 (b) of Sun et al. 2010. The silhouette where a mushroom's stem meets its cap is
+	// hidden by the cap. Its inner fin is inside the solid and in front of the second layer, so
+	// only beta removes it.
 	FinsFixture fixture;
 	const auto draw = [&](const std::vector<glm::vec2> &p_profile, float p_beta_m) {
 		SmallScene scene = make_scene(share_mesh("lathed", make_lathed(p_profile)));
@@ -218,11 +220,13 @@ TEST_CASE("[GPU][PenumbraFins] beta drops the inner fins deep in a solid that hi
 	const std::vector<glm::vec2> mushroom = { { 1.0f, 1.0f }, { 1.0f, 0.8f }, { 0.2f, 0.8f },
 		{ 0.5f, -1.0f } };
 	const std::vector<glm::vec2> cap = { { 1.0f, 1.0f }, { 1.0f, 0.8f } };
+	// 0.12 m keeps the inner fins at the cap's rim (t = 0.1 m), but not the stem's 0.2 m below it.
 	CHECK(draw(mushroom, 0.12f).color == draw(cap, 0.12f).color);
 	CHECK(draw(mushroom, 100.0f).color != draw(cap, 100.0f).color);
 }
 
-TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the fins of the plain one") {
+TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the outer fins of the plain "
+		  "one") {
 	FinsFixture fixture;
 	const Mesh torus = test_meshes::make_torus(40, 30);
 	Mesh flipped = torus;
@@ -235,22 +239,23 @@ TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the fins of 
 			scene.scene.root->children.back()->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0),
 					glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0.1, 0.2, -0.1, 1));
 		}
-		return fixture.draw_fins(fixture.make_frame(scene, 128, 0.2f),
+		return fixture.draw_fins(fixture.make_frame(scene, 128, /*p_margin_m=*/0.2f),
 				make_settings(0.2f, 0.2f, FinMethod::COMPUTE));
 	};
 	const auto compute_equal_fraction = [](const FinsFixture::PenumbraMaps &p_left,
 												const FinsFixture::PenumbraMaps &p_right) {
 		size_t equal_count = 0;
 		for (size_t texel = 0; texel < p_left.depth.size(); ++texel) {
+			// Penumbra depths. Those of inner fins are smaller than this tolerance.
 			equal_count += std::abs(p_left.depth[texel] - p_right.depth[texel]) < 0.01f;
 		}
 		return double(equal_count) / double(p_left.depth.size());
 	};
-	const auto plain = draw(torus, false);
+	const auto plain = draw(torus, /*p_mirrors=*/false);
 	// Different triangle diagonals and rounding change single texels at the rims.
-	CHECK(compute_equal_fraction(plain, draw(flipped, false)) > 0.99);
-	CHECK(compute_equal_fraction(plain, draw(torus, true)) > 0.99);
-	CHECK(compute_equal_fraction(plain, draw(flipped, true)) > 0.99);
+	CHECK(compute_equal_fraction(plain, draw(flipped, /*p_mirrors=*/false)) > 0.99);
+	CHECK(compute_equal_fraction(plain, draw(torus, /*p_mirrors=*/true)) > 0.99);
+	CHECK(compute_equal_fraction(plain, draw(flipped, /*p_mirrors=*/true)) > 0.99);
 }
 
 TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and nothing is NaN") {
@@ -259,10 +264,10 @@ TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and not
 	Mesh double_sided = test_meshes::make_quad();
 	double_sided.indices.insert(double_sided.indices.end(), { 2, 1, 0, 3, 2, 0 });
 	const SmallScene scene = make_scene(share_mesh("double-sided", double_sided));
-	const FinsFixture::Frame frame = fixture.make_frame(scene, 64, 0.2f);
+	const FinsFixture::Frame frame = fixture.make_frame(scene, 64, /*p_margin_m=*/0.2f);
 	fixture.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
-		CHECK(count_zero_normals(build_silhouette_casters(
-					  p_inputs, collect_casters(p_inputs, { 0 }), 12)) == 4);
+		CHECK(count_zero_normals(build_silhouette_casters(p_inputs,
+					  collect_casters(p_inputs, { 0 }), /*p_vertices_per_edge=*/12)) == 4);
 	});
 	const auto maps = fixture.draw_fins(frame, make_settings(0.2f, 0.2f, FinMethod::COMPUTE));
 	for (uint16_t half : FinsFixture::cast<uint16_t>(maps.color)) {
@@ -273,12 +278,12 @@ TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and not
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditions or depth clamp "
-		  "draw the same maps") {
+TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, fragment stores, conditional "
+		  "rendering or depth clamp draw the same maps") {
 	FinsFixture full_fixture;
 	const Mesh torus = test_meshes::make_torus(60, 40);
 	const SmallScene scene = make_scene(share_mesh("torus", torus));
-	const FinsFixture::Frame frame = full_fixture.make_frame(scene, 128, 0.2f);
+	const FinsFixture::Frame frame = full_fixture.make_frame(scene, 128, /*p_margin_m=*/0.2f);
 	const auto expected =
 			full_fixture.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
 	const auto expected_layers = full_fixture.find_layers(frame, 3, Peeling::PASSES);

@@ -45,6 +45,7 @@ TEST_CASE("[GPU][PenumbraFins] the three nearest of five squares are the layers,
 	FinsFixture fixture;
 	// Squares at 3, 2 (twice), 1, 0 and -1 m: 1, 2, 3, 4, 5 m below the light.
 	SmallScene scene = make_scene(make_squares({ -1, 1, 3, 2, 0, 2 }), LightType::SPOT);
+	// Exactly straight down, so that a square has the same depth at all texels.
 	scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
 			glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 4, 0, 1));
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 64);
@@ -52,14 +53,15 @@ TEST_CASE("[GPU][PenumbraFins] the three nearest of five squares are the layers,
 		const auto layers = fixture.find_layers(frame, 3, peeling)[0];
 		for (size_t texel = 0; texel < layers[0].size(); ++texel) {
 			for (uint32_t layer = 0; layer < 3; ++layer) {
-				const double expected = double(frame.views[0].near_m) / (layer + 1);
+				const double expected = double(frame.views[0].near_m) / (layer + 1); // near / z
 				CHECK(layers[layer][texel] == doctest::Approx(expected).epsilon(1e-5));
 			}
 		}
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] layers are sorted, and one pass finds those of three, bit for bit") {
+TEST_CASE("[GPU][PenumbraFins] layers are sorted, and one pass finds the same as three passes, bit "
+		  "for bit") {
 	FinsFixture fixture;
 	using namespace test_meshes;
 	const std::pair<const char *, Mesh> meshes[] = { { "torus", make_torus(60, 30) },
@@ -86,7 +88,7 @@ TEST_CASE("[GPU][PenumbraFins] layers are sorted, and one pass finds those of th
 				}
 			}
 			CHECK(is_sorted);
-			CHECK(filled_count > 100);
+			CHECK(filled_count > 100); // layers 2 and 3 are not empty
 		}
 	}
 }
@@ -103,7 +105,8 @@ TEST_CASE("[GPU][PenumbraFins] a scene with one layer has two empty ones, peeled
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped, not lost") {
+TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped to depths in "
+		  "0..1, with both peelings alike") {
 	FinsFixture fixture;
 	SmallScene scene = make_scene(make_box_mesh("rod", { 0.5f, 4.5f, 0.5f }), LightType::SPOT);
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 32); // the light is inside the rod
@@ -116,12 +119,13 @@ TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] the plan reports where layer 3 waits for layer 2, with the same "
-		  "mask") {
+TEST_CASE("[GPU][PenumbraFins] the plan reports a layer 3 that is drawn only if layer 2 is not "
+		  "empty, and the mask stays the same") {
 	MaskFixture fixture;
 	const auto is_conditional = [&](const SmallScene &p_scene) {
 		const MaskResult lean = fixture.render_mask(p_scene, "penumbra_fins");
-		const MaskResult all = fixture.render_mask(p_scene, "penumbra_fins", glm::uvec2(64), false);
+		const MaskResult all =
+				fixture.render_mask(p_scene, "penumbra_fins", glm::uvec2(64), /*p_may_skip=*/false);
 		CHECK(lean.visibility == all.visibility);
 		CHECK(all.plan.to_text().find("layer 3 only if") == std::string::npos);
 		return lean.plan.to_text().find("layer 3 only if layer 2 is not empty, views: 1") !=

@@ -8,12 +8,13 @@ using namespace gnomon;
 namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
+const uint32_t SIZE_PX = 128;
 
 MaskResult render_planar(
 		MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_skip = true) {
 	MaskRequest request;
 	request.scene = p_scene.snap();
-	request.size_px = glm::uvec2(128);
+	request.size_px = glm::uvec2(SIZE_PX);
 	request.technique_override = "planar";
 	request.light = p_scene.light->name;
 	request.wants_surfaces = true;
@@ -23,19 +24,20 @@ MaskResult render_planar(
 	return result;
 }
 
-/// Compares the mask on the floor's top with rays to the light.
+/// Compares the mask on the floor's top, which is at y = 0, with rays to the light.
 HardDifference compare_floor(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const double camera_height = p_scene.snap()->camera.position_world.y;
 	return HardReference(p_scene).compare(p_frame, [&](const SurfacePoint &p_surface) {
-		return std::abs(p_surface.position.y + camera_height) < 1e-3 &&
+		return std::abs(p_surface.position.y + camera_height) < 1e-3 && // in metres
 				p_surface.geometric_normal.y > 0.99f;
 	});
 }
 
+/// Checks that at most one in 1000 receivers differs, and only where rounding may decide.
 void check_floor(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const HardDifference difference = compare_floor(p_scene, p_frame);
-	CHECK(difference.receiver_count > 3000);
-	CHECK(difference.hidden_count > 50);
+	CHECK(difference.receiver_count > 3000); // of 128 x 128 pixels
+	CHECK(difference.hidden_count > 50);	 // the floor has a shadow
 	CHECK(difference.wrong_count <= difference.receiver_count / 1000);
 	CHECK(difference.unexplained_count == 0);
 }
@@ -46,18 +48,18 @@ bool plan_contains(const MaskResult &p_frame, const char *p_text) {
 
 } // namespace
 
-TEST_CASE("[GPU][ShadowPlanar] on a declared floor the mask is that of rays") {
+TEST_CASE("[GPU][ShadowPlanar] on a declared floor the mask is that of traced rays") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_mesh(scene.scene, "Upper", make_box_mesh("upper", glm::vec3(0.3f, 0.1f, 0.2f)),
-				{ 0.2, 1.8, 0.1 }); // shades what the box shades, in part
+				{ 0.2, 1.8, 0.1 }); // its shadow overlaps the box's
 		const MaskResult frame = render_planar(fixture, scene);
 		check_floor(scene, frame);
 		CHECK(plan_contains(frame, "planes: "));
 		CHECK(plan_contains(frame, "shadows on 2 other meshes"));
-		CHECK(render_planar(fixture, scene, false).visibility == frame.visibility);
+		CHECK(render_planar(fixture, scene, /*p_may_skip=*/false).visibility == frame.visibility);
 	}
 }
 
@@ -70,13 +72,13 @@ TEST_CASE("[GPU][ShadowPlanar] casters behind the plane and above the light hide
 	add_mesh(scene.scene, "Ceiling", make_box_mesh("ceiling", glm::vec3(2.0f, 0.1f, 2.0f)),
 			{ 0, 5.0, 0 });
 	CHECK(render_planar(fixture, scene).visibility == before.visibility);
-	// Through the floor, and from below the light to above it.
+	// Through the floor, and up to above the light.
 	add_mesh(scene.scene, "Post", make_box_mesh("post", glm::vec3(0.1f, 6.0f, 0.1f)),
 			{ -0.8, 0, -0.6 });
 	check_floor(scene, render_planar(fixture, scene));
 }
 
-TEST_CASE("[GPU][ShadowPlanar] scenes without declared planes, or with curved ones, are reported") {
+TEST_CASE("[GPU][ShadowPlanar] scenes without declared planes or with a curved one are reported") {
 	MaskFixture fixture;
 	SmallScene undeclared;
 	undeclared.ground->is_planar_receiver = false;
@@ -85,14 +87,13 @@ TEST_CASE("[GPU][ShadowPlanar] scenes without declared planes, or with curved on
 	CHECK(count_receivers(none) > 0);
 	CHECK(std::count(none.visibility.begin(), none.visibility.end(), 1.0f) >=
 			ptrdiff_t(count_receivers(none)));
-	// A curved floor.
-	SmallScene curved;
+	SmallScene curved; // the floor is an arch of 100 strips
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
 	for (uint32_t step = 0; step <= 100; ++step) {
-		const float angle = 0.0314159f * float(step);
-		positions.push_back({ 3 * std::cos(angle), 0.3f * std::sin(angle), -3 });
-		positions.push_back({ 3 * std::cos(angle), 0.3f * std::sin(angle), 3 });
+		const float angle_rad = 0.0314159f * float(step); // pi / 100 per strip
+		positions.push_back({ 3 * std::cos(angle_rad), 0.3f * std::sin(angle_rad), -3 });
+		positions.push_back({ 3 * std::cos(angle_rad), 0.3f * std::sin(angle_rad), 3 });
 		if (step > 0) {
 			const uint32_t a = 2 * step - 2;
 			indices.insert(indices.end(), { a, a + 2, a + 1, a + 2, a + 3, a + 1 });
@@ -104,16 +105,18 @@ TEST_CASE("[GPU][ShadowPlanar] scenes without declared planes, or with curved on
 
 TEST_CASE("[GPU][ShadowPlanar] the mask does not depend on scale, nor on the distance from the "
 		  "origin") {
+	constexpr double MAX_DIFFERENCE = 2e-4; // at most 3 of the 128 x 128 pixels
 	MaskFixture fixture;
 	const MaskResult first = render_planar(fixture, SmallScene());
 	for (const double scale : { 1e-3, 1e3 }) {
 		CAPTURE(scale);
-		CHECK(compute_mask_difference(
-					  first, render_planar(fixture, SmallScene(LightType::SPOT, scale))) < 2e-4);
+		CHECK(compute_mask_difference(first,
+					  render_planar(fixture, SmallScene(LightType::SPOT, scale))) < MAX_DIFFERENCE);
 	}
 	CHECK(compute_mask_difference(first,
-				  render_planar(fixture,
-						  SmallScene(LightType::SPOT, 1.0, glm::dvec3(1e5, -1e5, 1e5)))) < 2e-4);
+				  render_planar(
+						  fixture, SmallScene(LightType::SPOT, 1.0, glm::dvec3(1e5, -1e5, 1e5)))) <
+			MAX_DIFFERENCE);
 }
 
 TEST_CASE("[ShadowPlanar] only planes that face the light are found") {
@@ -121,11 +124,11 @@ TEST_CASE("[ShadowPlanar] only planes that face the light are found") {
 	const auto snapshot = scene.snap();
 	const ReceiverPlanes found = find_receiver_planes(*snapshot, snapshot->lights[0]);
 	REQUIRE(found.planes.size() == 1); // only the top of the floor's box faces the light
-	CHECK(found.planes[0].area_m2 == doctest::Approx(36.0));
+	CHECK(found.planes[0].area_m2 == doctest::Approx(36.0)); // 6 m x 6 m
 	CHECK(found.planes[0].normal.y == doctest::Approx(1.0));
 	CHECK(found.planes[0].offset_m == doctest::Approx(snapshot->camera.position_world.y));
 	CHECK(compute_light_height(found.planes[0], snapshot->lights[0], snapshot->camera) ==
-			doctest::Approx(4.0));
+			doctest::Approx(4.0)); // the light is at y = 4 m, the floor's top at 0
 	// The light sees the top and two sides of the box.
 	scene.box->is_planar_receiver = true;
 	const auto both = scene.snap();

@@ -12,7 +12,7 @@ using namespace gnomon;
 
 namespace {
 
-const uint64_t KEY = 0x676E6F6D6F6E2121;
+const uint64_t KEY = 0x676E6F6D6F6E2121; // any; this is "gnomon!!" in ASCII
 
 } // namespace
 
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		GNOMON_ASSERT(reference->colors.size() == (is_colored ? pixel_count : 0), "colours");
 		const std::vector<uint8_t> again = build_reference_entry(KEY, *reference);
 		constexpr size_t PADDING_BYTES = 4; // at the end of the header, never read
-		constexpr size_t HEADER_BYTES = 32;
+		constexpr size_t HEADER_BYTES = 32; // of EntryHeader, padding included
 		GNOMON_ASSERT(again.size() == bytes.size() &&
 						std::equal(again.begin(), again.begin() + HEADER_BYTES - PADDING_BYTES,
 								bytes.begin()) &&

@@ -15,9 +15,10 @@ using namespace gnomon::test_scenes;
 
 namespace {
 
-const AreaLight LIGHT = { false, { 0.3f, 1.2f, 6.0f }, {}, 0.4f };
+const AreaLight LIGHT = { /*is_directional=*/false, { 0.3f, 1.2f, 6.0f }, {}, 0.4f };
 constexpr glm::uvec2 SIZE_PX(40, 40);
 
+/// A half-plane: x < 0.25 m at z = 2.5 m.
 TriangleBuilder make_scene() {
 	TriangleBuilder triangles;
 	triangles.add_half_plane(0.25f, 2.5f);
@@ -42,7 +43,7 @@ double compute_rms_error(
 
 } // namespace
 
-TEST_CASE("[DiscSamples] cover the disc evenly for every count and scramble") {
+TEST_CASE("[DiscSamples] scrambled points cover the disc evenly for every count") {
 	for (const uint32_t count : { 1u, 2u, 3u, 7u, 13u, 64u, 97u, 512u, 1000u, 4608u, 65536u }) {
 		CAPTURE(count);
 		const DiscSamples samples(count, 5);
@@ -63,7 +64,8 @@ TEST_CASE("[DiscSamples] cover the disc evenly for every count and scramble") {
 		}
 		CHECK(visited_count == count);
 		CHECK(largest_radius <= 1.000001);
-		// Limits are twice the values of a good sample set. Random points fail both checks.
+		// Limits are twice the values of a good sample set. At large counts, random points fail
+		// both checks.
 		const double scale = std::pow(count, -0.75);
 		CHECK(glm::length(sum) / count < 1.2 * scale);
 		CHECK(std::abs(static_cast<double>(inner_count) / count - 0.5) <= 1.2 * scale);
@@ -115,7 +117,7 @@ TEST_CASE("[Reference] the error falls faster than that of random samples") {
 				tracer.compute(points, SIZE_PX, LIGHT, make_options(sample_count)), points);
 		CHECK(error < 0.5 * std::pow(sample_count, -0.7)); // 0.5 n^-0.5 would be random
 		if (error_before > 0) {
-			CHECK(error < 0.45 * error_before); // 4^-0.75 = 0.35
+			CHECK(error < 0.45 * error_before); // about 4^-0.75 = 0.35; random: 4^-0.5 = 0.5
 		}
 		error_before = error;
 	}
@@ -189,7 +191,7 @@ TEST_CASE("[Reference] degenerate receivers have a defined value, never NaN") {
 		{ { 0, 0, 0 }, up, false },							   // 0: no receiver
 		{ LIGHT.position, { 0, 0, 0 }, true },				   // 1: on the light
 		{ { 3, 0, 0 }, { 0, 0, 0 }, true },					   // no normal: rays start at it
-		{ LIGHT.position + glm::vec3(0, 0, 1e-6f), up, true }, // closer than its radius
+		{ LIGHT.position + glm::vec3(0, 0, 1e-6f), up, true }, // closer than R
 		{ { 3, 0, 1e6f }, up, true }, // far behind the light: the renderer would not query it
 	};
 	const std::vector<float> visibility =
@@ -197,7 +199,7 @@ TEST_CASE("[Reference] degenerate receivers have a defined value, never NaN") {
 	CHECK(visibility == std::vector<float>{ 0, 0, 0, 0, 1, 1, 1, 1 });
 }
 
-TEST_CASE("[Reference] degenerate triangles are harmless, those not finite are skipped") {
+TEST_CASE("[Reference] degenerate triangles and those that are not finite change nothing") {
 	const float nan = std::numeric_limits<float>::quiet_NaN();
 	TriangleBuilder triangles = make_scene();
 	triangles.add_quad({ nan, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { INFINITY, 1, 1 });
@@ -252,7 +254,7 @@ TEST_CASE("[Reference] progress rises to 1 on the calling thread, and may stop t
 
 	std::atomic<bool> is_cancelled = true;
 	options.is_cancelled = &is_cancelled;
-	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete); // all threads
+	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete); // before it begins
 
 	is_cancelled = false;
 	options.thread_count = 1; // with more, others might trace all tiles before the first call

@@ -13,7 +13,7 @@ using namespace gnomon::test_scenes;
 namespace {
 
 constexpr uint32_t SAMPLE_COUNT = 9216; // as for published tables
-constexpr double TOLERANCE = 0.002;
+constexpr double TOLERANCE = 0.002;		// of visibility, at every receiver
 
 AreaLight make_directional(const glm::vec3 &p_direction, float p_tangent) {
 	AreaLight light;
@@ -37,10 +37,12 @@ TEST_CASE("[ClosedForm] the formulas meet their limits and known values") {
 	CHECK(compute_half_plane_visibility(-2) == 0);
 	CHECK(compute_half_plane_visibility(0) == doctest::Approx(0.5));
 	CHECK(compute_half_plane_visibility(1) == 1);
-	CHECK(compute_half_plane_visibility(0.5) == doctest::Approx(0.8044989));
+	CHECK(compute_half_plane_visibility(0.5) ==
+			doctest::Approx(0.8044989)); // 2/3 + sqrt(3) / (4 pi)
 	CHECK(compute_disc_visibility(0.5, 0) == doctest::Approx(0.75));
 	CHECK(compute_disc_visibility(2, 0.5) == 0);
 	CHECK(compute_disc_visibility(0.5, 1.5) == 1);
+	// The lens of two unit circles: 2/3 - sqrt(3) / (2 pi) of the disc.
 	CHECK(compute_disc_visibility(1, 1) == doctest::Approx(1 - 0.3910022));
 	CHECK(compute_disc_visibility(1e4, 1e4 + 0.5) ==
 			doctest::Approx(compute_half_plane_visibility(0.5)).epsilon(1e-3));
@@ -59,6 +61,7 @@ TEST_CASE("[Reference] a half-plane before a spot light hides a circular segment
 		double largest_error = 0;
 		unsigned penumbra_count = 0;
 		for (size_t i = 0; i < points.size(); ++i) {
+			// The edge is at x = 0.25 m, z = 2.5 m, along y; the side +x is open.
 			const double expected = closed_form::compute_edge_visibility(get_start(points[i]),
 					light.position, radius, { 0.25f, 0, 2.5f }, { 0, 1, 0 }, { 1, 0, 0 });
 			largest_error = std::max(largest_error, std::abs(expected - result.visibility[i]));

@@ -19,16 +19,18 @@ ReferenceVisibility make_reference() {
 
 } // namespace
 
-TEST_CASE("[ReferenceEntry] a reference survives saving and loading, with colours and without") {
+TEST_CASE("[ReferenceEntry] a built entry can be parsed again, with colours or without") {
 	ReferenceVisibility reference = make_reference();
-	const auto colored = parse_reference_entry(build_reference_entry(KEY, reference), KEY, 3, true);
+	const auto colored = parse_reference_entry(build_reference_entry(KEY, reference), KEY,
+			/*p_pixel_count=*/3, /*p_is_colored=*/true);
 	REQUIRE(colored);
 	CHECK(colored->visibility == reference.visibility);
 	CHECK(colored->colors == reference.colors);
 	CHECK(colored->standard_error == reference.standard_error);
 	CHECK(colored->penumbra_pixel_count == 1);
 	reference.colors.clear();
-	const auto plain = parse_reference_entry(build_reference_entry(KEY, reference), KEY, 3, false);
+	const auto plain = parse_reference_entry(build_reference_entry(KEY, reference), KEY,
+			/*p_pixel_count=*/3, /*p_is_colored=*/false);
 	REQUIRE(plain);
 	CHECK(plain->colors.empty());
 }
@@ -36,11 +38,12 @@ TEST_CASE("[ReferenceEntry] a reference survives saving and loading, with colour
 TEST_CASE("[ReferenceEntry] another key, another size and counts that wrap around are rejected") {
 	const std::vector<uint8_t> bytes = build_reference_entry(KEY, make_reference());
 	CHECK_FALSE(parse_reference_entry(bytes, KEY + 1, 3, true));
-	CHECK_FALSE(parse_reference_entry(bytes, KEY, 3, false));
+	CHECK_FALSE(parse_reference_entry(bytes, KEY, 3, /*p_is_colored=*/false));
 	CHECK_FALSE(parse_reference_entry(bytes, KEY, 2, true));
 	CHECK_FALSE(parse_reference_entry(std::span(bytes).first(bytes.size() - 1), KEY, 3, true));
 	CHECK_FALSE(parse_reference_entry({}, KEY, 0, false));
 	std::vector<uint8_t> wraps = build_reference_entry(KEY, ReferenceVisibility());
-	wraps[23] = 0x40; // 2^62 pixels of 4 bytes: 0 bytes in 64 bits
+	// Highest byte of pixel_count: 2^62 pixels of 4 bytes are 0 bytes in 64 bits.
+	wraps[23] = 0x40;
 	CHECK_FALSE(parse_reference_entry(wraps, KEY, size_t(1) << 62, false));
 }

@@ -12,6 +12,7 @@
 /// z = 0 and face up.
 namespace gnomon::test_scenes {
 
+/// Builds a scene of opaque triangles.
 struct TriangleBuilder : Triangles {
 	CasterScene build() const { return CasterScene(positions, indices); }
 	void scale(float p_factor) {
@@ -25,8 +26,8 @@ struct TriangleBuilder : Triangles {
 		positions.insert(positions.end(), { p_a, p_b, p_c, p_d });
 		indices.insert(indices.end(), { first, first + 1, first + 2, first, first + 2, first + 3 });
 	}
-	/// Adds a square, x < p_edge_x at the height p_height, large enough to be a half-plane for all
-	/// receivers of the tests.
+	/// Adds a rectangle, x < p_edge_x at the height p_height, large enough to be a half-plane for
+	/// all receivers of the tests.
 	void add_half_plane(float p_edge_x, float p_height) {
 		add_quad({ p_edge_x, -500, p_height }, { p_edge_x, 500, p_height },
 				{ p_edge_x - 500, 500, p_height }, { p_edge_x - 500, -500, p_height });
@@ -65,7 +66,7 @@ constexpr float SCENE_SIZE_M = 4.0f;
 /// Returns the point at which the rays of a receiver start.
 inline glm::dvec3 get_start(const ReceiverPoint &p_point) {
 	return glm::dvec3(p_point.position) +
-			5e-5 * SCENE_SIZE_M * glm::dvec3(p_point.geometric_normal);
+			5e-5 /* RECEIVER_OFFSET */ * SCENE_SIZE_M * glm::dvec3(p_point.geometric_normal);
 }
 
 inline VisibilityOptions make_options(uint32_t p_sample_count) {

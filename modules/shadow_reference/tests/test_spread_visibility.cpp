@@ -17,7 +17,9 @@ public:
 };
 
 const EvenSpread EVEN;
-const float OFFSET_M = 1e-4f;
+const float OFFSET_M = 1e-4f; // of the rays' start from the surface
+const uint32_t SAMPLE_COUNT = 16384;
+const uint64_t HASH = 7; // any
 
 /// Adds a horizontal square that faces up. p_half: half the length of its sides in metres.
 void add_square(Triangles &r_triangles, const glm::vec3 &p_centre, float p_half) {
@@ -44,7 +46,7 @@ SpreadMean trace(const Triangles &p_body, const Triangles &p_casters, const glm:
 	const Triangles bodies[] = { p_body };
 	return SpreadVisibility(bodies, EVEN)
 			.compute(casters, p_light, { p_position, glm::vec3(0, 1, 0), true, p_radius_m },
-					OFFSET_M, 16384, 7);
+					OFFSET_M, SAMPLE_COUNT, HASH);
 }
 
 double count_rays(const SpreadMean &p_mean) {
@@ -67,7 +69,7 @@ TEST_CASE("[SpreadVisibility] on a flat body the mean is the fraction of the dis
 	for (const float x : { -0.9f, -0.5f, 0.0f, 0.3f, 0.8f }) {
 		CAPTURE(x);
 		const SpreadMean mean = trace(ground, roof, glm::vec3(2 * x, 0, 0), 2.0f);
-		CHECK(count_rays(mean) == 16384);
+		CHECK(count_rays(mean) == SAMPLE_COUNT);
 		CHECK(mean.compute_mean().x == doctest::Approx(compute_cap_fraction(-x)).epsilon(0.003));
 		CHECK(mean.compute_mean().x == mean.compute_mean().z);
 	}
@@ -75,32 +77,35 @@ TEST_CASE("[SpreadVisibility] on a flat body the mean is the fraction of the dis
 	CHECK(trace(ground, roof, glm::vec3(-3, 0, 0), 2.0f).compute_mean().x == 0);
 }
 
-TEST_CASE("[SpreadVisibility] points that the body lacks, or that the light cannot reach, do not "
-		  "count") {
+TEST_CASE("[SpreadVisibility] points beyond the body's edge, or that the light cannot reach, do "
+		  "not count") {
 	Triangles half; // covers x < 0 only
 	add_square(half, glm::vec3(-10, 0, 0), 10);
 	const Triangles nothing;
 	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 1.0f)) ==
-			doctest::Approx(16384 / 2).epsilon(0.01));
+			doctest::Approx(SAMPLE_COUNT / 2).epsilon(0.01));
 	AreaLight spot;
 	spot.position = glm::vec3(-1, 1, 0);
 	spot.cos_outer = std::cos(0.7853982f); // the cone covers a radius of 1 m on the ground
-	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 2.0f, spot)) < 16384 * 0.26);
+	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 2.0f, spot)) <
+			SAMPLE_COUNT * 0.26); // (1 m / 2 m)^2 = 0.25
 	spot.cos_outer = -1;
 	spot.range_m = 1.2f;
-	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 2.0f, spot)) < 16384 * 0.15);
+	CHECK(count_rays(trace(half, nothing, glm::vec3(-1e-3f, 0, 0), 2.0f, spot)) <
+			SAMPLE_COUNT * 0.15); // (1.2^2 - 1^2) / 2^2 = 0.11
 }
 
 TEST_CASE("[SpreadVisibility] surfaces up to the radius above or below the receiver "
-		  "count, and of two the nearer one") {
+		  "count, and of two surfaces the nearer one") {
 	for (const float height : { 0.5f, -0.5f }) {
 		CAPTURE(height);
 		Triangles step;
 		add_square(step, glm::vec3(-10, 0, 0), 10);
 		add_square(step, glm::vec3(10, height, 0), 10);
 		const Triangles nothing;
-		CHECK(count_rays(trace(step, nothing, glm::vec3(-0.1f, 0, 0), 1.0f)) == 16384);
-		CHECK(count_rays(trace(step, nothing, glm::vec3(-0.1f, 0, 0), 0.4f)) < 0.7 * 16384);
+		CHECK(count_rays(trace(step, nothing, glm::vec3(-0.1f, 0, 0), 1.0f)) == SAMPLE_COUNT);
+		CHECK(count_rays(trace(step, nothing, glm::vec3(-0.1f, 0, 0), 0.4f)) <
+				0.7 * SAMPLE_COUNT); // 0.66 of the disc is over x < 0
 		// A second level, farther from the plane, is not sampled: a roof over it has no effect.
 		add_square(step, glm::vec3(-10, -0.9f, 0), 10);
 		Triangles roof; // between the two levels
@@ -121,7 +126,7 @@ TEST_CASE("[SpreadVisibility] of several bodies only the receiver's own counts")
 	const SpreadMean mean =
 			SpreadVisibility(bodies, EVEN)
 					.compute(casters, make_sun(), { glm::vec3(0), glm::vec3(0, 1, 0), true, 1.0f },
-							OFFSET_M, 1024, 7);
+							OFFSET_M, /*p_sample_count=*/1024, HASH);
 	CHECK(mean.compute_mean().x == 1);
 }
 
@@ -170,7 +175,7 @@ TEST_CASE("[CasterScene] each translucent body attenuates a ray once, however of
 	CHECK(trace_up(5.0f) == glm::vec3(0.0f));
 	CHECK(scene.trace(glm::vec3(0.5f, 0, 0), glm::vec3(0, 3, 0), 0.5f) == red); // ends before blue
 
-	// As a packet, and as the mask of a light with a size.
+	// As a packet of eight rays, and as the mask of a light with a size.
 	const CasterScene tracer(wall.positions, wall.indices, bodies);
 	const ReceiverPoint points[] = { { glm::vec3(0.5f, 0, 0), glm::vec3(0, 1, 0), true },
 		{ glm::vec3(3, 0, 0), glm::vec3(0, 1, 0), true },

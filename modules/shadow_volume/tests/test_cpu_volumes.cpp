@@ -67,15 +67,17 @@ TEST_CASE("[ShadowVolume] the volume of every mesh class is closed, for lights o
 			CAPTURE(light.x);
 			const VolumeFaces all = VolumeFaces::ALL;
 			const VolumeFaces not_solid = VolumeFaces::NOT_SOLID;
-			const auto corners = build_cpu_volume(topology, light, { not_solid, true });
+			const auto corners =
+					build_cpu_volume(topology, light, { not_solid, /*has_far_cap=*/true });
 			CHECK(corners.size() % 3 == 0);
 			CHECK(count_open_edges(corners, light.w == 0) == 0);
 			// With all faces robust, the volume is closed too.
-			const auto robust = build_cpu_volume(topology, light, { all, true });
+			const auto robust = build_cpu_volume(topology, light, { all, /*has_far_cap=*/true });
 			CHECK(robust.size() > 0);
 			CHECK(count_open_edges(robust, light.w == 0) == 0);
 			// The far caps are as many triangles as the near ones, the rest are sides.
-			const auto near = build_cpu_volume(topology, light, { not_solid, false });
+			const auto near =
+					build_cpu_volume(topology, light, { not_solid, /*has_far_cap=*/false });
 			const size_t cap_size = corners.size() - near.size();
 			CHECK((cap_size > 0 || corners.empty())); // empty: no face is light-facing from inside
 			CHECK(cap_size % 3 == 0);
@@ -90,15 +92,17 @@ TEST_CASE("[ShadowVolume] a cube seen from a corner has six sides and three face
 	const auto count = [&](VolumeFaces p_robust, bool p_has_far_cap) {
 		return build_cpu_volume(topology, light, { p_robust, p_has_far_cap }).size();
 	};
+	// Six sides of 6 vertices. Three faces, so near and far cap have 6 triangles of 3 vertices.
 	for (const VolumeFaces robust : { VolumeFaces::NONE, VolumeFaces::NOT_SOLID }) {
 		CHECK(count(robust, false) == 6 * 6 + 6 * 3);
 		CHECK(count(robust, true) == 6 * 6 + 2 * 6 * 3);
 	}
-	// Robust: both sides of each edge, all faces.
+	// Robust: two sides at each silhouette edge, and caps of all 12 triangles.
 	CHECK(count(VolumeFaces::ALL, true) == 2 * 6 * 6 + 2 * 12 * 3);
 }
 
-TEST_CASE("[ShadowVolume] only the open part of a mesh has a volume for each of its faces") {
+TEST_CASE("[ShadowVolume] only open and inside-out parts of a mesh have a volume for "
+		  "each face") {
 	Mesh quad = test_meshes::make_quad();
 	for (glm::vec3 &position : quad.positions_node) {
 		position += glm::vec3(5, 0, 0);

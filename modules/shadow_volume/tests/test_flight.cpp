@@ -69,7 +69,7 @@ TEST_CASE("[GPU][ShadowVolume] 300 frames through volumes, walls and casters, wr
 	MaskFixture fixture;
 	struct Leg {
 		LightType type;
-		size_t step; // all 300 frames once, every fifth for the other lights
+		size_t step; // renders every step-th frame
 	};
 	for (const Leg &leg : { Leg{ LightType::SPOT, 1 }, Leg{ LightType::OMNI, 5 },
 				 Leg{ LightType::DIRECTIONAL, 5 } }) {

@@ -54,33 +54,35 @@ TEST_CASE("[GPU][ShadowVolume] edges are cached while light and casters rest, wi
 	MaskFixture caching;
 	MaskFixture fresh;
 	SmallScene scene;
-	// Draws a frame and checks whether it uses cached edges. After a change two frames search the
-	// edges, and the second, in which all is at rest, stores them.
-	const auto check_frame = [&](bool p_is_cached) {
+	// Draws a frame and checks whether it searches edges or uses cached ones. After a change two
+	// frames search them, and the second, in which nothing has moved, stores them.
+	enum class Edges { SEARCHED, CACHED };
+	const auto check_frame = [&](Edges p_edges) {
+		const bool is_cached = p_edges == Edges::CACHED;
 		const MaskResult result = render_volumes(caching, scene, COMPUTE);
 		const MaskResult all = render_volumes(
 				fresh, scene, COMPUTE, "shadow_volume", glm::uvec2(128), SKIP_NOTHING);
 		CHECK(result.visibility == all.visibility);
 		CHECK(finds_edges(all));
-		CHECK(finds_edges(result) != p_is_cached);
-		CHECK(has_reason(result, CACHED) == p_is_cached);
+		CHECK(finds_edges(result) != is_cached);
+		CHECK(has_reason(result, CACHED) == is_cached);
 	};
-	check_frame(false);
-	check_frame(false);
-	check_frame(true);
-	check_frame(true);
+	check_frame(Edges::SEARCHED);
+	check_frame(Edges::SEARCHED);
+	check_frame(Edges::CACHED);
+	check_frame(Edges::CACHED);
 	scene.camera->parent_from_node[3].x += 0.2; // the camera may move
-	check_frame(true);
+	check_frame(Edges::CACHED);
 	scene.light->parent_from_node[3].x += 0.2;
-	check_frame(false);
-	check_frame(false);
-	check_frame(true);
+	check_frame(Edges::SEARCHED);
+	check_frame(Edges::SEARCHED);
+	check_frame(Edges::CACHED);
 	scene.box->parent_from_node[3].y += 0.1;
-	check_frame(false);
+	check_frame(Edges::SEARCHED);
 	scene.box->parent_from_node[3].y += 0.1;
-	check_frame(false);
-	check_frame(false);
-	check_frame(true);
+	check_frame(Edges::SEARCHED);
+	check_frame(Edges::SEARCHED);
+	check_frame(Edges::CACHED);
 	scene.box->casts_shadow = false;
-	check_frame(false);
+	check_frame(Edges::SEARCHED);
 }

@@ -28,7 +28,7 @@ public:
 		CHECK(casters.casters.size() == 2);
 		DrawPredicates predicates;
 		predicates.instances = std::make_shared<const std::vector<uint32_t>>(instances);
-		predicates.words = r_graph.create_buffer({ "no casters", 64,
+		predicates.words = r_graph.create_buffer({ "no casters", /*size_bytes=*/64,
 				BufferUsage::COPY_TARGET | BufferUsage::CONDITIONAL | BufferUsage::STORAGE });
 		r_graph.add_pass("none is seen")
 				.writes(predicates.words, Access::COPY_WRITE)
@@ -49,7 +49,8 @@ private:
 
 } // namespace
 
-TEST_CASE("[GPU][ShadowVolume] casters whose predicate is 0 are not drawn, for every extrusion") {
+TEST_CASE("[GPU][ShadowVolume] casters whose predicate is 0 are not drawn, with compute or "
+		  "geometry shaders") {
 	MaskFixture fixture;
 	if (!fixture.device->get_features().conditional_rendering) {
 		MESSAGE("this device has no conditional rendering");

@@ -41,7 +41,8 @@ TEST_CASE("[GPU][ShadowVolume] all ways to make and count volumes give the same 
 			check_same(render_volumes(fixture, scene,
 					{ { "extrusion", std::string(extrusion) }, { "scissor", false } }));
 		}
-		check_same(render_volumes(fixture, scene, {}, "shadow_volume", glm::uvec2(128), false));
+		check_same(render_volumes(fixture, scene, {}, "shadow_volume", glm::uvec2(128),
+				/*p_may_skip=*/false));
 		// In double precision, a face that is edge-on to the light may be classified differently.
 		const MaskResult on_cpu = render_volumes(fixture, scene, {}, "shadow_volume_cpu");
 		CHECK(compute_mask_difference(first, on_cpu) < 1e-4);
@@ -70,7 +71,8 @@ TEST_CASE("[GPU][ShadowVolume] a camera close to casters and their shadows match
 	CHECK(z_fail_count > 5);
 }
 
-TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of its faces") {
+TEST_CASE("[GPU][ShadowVolume] a light inside a solid and one in the planes of its faces match "
+		  "rays") {
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	const auto place_light = [&](const glm::dvec3 &p_position) {

@@ -17,6 +17,7 @@ struct Situation {
 	Bounds box;
 };
 
+/// Draws random situations, the same ones in every run.
 class Situations {
 public:
 	double draw_uniform(double p_min, double p_max) {
@@ -28,6 +29,7 @@ public:
 	}
 
 	/// Makes a camera at the origin that looks along -Z, and a light and a box at random around it.
+	/// p_index selects the near plane and the light's type and range.
 	Situation make(int p_index) {
 		Situation situation;
 		CameraSnapshot camera;

@@ -76,7 +76,8 @@ TEST_CASE("[GPU][ShadowVolume] tiny and large distances in one scene still match
 	});
 }
 
-TEST_CASE("[GPU][ShadowVolume] casters across the light's planes and next to the light") {
+TEST_CASE("[GPU][ShadowVolume] casters across the light's near plane or next to the light match "
+		  "ray tracing") {
 	check_for_each_type([](SmallScene &r_scene) {
 		add_mesh(r_scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
 				{ 1.22, 3.0, 0.85 });
@@ -97,6 +98,8 @@ TEST_CASE("[GPU][ShadowVolume] slivers, duplicates, collapsed faces and edges ma
 						glm::vec3(0.5f, 1, 1e-7f), glm::vec3(0, 1, 0), glm::vec3(0, 1, 2) }) {
 			mesh.positions_node.push_back(position);
 		}
+		// Three points on a line, a sliver, a point, two equal corners, and one face three times,
+		// the last one reversed.
 		const std::vector<uint32_t> odd = { 0, 1, 2, 0, 1, 3, 0, 0, 0, 0, 4, 5, 0, 1, 5, 0, 1, 5, 5,
 			1, 0 };
 		for (const uint32_t index : odd) {
@@ -121,7 +124,7 @@ TEST_CASE("[GPU][ShadowVolume] surfaces that coincide, touch or intersect match 
 	});
 }
 
-TEST_CASE("[GPU][ShadowVolume] light that grazes the floor, and edges seen end-on") {
+TEST_CASE("[GPU][ShadowVolume] light that grazes the floor, and edges seen end-on, match rays") {
 	check_for_each_type([](SmallScene &r_scene) {
 		r_scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.2, 0.31, 0 });
 		place_light(r_scene, { 3.0, 0.12, 0.3 }, { 0, 0.02, 0 });
@@ -132,7 +135,7 @@ TEST_CASE("[GPU][ShadowVolume] light that grazes the floor, and edges seen end-o
 	});
 }
 
-TEST_CASE("[GPU][ShadowVolume] seen from the light itself nothing is dark") {
+TEST_CASE("[GPU][ShadowVolume] the mask of a camera at the light matches ray tracing") {
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		SmallScene scene(type);

@@ -36,7 +36,7 @@ public:
 	HardDifference compare(const MaskResult &p_frame,
 			const std::function<bool(const SurfacePoint &)> &p_is_compared = {}) const {
 		HardDifference difference;
-		const double offset_m = 5e-5 * scene->scene_size_m;
+		const double offset_m = 5e-5 * scene->scene_size_m; // RECEIVER_OFFSET
 		for (size_t index = 0; index < p_frame.visibility.size(); ++index) {
 			if (p_frame.receiver[index] <= 0) {
 				continue;
@@ -48,7 +48,7 @@ public:
 			const glm::dvec3 normal = glm::normalize(glm::dvec3(surface.geometric_normal));
 			const glm::dvec3 position_world =
 					scene->camera.position_world + glm::dvec3(surface.position) + normal * offset_m;
-			const bool is_hidden = find_hidden(position_world);
+			const bool is_hidden = is_light_hidden(position_world);
 			const bool is_dark = p_frame.visibility[index] < 0.5f;
 			++difference.receiver_count;
 			difference.hidden_count += is_hidden ? 1 : 0;
@@ -68,7 +68,7 @@ public:
 				const glm::dvec3 step(probe % 3 - 1, probe / 3 % 3 - 1, probe / 9 % 3 - 1);
 				const glm::dvec3 along = view * (reach_m * (probe / 27 - 1));
 				is_explained = is_explained ||
-						find_hidden(position_world + along + step * (2 * offset_m)) == is_dark;
+						is_light_hidden(position_world + along + step * (2 * offset_m)) == is_dark;
 			}
 			difference.unexplained_count += is_explained ? 0 : 1;
 		}
@@ -81,7 +81,7 @@ private:
 		glm::dmat4 node_from_world;
 	};
 
-	bool find_hidden(const glm::dvec3 &p_position_world) const {
+	bool is_light_hidden(const glm::dvec3 &p_position_world) const {
 		const LightSnapshot &light = scene->lights[0];
 		const bool is_point = light.type != LightType::DIRECTIONAL;
 		const glm::dvec3 ray =

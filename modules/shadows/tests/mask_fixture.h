@@ -38,7 +38,8 @@ inline MeshInstance3D &add_mesh(Scene &r_scene, const std::string &p_name,
 	return static_cast<MeshInstance3D &>(*r_scene.root->add_child(std::move(node)));
 }
 
-/// Transform of a camera or light at p_from whose -Z axis points towards p_to.
+/// Transform of a camera or light at p_from whose -Z axis points towards p_to. The up direction is
+/// tilted, so that p_from may be straight above p_to.
 inline glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0.1, 1.0, 0.07)));
 }
@@ -122,7 +123,7 @@ struct MaskFixture {
 	std::unique_ptr<TransientPool> transients;
 	std::unique_ptr<ShadowSystem> shadows;
 
-	/// p_device: as DeviceOptions::device.
+	/// p_device: as DeviceOptions::device. p_denied: optional features that are disabled.
 	explicit MaskFixture(const std::string &p_device = "", const FeatureList &p_denied = {},
 			DeviceChoice p_choice = DeviceChoice::ANY) :
 			device(create_test_device(p_choice, p_device, p_denied)) {
@@ -150,7 +151,7 @@ struct MaskFixture {
 				add_debug_readback(graph, p_request, shadow, debug_texels);
 			}
 		}
-		std::vector<uint8_t> texels[3];
+		std::vector<uint8_t> texels[3]; // depth, normals, materials
 		if (p_request.wants_surfaces) {
 			add_readback(graph, surfaces.depth, texels[0]);
 			add_readback(graph, surfaces.geometric_normal, texels[1]);

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/normal_inc.glsl"
 
+// Writes the materials and geometric normals of the minimal host in surface_host.h.
 layout(set = 0, binding = 1) readonly buffer Positions {
 	float positions_node[];
 };
@@ -10,7 +11,7 @@ layout(set = 0, binding = 2) readonly buffer Indices {
 };
 layout(push_constant) uniform Push {
 	mat4 camera_relative_from_node;
-	vec4 material;
+	vec4 material; // x: scatter, y: scatter distance in metres
 };
 
 layout(location = 0) out vec4 out_material;

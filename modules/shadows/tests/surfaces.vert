@@ -8,7 +8,7 @@ layout(std140, set = 0, binding = 0) restrict readonly buffer Frame {
 };
 layout(push_constant) uniform Push {
 	mat4 camera_relative_from_node;
-	vec4 material;
+	vec4 material; // read by the fragment shaders
 };
 
 layout(location = 0) in vec3 in_position_node;

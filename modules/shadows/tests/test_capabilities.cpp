@@ -29,7 +29,7 @@ std::map<std::string, MaskValues> render_lights(
 
 void check_each_technique(const FeatureList &p_denied) {
 	MaskFixture able;
-	MaskFixture limited("", p_denied);
+	MaskFixture limited(/*p_device=*/"", p_denied);
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		const auto expected = render_lights(able, p_info.id);
 		const auto found = render_lights(limited, p_info.id);
@@ -61,7 +61,8 @@ TEST_CASE("[GPU][Techniques] without depth bounds every technique has the same m
 	check_each_technique({ &DeviceFeatures::depth_bounds });
 }
 
-TEST_CASE("[GPU][Techniques] without storage texel buffers every technique has the same masks") {
+TEST_CASE("[GPU][Techniques] without buffers that are both storage and texel buffers every "
+		  "technique has the same masks") {
 	check_each_technique({ &DeviceFeatures::storage_and_texel_buffers });
 }
 

@@ -18,10 +18,10 @@ struct CardScene : SmallScene {
 		std::vector<uint8_t> texels;
 		for (int y = 0; y < 64; ++y) {
 			for (int x = 0; x < 64; ++x) {
-				// Signed distance from the hole's rim, positive outside.
-				const double depth_px =
+				// Signed distance from the rim of the tile's hole, positive outside.
+				const double distance_px =
 						glm::distance(glm::dvec2(x % 32, y % 32), glm::dvec2(15.5)) - 11;
-				const double alpha = std::clamp(0.5 + 0.5 * depth_px, 0.0, 1.0);
+				const double alpha = std::clamp(0.5 + 0.5 * distance_px, 0.0, 1.0);
 				texels.insert(texels.end(), { 255, 255, 255, uint8_t(std::lround(255 * alpha)) });
 			}
 		}
@@ -64,7 +64,7 @@ double compute_mean_difference(
 	return sum / std::max(count, 1.0);
 }
 
-/// The mesh that the card casts instead of its own, for the scene's light.
+/// The mesh that casts the card's shadow for the scene's light.
 std::shared_ptr<const Mesh> find_caster_mesh(const CardScene &p_scene) {
 	const auto snapshot = build_snapshot(p_scene.scene, *p_scene.camera);
 	const auto selected = snapshot->select_casters(snapshot->lights[0]);
@@ -132,11 +132,11 @@ TEST_CASE("[GPU][CutOuts] the default technique's shadow of a cut-out matches th
 	}
 }
 
-TEST_CASE("[GPU][CutOuts] a caster that is transparent everywhere casts no shadow") {
+TEST_CASE("[GPU][CutOuts] a caster whose alpha is below the cutoff everywhere casts no shadow") {
 	MaskFixture fixture;
 	CardScene scene(LightType::SPOT);
 	Material gone = *scene.material;
-	gone.alpha = 0.1f;
+	gone.alpha = 0.1f; // the cutoff is 0.5
 	scene.add_card(scene.card, std::make_shared<const Material>(gone));
 	use_cheap_settings(*scene.light);
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {

@@ -39,7 +39,8 @@ TEST_CASE("[LightProperties] a light has the properties of its technique") {
 	}
 }
 
-TEST_CASE("[LightProperties] a light with a singular transform or an unknown technique is listed") {
+TEST_CASE("[LightProperties] properties are listed even of a light with a singular transform or an "
+		  "unknown technique") {
 	Light3D light;
 	light.parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0.0));
 	light.properties["shadow_technique"] = std::string("of_another_build");

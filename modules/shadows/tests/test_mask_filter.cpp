@@ -19,7 +19,7 @@ public:
 
 	void get_light_properties(PropertyList &r_list) const override {
 		r_list.add({ "quarter_share", PropertyType::FLOAT, 0.25, "0,1,0.25",
-				"What is left of the light." });
+				"The visibility of every receiver." });
 	}
 	bool plan(const ShadowTechnique::Inputs & /*p_inputs*/, const PropertyValues & /*p_values*/,
 			TechniquePlan &r_plan) override {
@@ -38,11 +38,11 @@ public:
 
 } // namespace
 
-TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the plan reports when it "
-		  "is skipped") {
+TEST_CASE("[GPU][MaskFilter] a filter adds light properties and changes every technique's mask, "
+		  "unless it is skipped or removed") {
 	MaskFixture fixture;
 	SmallScene scene;
-	// Any technique will do. The build decides which ones exist.
+	// Any technique will do; which ones exist depends on the build.
 	const std::string any = ShadowRegistry::get_all().at(0).id;
 	const MaskResult before = fixture.render_mask(scene, any);
 	MaskFilterRegistry::add({ "quarter", "Quarter", "test", "#000000",

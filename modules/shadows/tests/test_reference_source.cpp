@@ -10,8 +10,10 @@ using namespace gnomon;
 
 namespace {
 
-const int64_t SAMPLE_COUNT = 64;
+const int64_t SAMPLE_COUNT = 64; // rays per pixel; int64_t is the type of the light's property
 
+/// A scene with its mask by the reference technique on the GPU, and the request for the same mask
+/// on the CPU.
 struct TracedScene {
 	SmallScene scene;
 	MaskResult result;
@@ -52,12 +54,12 @@ TEST_CASE("[GPU] ReferenceSource gives the same mask as the reference technique,
 		CHECK(cpu_result.is_complete);
 		CHECK(cpu_result.visibility == traced.result.visibility);
 		CHECK(cpu_result.standard_error == traced.result.standard_error);
-		CHECK(cpu_result.penumbra_pixel_count > 20);
+		CHECK(cpu_result.penumbra_pixel_count > 20); // else only trivial pixels are compared
 		CHECK(last_progress == 1.0f);
 	}
 }
 
-TEST_CASE("[GPU] A cancelled reference is not complete, and a later run is") {
+TEST_CASE("[GPU] A cancelled reference is not complete, and a later trace is") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return;
@@ -66,11 +68,16 @@ TEST_CASE("[GPU] A cancelled reference is not complete, and a later run is") {
 	const TracedScene traced(fixture, *reference, LightType::SPOT);
 	const std::unique_ptr<ReferenceSource> source =
 			reference->make_reference_source(traced.trace_request);
-	CHECK(!source->trace(16, std::atomic<bool>(true), {}).is_complete);
-	CHECK(source->trace(16, std::atomic<bool>(false), {}).is_complete);
+	const auto trace = [&](bool p_is_cancelled) {
+		return source->trace(
+				/*p_sample_count=*/16, std::atomic<bool>(p_is_cancelled), /*p_progress=*/{});
+	};
+	CHECK_FALSE(trace(/*p_is_cancelled=*/true).is_complete);
+	CHECK(trace(/*p_is_cancelled=*/false).is_complete);
 }
 
-TEST_CASE("The hash of a reference depends on size, light, casters and camera, not on technique") {
+TEST_CASE("The hash of a reference depends on size, light, casters and camera, not on technique, "
+		  "penumbra widths and intensity") {
 	SmallScene scene;
 	const glm::uvec2 SIZE_PX(64);
 	const auto hash = [&](glm::uvec2 p_size_px) {

@@ -26,7 +26,7 @@ struct HeldMasks {
 					p_device.create_texture({ "held masks", p_format, SIZE_PX, p_count,
 							TextureUsage::STORAGE | TextureUsage::SAMPLED |
 									TextureUsage::COPY_SOURCE,
-							true })) {}
+							/*is_array=*/true })) {}
 };
 
 /// Copies the masks of all lights into layers of an array, and returns each layer's values: 4 per
@@ -91,7 +91,7 @@ TEST_CASE("[GPU][Shadows] normals from depth equal the face normals at 99.5 % of
 										  reconstructed.surfaces[index].geometric_normal) > 2e-3f;
 			wrong_mask_count += drawn.receiver[index] != reconstructed.receiver[index] ||
 					std::abs(drawn.visibility[index] - reconstructed.visibility[index]) >
-							1.0f / 255;
+							1.0f / 255; // one step of an 8-bit image
 		}
 		CHECK(count > 5000);
 		CHECK(wrong_normal_count <= count / 200);
@@ -159,6 +159,7 @@ TEST_CASE("[GPU][Shadows] hold() copies a coloured mask as colours, or as its lu
 	for (size_t index = 0; index < mask.colors.size(); ++index) {
 		const glm::vec3 held(color[4 * index], color[4 * index + 1], color[4 * index + 2]);
 		CHECK(held == mask.colors[index]);
+		// Below 1, half floats are at most 1 / 2048 apart.
 		CHECK(std::abs(gray[index] - mask.visibility[index]) <= 1.0f / 2048);
 	}
 }
@@ -166,7 +167,7 @@ TEST_CASE("[GPU][Shadows] hold() copies a coloured mask as colours, or as its lu
 TEST_CASE("[GPU][Shadows] a host without materials gets masks in which nothing scatters") {
 	MaskFixture fixture;
 	SmallScene scene;
-	const std::vector<float> plain = fixture.render(make_request(scene)).visibility;
+	const std::vector<float> plain = fixture.render(make_request(scene)).visibility; // no wax
 	auto wax = std::make_shared<Material>();
 	wax->scatter = 1.0f;
 	wax->scatter_distance_m = 0.5f;
@@ -187,11 +188,11 @@ TEST_CASE("[GPU][Shadows] a host without materials gets masks in which nothing s
 	}
 }
 
-TEST_CASE("[GPU][Shadows] a frame that was not ended leaves no cached data") {
+TEST_CASE("[GPU][Shadows] a frame that was not ended does not change later masks") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const std::vector<float> expected = fixture.render(make_request(scene)).visibility;
-	{ // recorded, but never run
+	{ // A frame whose graph is never executed.
 		RenderGraph graph(*fixture.device, *fixture.transients);
 		FramePlan plan;
 		const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
@@ -203,17 +204,18 @@ TEST_CASE("[GPU][Shadows] a frame that was not ended leaves no cached data") {
 	CHECK(fixture.render(make_request(scene)).visibility == expected);
 }
 
-TEST_CASE("[GPU][Shadows] a mesh on none of a light's caster layers casts no shadow of it") {
+TEST_CASE("[GPU][Shadows] a mesh on none of a light's caster layers casts no shadow from it") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
 		use_cheap_settings(*scene.light);
+		// With the pose of "Light".
 		Light3D &other = scene.add_light("Other", p_type, { 1.2, 4.0, 0.8 }, { 0, 0.3, 0 });
 		other.properties = scene.light->properties;
 		auto snapshot = std::make_shared<SceneSnapshot>(*scene.snap());
-		snapshot->instances[1].layers = 2; // the box
-		snapshot->lights[0].caster_layers = 1;
-		snapshot->lights[1].caster_layers = 3;
+		snapshot->instances[1].layers = 0b10; // the box
+		snapshot->lights[0].caster_layers = 0b01;
+		snapshot->lights[1].caster_layers = 0b11;
 		MaskRequest request;
 		request.scene = snapshot;
 		request.technique_override = p_info.id;
@@ -227,15 +229,17 @@ TEST_CASE("[GPU][Shadows] a mesh on none of a light's caster layers casts no sha
 	});
 }
 
-TEST_CASE("[GPU][Shadows] two cameras that draw alternately share meshes and get their masks") {
+TEST_CASE("[GPU][Shadows] two shadow systems that draw alternately share meshes, not masks") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const std::vector<float> first = fixture.render(make_request(scene)).visibility;
-	const glm::dmat4 pose = scene.camera->parent_from_node;
-	scene.camera->parent_from_node = look_at({ 2.4, 3.0, -3.4 }, { 0, 0.3, 0 });
+	const glm::dmat4 first_pose = scene.camera->parent_from_node;
+	const glm::dmat4 second_pose = look_at({ 2.4, 3.0, -3.4 }, { 0, 0.3, 0 });
+	scene.camera->parent_from_node = second_pose;
 	const std::vector<float> second = fixture.render(make_request(scene)).visibility;
 	const size_t mesh_count = fixture.shadows->get_meshes().get_mesh_count();
 	auto meshes = std::make_shared<MeshStore>(*fixture.device);
+	// One per camera. The fixture renders with the system that is swapped in.
 	std::unique_ptr<ShadowSystem> systems[2] = {
 		std::make_unique<ShadowSystem>(*fixture.device, meshes),
 		std::make_unique<ShadowSystem>(*fixture.device, meshes),
@@ -243,12 +247,12 @@ TEST_CASE("[GPU][Shadows] two cameras that draw alternately share meshes and get
 	for (int frame = 0; frame < 4; ++frame) {
 		if (frame % 2 == 0) {
 			std::swap(fixture.shadows, systems[0]);
-			scene.camera->parent_from_node = pose;
+			scene.camera->parent_from_node = first_pose;
 			CHECK(fixture.render(make_request(scene)).visibility == first);
 			std::swap(fixture.shadows, systems[0]);
 		} else {
 			std::swap(fixture.shadows, systems[1]);
-			scene.camera->parent_from_node = look_at({ 2.4, 3.0, -3.4 }, { 0, 0.3, 0 });
+			scene.camera->parent_from_node = second_pose;
 			CHECK(fixture.render(make_request(scene)).visibility == second);
 			std::swap(fixture.shadows, systems[1]);
 		}

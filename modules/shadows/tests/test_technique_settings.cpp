@@ -14,11 +14,14 @@ namespace {
 class SettingProbe : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override {
+		// The light properties setting_probe_old and setting_probe_older were removed.
 		add_moved_setting("setting_probe", "old", r_list);
 		add_moved_setting("setting_probe", "older", r_list);
 	}
 	void get_settings(PropertyList &r_list) const override {
-		r_list.add({ "way", PropertyType::ENUM, {}, "auto,short,long", "Which way.", "", "Probe" });
+		r_list.add({ "way", PropertyType::ENUM, /*default_value=*/{}, "auto,short,long",
+				"Which way.", /*unit=*/"", "Probe" });
+		// Of the group that no list shows.
 		r_list.add(
 				{ "check", PropertyType::BOOL, false, "", "For tests.", "", TEST_SETTINGS_GROUP });
 	}
@@ -31,6 +34,7 @@ public:
 	std::vector<std::string> get_shader_files() const override { return {}; }
 };
 
+/// Registers SettingProbe as the technique "setting_probe" while it exists.
 class ProbeScope {
 public:
 	ProbeScope() {
@@ -69,7 +73,7 @@ TEST_CASE("[TechniqueSettings] a wrong id, name or value is an error that lists 
 		return catch_message([&] { ShadowRegistry::set_setting(p_id, p_name, p_text); });
 	};
 	CHECK(contains(set("nothing", "way", "long"), "setting_probe"));
-	CHECK(contains(set("setting_probe", "wai", "long"), "It has: way."));
+	CHECK(contains(set("setting_probe", "wai", "long"), "It has: way.")); // without `check`
 	CHECK(contains(set("setting_probe", "way", "round"), "must be auto, short or long"));
 	CHECK(std::get<std::string>(ShadowRegistry::get_setting_values("setting_probe").at("way")) ==
 			"auto");
@@ -83,14 +87,13 @@ TEST_CASE("[TechniqueSettings] a project sets them; unknown ids and names only c
 			"/nowhere/project.cfg"));
 	CHECK(std::get<std::string>(ShadowRegistry::get_setting_values("setting_probe").at("way")) ==
 			"short");
-	CHECK(log.lines.size() == 2);
+	CHECK(log.lines.size() == 2); // about `wai` and `gone`
 	apply_technique_settings(Project::parse("[project]\nname=\"other\"\n", "/nowhere/project.cfg"));
 	CHECK(std::get<std::string>(ShadowRegistry::get_setting_values("setting_probe").at("way")) ==
 			"auto");
 }
 
-TEST_CASE(
-		"[TechniqueSettings] light properties that became settings load with one warning a file") {
+TEST_CASE("[TechniqueSettings] light properties that became settings cause one warning per file") {
 	const ProbeScope probe;
 	const CaughtLog log;
 	LightSnapshot light;

@@ -65,7 +65,8 @@ TEST_CASE("[TranslucentCasters] casters of one colour share a group when no ray 
 	CHECK_FALSE(find_casters(scene).is_empty());
 }
 
-TEST_CASE("[TranslucentCasters] casters around the light or with overlapping shadows stay apart") {
+TEST_CASE("[TranslucentCasters] casters around the light or with overlapping shadows share no "
+		  "group") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		CAPTURE(get_light_type_name(type));
 		SmallScene scene(type);
@@ -80,8 +81,9 @@ TEST_CASE("[TranslucentCasters] casters around the light or with overlapping sha
 	}
 	SmallScene scene(LightType::OMNI);
 	scene.box->surfaces[0].material = make_glass(RED);
-	MeshInstance3D &lamp = add_pane(scene, "Lamp", RED, { 1.2, 4.0, 0.8 });
+	MeshInstance3D &lamp = add_pane(scene, "Lamp", RED, { 1.2, 4.0, 0.8 }); // around the light
 	CHECK(find_casters(scene).groups.size() == 2);
+	// In front of the light, so near that its shadow's cone is wide.
 	lamp.parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 3.7, 0.6));
 	CHECK(find_casters(scene).groups.size() == 2);
 }
@@ -99,28 +101,29 @@ TEST_CASE("[TranslucentCasters] casters far apart along a directional light may 
 	CHECK(find_casters(scene).groups.size() == 1);
 }
 
-TEST_CASE("[TranslucentCasters] above the maximum of groups, casters join the nearest colour") {
+TEST_CASE("[TranslucentCasters] beyond the maximum group count, casters join the nearest colour") {
 	SmallScene scene;
-	for (int i = 0; i < 12; ++i) {
+	for (int i = 0; i < 12; ++i) { // from dark to light
 		add_pane(scene, "Pane " + std::to_string(i), glm::vec3(0.05f + 0.07f * float(i)),
 				{ 0.0, 0.2 + 0.1 * i, 0.0 });
 	}
 	const TranslucentCasters casters = find_casters(scene);
 	CHECK(casters.groups.size() == TranslucentCasters::MAX_GROUP_COUNT);
 	CHECK(casters.merged_count == 4);
-	CHECK(casters.groups.back().instances.size() == 5); // the four lightest are nearest to it
+	// The four lightest are nearest to the eighth, the last one that has got a group of its own.
+	CHECK(casters.groups.back().instances.size() == 5);
 }
 
-TEST_CASE("[TranslucentCasters] a material with NaN transmits no light") {
+TEST_CASE("[TranslucentCasters] transmittance is in 0..1, and 0 where the material has NaN") {
 	const float nan = std::numeric_limits<float>::quiet_NaN();
 	Material material = *make_glass(RED, nan);
-	CHECK(material.compute_transmittance(1.0f) == glm::vec3(0.0f));
+	CHECK(material.compute_transmittance(/*p_scale=*/1.0f) == glm::vec3(0.0f));
 	material = *make_glass(glm::vec3(nan, 0.5f, 2.0f));
-	CHECK(material.compute_transmittance(1.0f) == glm::vec3(0.0f, 0.5f, 1.0f));
+	CHECK(material.compute_transmittance(/*p_scale=*/1.0f) == glm::vec3(0.0f, 0.5f, 1.0f));
 	material.thickness_m = 1e4f;
 	material.attenuation_distance_m = 1e-6f;
 	material.attenuation_color = glm::vec3(0.0f, 0.5f, 1.0f);
-	CHECK(material.compute_transmittance(1.0f) == glm::vec3(0.0f, 0.0f, 1.0f));
+	CHECK(material.compute_transmittance(/*p_scale=*/1.0f) == glm::vec3(0.0f, 0.0f, 1.0f));
 }
 
 TEST_CASE("[GPU][TranslucentCasters] every technique's shadow gets the caster's colour") {
@@ -155,7 +158,8 @@ TEST_CASE("[GPU][TranslucentCasters] every technique's shadow gets the caster's 
 	}
 }
 
-TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, as rays do") {
+TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, as ray tracing "
+		  "does") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	REQUIRE(reference != nullptr);
 	MaskFixture fixture;
@@ -167,6 +171,7 @@ TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, 
 	const MaskResult expected = fixture.render_mask(scene, reference->id, glm::uvec2(96));
 	const MaskResult result =
 			fixture.render_mask(scene, ShadowRegistry::find_default()->id, glm::uvec2(96));
+	// Of light that passes no pane, the upper one, the lower one, and both.
 	const std::vector<glm::vec3> shades = { glm::vec3(1.0f), RED, BLUE, RED * BLUE };
 	std::vector<size_t> counts(shades.size());
 	size_t differing_count = 0;
@@ -188,7 +193,7 @@ TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, 
 	for (const size_t count : counts) {
 		CHECK(count > 30);
 	}
-	CHECK(differing_count < 20); // of thousands: at the edges
+	CHECK(differing_count < 20); // of thousands: pixels at the shadows' edges
 	CHECK_FALSE(result.plan.is_skipped("Light", "translucent 2: light view 0"));
 }
 
@@ -233,10 +238,10 @@ TEST_CASE("[GPU][TranslucentCasters] adding and removing glass does not change o
 		CHECK(again.colors.empty());
 		CHECK(again.visibility == before.visibility);
 	}
-	// Skipping changes nothing.
+	// The passes that are skipped would not change the mask.
 	scene.box->surfaces[0].material = make_glass(RED);
 	CHECK(fixture.render_mask(scene, id).colors ==
-			fixture.render_mask(scene, id, glm::uvec2(64), false).colors);
+			fixture.render_mask(scene, id, glm::uvec2(64), /*p_may_skip=*/false).colors);
 }
 
 TEST_CASE("[GPU][TranslucentCasters] a translucent receiver spreads coloured light") {

@@ -26,6 +26,7 @@ bool is_in(const Bounds &p_bounds, const glm::dvec3 &p_point) {
 			glm::all(glm::lessThanEqual(p_point, p_bounds.maximum));
 }
 
+/// For a square image.
 bool is_seen(const CameraSnapshot &p_camera, const glm::dvec3 &p_point) {
 	const glm::dvec3 position =
 			glm::transpose(p_camera.world_from_camera) * (p_point - p_camera.position_world);
@@ -72,7 +73,8 @@ LightSnapshot make_random_light(Random &r_random) {
 
 } // namespace
 
-TEST_CASE("[Renderer] visible bounds contain the visible points of a box and are often smaller") {
+TEST_CASE("[VisibleReceivers] visible bounds contain the visible points of a box and are often "
+		  "smaller") {
 	Random random(3);
 	size_t seen_count = 0;
 	size_t smaller_count = 0;
@@ -98,11 +100,11 @@ TEST_CASE("[Renderer] visible bounds contain the visible points of a box and are
 		smaller_count += receivers.list.empty() ||
 				receivers.list[0].bounds_world.get_diagonal() < 0.9 * box.get_diagonal();
 	}
-	CHECK(seen_count > 300);
+	CHECK(seen_count > 300);	// of 1000 boxes
 	CHECK(smaller_count > 300); // returning the whole box would also pass the checks above
 }
 
-TEST_CASE("[Renderer] may_light_reach is false only for boxes of which no point is lit") {
+TEST_CASE("[VisibleReceivers] may_light_reach is false only for boxes of which no point is lit") {
 	Random random(5);
 	size_t lit_count = 0;
 	size_t missed_count = 0;
@@ -123,11 +125,12 @@ TEST_CASE("[Renderer] may_light_reach is false only for boxes of which no point 
 		missed_count += !may_light_reach(light, box);
 		CHECK((may_light_reach(light, box) || !is_any_lit));
 	}
-	CHECK(lit_count > 1000);
+	CHECK(lit_count > 1000); // of 3000: both results are frequent
 	CHECK(missed_count > 1000);
 }
 
-TEST_CASE("[Renderer] may_light_reach is true for a box that touches the light's range or cone") {
+TEST_CASE("[VisibleReceivers] may_light_reach is true for a box that touches the light's range or "
+		  "cone") {
 	LightSnapshot light;
 	light.range_m = 2.0f;
 	Bounds box;
@@ -138,7 +141,7 @@ TEST_CASE("[Renderer] may_light_reach is true for a box that touches the light's
 	CHECK_FALSE(may_light_reach(light, box));
 	light.type = LightType::SPOT; // shines along -Z; its cone just touches the next box's side
 	light.range_m = 0;
-	light.outer_cone_rad = 0.785398163f;
+	light.outer_cone_rad = 0.785398163f; // 45 degrees
 	Bounds neighbour;
 	neighbour.add(glm::dvec3(1, -0.5, -1));
 	neighbour.add(glm::dvec3(2, 0.5, 0.5));

@@ -37,8 +37,8 @@ Report run(const ReportOptions &p_options, ScriptedMaskSource &r_masks) {
 			make_report_plan(p_options, {}, make_scripted_techniques()), r_masks, store, {});
 }
 
-/// Returns a report with the first points of the sweep light_size for one technique, with these
-/// errors.
+/// Returns a report with the first points of the sweep light_size for one technique. p_errors:
+/// their penumbra MAE.
 Report make_light_size_report(const std::vector<double> &p_errors) {
 	Report report;
 	report.techniques.push_back({ "soft", "Soft", "Test", "#ff0000", false });
@@ -56,7 +56,7 @@ Report make_light_size_report(const std::vector<double> &p_errors) {
 		cell.status = ReportStatus::OK;
 		cell.error = ReportError();
 		cell.error->all.receiver.pixel_count = 1000;
-		cell.error->all.penumbra = { 500, p_errors[index], 0, 0, 0 };
+		cell.error->all.penumbra = { .pixel_count = 500, .mae = p_errors[index] };
 		cell.stability = ReportStability();
 		report.cells.push_back(cell);
 	}
@@ -94,7 +94,8 @@ TEST_CASE("[Stability] sweeps contain their centre and quick values, whose scene
 	CHECK(find_stability_sweep("no such sweep") == nullptr);
 }
 
-TEST_CASE("[Stability] the sweep scale multiplies lengths, and offset moves what the scene has") {
+TEST_CASE("[Stability] the sweep scale multiplies lengths, and offset moves everything in the "
+		  "scene") {
 	const auto snap = [](const char *p_sweep, double p_value) {
 		const StabilitySetup point = make_stability_setup(
 				*find_stability_sweep(p_sweep), LightType::SPOT, p_value, ReportExtent::QUICK);
@@ -129,6 +130,7 @@ TEST_CASE("[Stability] move_light moves the light by a thousandth of its radius"
 		const LightSnapshot &before = task.scene->lights[0];
 		const LightSnapshot &after = moved.scene->lights[0];
 		if (type == LightType::DIRECTIONAL) {
+			// Near 1, acos loses digits, so the tolerance is 1 %.
 			const double angle = std::acos(std::min(
 					1.0, glm::dot(before.get_direction_world(), after.get_direction_world())));
 			CHECK(angle ==
@@ -202,7 +204,7 @@ TEST_CASE("[Stability] a run measures every point and stores its results") {
 	CHECK(to_json(read) == to_json(report));
 }
 
-TEST_CASE("[Stability] visibility outside 0..1 and validation messages are failures") {
+TEST_CASE("[Stability] NaN, visibility outside 0..1 and validation messages are failures") {
 	for (const float value : { std::numeric_limits<float>::quiet_NaN(), -0.01f, 1.01f }) {
 		ScriptedMaskSource masks;
 		masks.invalid_value = value;
@@ -228,6 +230,7 @@ TEST_CASE("[Stability] an Error of the technique is a refusal with its message, 
 		CHECK(cell.stability->refusal == (cell.technique == "soft" ? "the device is sad" : ""));
 		CHECK(cell.error.has_value() == (cell.technique != "soft"));
 	}
+	// The second curve is that of "soft".
 	CHECK(find_stability_plots(report)[0].curves[1].points[0].state == StabilityState::REFUSED);
 }
 
@@ -240,7 +243,7 @@ TEST_CASE("[Stability] a lost device ends the run, and a resumed run measures th
 	masks.lose_device_after_draw_count = 2;
 	CHECK_THROWS_AS(run_report(plan, masks, store, {}), DeviceLost);
 	ScriptedMaskSource rest;
-	const Report report = run_report(plan, rest, store, { true, 0, 1 });
+	const Report report = run_report(plan, rest, store, { .resumes = true });
 	CHECK(report.count(ReportStatus::OK) > 5);
 	CHECK(report.count(ReportStatus::MISSING) == 0);
 	CHECK(rest.draw_count == plan.report.cells.size() - 2);
@@ -257,7 +260,8 @@ TEST_CASE("[Stability] each curve is measured by a single shard") {
 		const TemporaryFolder folder;
 		RecordStore store(folder.path);
 		ScriptedMaskSource masks;
-		const Report report = run_report(plan, masks, store, { false, shard, 3 });
+		const Report report = run_report(
+				plan, masks, store, { .resumes = false, .shard_index = shard, .shard_count = 3 });
 		for (const ReportCell &cell : report.cells) {
 			const ReportConfiguration &at = report.configurations[cell.configuration_index];
 			if (cell.is_ok()) {
@@ -265,7 +269,7 @@ TEST_CASE("[Stability] each curve is measured by a single shard") {
 			}
 		}
 	}
-	CHECK(shards.size() == 5);
+	CHECK(shards.size() == 5); // light_size with three types of light, the others with one
 	for (const auto &[curve, own] : shards) {
 		CHECK(own.size() == 1);
 	}
@@ -273,6 +277,7 @@ TEST_CASE("[Stability] each curve is measured by a single shard") {
 
 TEST_CASE("[Stability] the sweep scenes has a point per light of the project's scenes") {
 	ReportOptions options = make_options({ PROJECT_SCENES_SWEEP });
+	// Of each scene: triangles, lights, light size in metres. {}: loading did not fail.
 	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} },
 		{ "gone", nullptr, "the file is not there" },
 		{ "hall", make_scaling_scene({ 1100, 1, 0.3 }), {} } };
@@ -285,7 +290,8 @@ TEST_CASE("[Stability] the sweep scenes has a point per light of the project's s
 	CHECK(report.configurations[2].message == "the file is not there");
 	CHECK(report.configurations[2].status == ReportStatus::FAILED);
 	CHECK(report.configurations[3].light_size_m == doctest::Approx(0.3));
-	CHECK(report.count(ReportStatus::OK) == 6 + 3); // cells and references
+	// Of 3 lights: cells (two techniques) and references.
+	CHECK(report.count(ReportStatus::OK) == 6 + 3);
 
 	// Without a centre no error counts as doubled.
 	const std::vector<StabilityPlot> plots = find_stability_plots(report);
@@ -302,9 +308,9 @@ TEST_CASE("[Stability] the sweep scenes has a point per light of the project's s
 	CHECK(json[0]["series"][1]["points"][2]["label"] == "hall/Light 1");
 }
 
-TEST_CASE("[Stability] scenes of the project are drawn only if the sweep scenes is requested") {
+TEST_CASE("[Stability] scenes of the project are planned only if the sweep scenes is requested") {
 	ReportOptions options = make_options({ "scale" });
-	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} } };
+	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), /*failure=*/{} } };
 	for (const ReportConfiguration &configuration :
 			make_report_plan(options, {}, make_scripted_techniques()).report.configurations) {
 		CHECK(configuration.sweep == "scale");

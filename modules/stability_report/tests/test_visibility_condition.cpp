@@ -59,24 +59,30 @@ TEST_CASE("[Condition] behind a half plane, visibility is the visible fraction o
 TEST_CASE("[Condition] the cause of an error is the method, rounding or the reference") {
 	// Soft: v changes by about 1 over 0.4 m, 2 m from the light.
 	const HalfPlane soft(0.2);
-	const ConditionPoint point = { { -0.01f, 0, 0 }, UP, 0.53, 0.3 };
+	const ConditionPoint point = {
+		.position = { -0.01f, 0, 0 }, .normal = UP, .reference = 0.53, .error = 0.3
+	};
 	const VisibilityCondition smooth =
 			compute_visibility_condition(soft.scene, soft.get_light(), { &point, 1 });
-	CHECK(smooth.number < 100);
+	CHECK(smooth.number < 100); // 39 if one of 256 rays changes over the displacement 1e-4
 	CHECK(smooth.rounding < 0.02);
 	CHECK(smooth.reference_error < 0.03);
 	CHECK(smooth.error == 0.3);
 	CHECK(smooth.cause == ErrorCause::METHOD);
 	// A penumbra so narrow that rounding alone moves a receiver from light to shadow.
 	const HalfPlane sharp(1e-7);
-	const ConditionPoint edge = { { -1e-7f, 0, 0 }, UP, 1.0, 1.0 };
+	const ConditionPoint edge = {
+		.position = { -1e-7f, 0, 0 }, .normal = UP, .reference = 1.0, .error = 1.0
+	};
 	const VisibilityCondition stiff =
 			compute_visibility_condition(sharp.scene, sharp.get_light(), { &edge, 1 });
 	CHECK(stiff.number > 1e5);
 	CHECK(stiff.rounding == 1.0);
 	CHECK(stiff.cause == ErrorCause::ROUNDING);
 	// A wrong reference: dark at a lit point.
-	const ConditionPoint wrong_reference = { { -1.0f, 0, 0 }, UP, 0.0, 1.0 };
+	const ConditionPoint wrong_reference = {
+		.position = { -1.0f, 0, 0 }, .normal = UP, .reference = 0.0, .error = 1.0
+	};
 	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), { &wrong_reference, 1 })
 					.cause == ErrorCause::REFERENCE);
 	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), {}).error == 0.0);

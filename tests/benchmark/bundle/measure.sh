@@ -6,7 +6,7 @@ usage() {
     cat <<'TEXT'
 Usage: ./measure.sh [--quick | --all] [options]
   --quick         (default) errors and times of every technique in ten scenes, 512 x 512; on two CPU cores 8 minutes at most
-  --all           the same, and times at 1920 x 1080 and 3840 x 2160 in the study's scenes and courtyard
+  --all           the same, and times at 1920 x 1080 and 3840 x 2160 in the study's scenes, kitbash and courtyard
   --out DIR       where the results go (default: results, next to this script)
   --device NAME   Vulkan device, by name or index
   --scenes A,B    only these of the ten scenes
@@ -66,7 +66,8 @@ gnomon info --json >"$out/info.json"
 gnomon report "$here/project" --scenes "$scenes" --sizes own --settings default --size "$size" --scaling none --change none --stability none \
     --precision 0 --out "$out/report"
 
-# One light's passes in one scene, as an object of results.json. A technique that fails is null.
+# add_time SCENE SIZE TECHNIQUE SETTING: times the scene's first light and prints an object for results.json. Its time is null
+# if the program fails.
 add_time() {
     if gnomon visibility "$here/project/scenes/$1.gltf" --size "$2" --technique "$3" --time "$out/time.json" --out "$out/mask.exr" \
         ${4:+--set "$4"} >/dev/null 2>"$out/log"; then

@@ -1,11 +1,12 @@
 class_name AddonTest
 extends Node
-## Base class of the add-on's tests: makes study scenes, reads masks and collects failed checks.
+## Base class of the add-on's tests: makes study scenes (study/study_scene.gd), reads masks and collects failed checks.
+## Limits on numbers of pixels are of the 200 x 200 of the window.
 
 var failures := PackedStringArray()
 
 
-## Adds a failure with the text `what` unless the condition holds.
+## Adds the text `what`, which states the expectation, to the failures unless the condition holds.
 func check(condition: bool, what: String) -> void:
 	if not condition:
 		failures.append(what)
@@ -39,7 +40,8 @@ func read_settled(scene: StudyScene) -> Image:
 	return await read(scene)
 
 
-## Returns how many pixels differ by more than `tolerance`. If the sizes differ, all of them count.
+## Returns how many pixels of two one-channel float images differ by more than `tolerance`. If the sizes differ, returns the
+## number of bytes of the larger one.
 static func count_different(left: Image, right: Image, tolerance := 0.0) -> int:
 	if left.get_size() != right.get_size():
 		return maxi(left.get_data_size(), right.get_data_size())
@@ -51,7 +53,7 @@ static func count_different(left: Image, right: Image, tolerance := 0.0) -> int:
 	return count
 
 
-## Returns how many receivers have a visibility below `value`.
+## Returns how many receivers have a visibility below `value`. Pixels without a receiver are -1.
 static func count_darker(mask: Image, value := 0.5) -> int:
 	var count := 0
 	for visibility in mask.get_data().to_float32_array():

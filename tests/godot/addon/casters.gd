@@ -50,7 +50,7 @@ func test_shadows_only_and_double_sided_casters_cast() -> void:
 	await _check_same(both, "double-sided")
 	# Seen from a camera that does not draw the caster, both look the same.
 	var hide_from_camera := func(scene: StudyScene) -> void:
-		scene.caster.layers = 2
+		scene.caster.layers = 2  # a bit mask, like cull_mask: no common layer
 		scene.camera.cull_mask = 1
 	var only := func(scene: StudyScene) -> void: scene.caster.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_SHADOWS_ONLY
 	var expected := await _render(hide_from_camera)
@@ -115,6 +115,7 @@ func test_changes_of_cut_out_materials_update_the_mask() -> void:
 	remove(scene)
 
 
+## test_addon.py checks the warning.
 func test_cut_out_shaders_cast_whole_with_a_warning() -> void:
 	var shader := func(scene: StudyScene) -> void:
 		var material := ShaderMaterial.new()

@@ -1,5 +1,6 @@
 extends AddonTest
 ## How masks change the image: each light uses its own mask, together with Godot's own shadows.
+## "ours": with masks of the add-on.
 
 const SIZE := Vector2i(160, 120)
 const ROUNDING := 0.004 # rounding error of half floats with values of 1 and more
@@ -93,12 +94,13 @@ func test_another_light_keeps_the_shadow_of_godot() -> void:
 	var first := await _draw(viewport)
 	other.visible = true
 	ours.visible = false
-	ours.get_child(0).free()
+	ours.get_child(0).free()  # its GnomonShadow3D, the only one: now Godot draws alone
 	var second := await _draw(viewport)
-	check(_find_largest_difference(together, _add(first, second)) < 2 * ROUNDING, "%f" % _find_largest_difference(together, _add(first, second)))
+	check(_find_largest_difference(together, _add(first, second)) < 2 * ROUNDING, "the image of both lights is the sum of theirs: %f" % _find_largest_difference(together, _add(first, second)))
 	viewport.free()
 
 
+## The add-on cannot patch the shader of a material with a rim.
 func test_an_unpatched_receiver_keeps_the_shadow_of_godot() -> void:
 	for kind in ["omni", "spot", "directional"]:
 		var scene := StudyScene.create(kind, "box")
@@ -121,7 +123,8 @@ func test_an_unpatched_receiver_keeps_the_shadow_of_godot() -> void:
 			differing += int(absf(original[pixel] - mixed[pixel]) > ROUNDING)
 		var fraction := float(differing) / (SIZE.x * SIZE.y)
 		check(fraction < 0.02, "%s: %f of the image differ" % [kind, fraction])
-		check(scene.light.shadow_enabled and scene.light.light_specular == (1.0 if kind == "directional" else 0.5), "properties stay")
+		# 1 and 0.5 are Godot's defaults.
+		check(scene.light.shadow_enabled and scene.light.light_specular == (1.0 if kind == "directional" else 0.5), "the light's properties stay")
 		viewport.free()
 
 
@@ -137,15 +140,15 @@ func test_a_view_without_masks_has_the_shadow_of_godot() -> void:
 	scene.light.add_child(shadow)
 	check(_find_largest_difference(await _draw(viewport), original) < 2 * ROUNDING, "the image is Godot's")
 	scene.camera.set_perspective(45, 0.1, 50)
-	check(_find_largest_difference(await _draw(viewport), original) > 0.1, "the perspective shows another")
+	check(_find_largest_difference(await _draw(viewport), original) > 0.1, "a perspective camera shows another image")
 	scene.light.remove_child(shadow)
 	var soft := await _draw(viewport)
 	scene.light.add_child(shadow)
-	check(_find_largest_difference(await _draw(viewport), soft) > 0.1, "and has masks")
+	check(_find_largest_difference(await _draw(viewport), soft) > 0.1, "its image has masks")
 	viewport.free()
 
 
-## Sprites and labels without shading need no shadow; lit particles read masks.
+## A label is not shaded and needs no shadow; lit particles read masks. Only their own pixels change.
 func test_particles_and_labels_change_nothing_else() -> void:
 	var scene := StudyScene.create("omni", "box")
 	scene.light.shadow_enabled = true
@@ -247,5 +250,5 @@ void light() { DIFFUSE_LIGHT += LIGHT_COLOR * GNOMON_ATTENUATION * max(dot(NORMA
 		material.shader.code = shader_code
 		scene.get_node("Ground").material_override = material
 		images.append(await _draw(viewport))
-	check(_find_largest_difference(images[0], images[1]) < 2 * ROUNDING, "%f" % _find_largest_difference(images[0], images[1]))
+	check(_find_largest_difference(images[0], images[1]) < 2 * ROUNDING, "both shaders give the same image: %f" % _find_largest_difference(images[0], images[1]))
 	viewport.free()

@@ -41,7 +41,7 @@ static func make(look: String) -> Material:
 	material.albedo_color = Color(0.8, 0.5, 0.3)
 	material.roughness = 0.7
 	var parts := look.split("_")
-	match parts[0]:
+	match parts[0]:  # the first word identifies the effect
 		"rough":
 			material.roughness = float(parts[1])
 		"specular":

@@ -4,8 +4,9 @@ extends AddonTest
 const COLUMNS := 8
 const CELL_PX := 80
 const LIGHTS: Array[String] = ["sun", "sun_with_size", "omni", "omni_with_size", "spot", "spot_with_size"]
-const TOLERANCE := 1.0 / 255.0
+const TOLERANCE := 1.0 / 255.0  # one step of an 8-bit image
 const METAL_TOLERANCE := 2.0 / 255.0
+const SPHERE_RADIUS := 0.4  # in cells
 const MAX_IGNORED_FRACTION := 0.005 # of a material's pixels may differ by more
 
 var _looks: Array[String] = MaterialLooks.READS_MASKS + MaterialLooks.STAYS
@@ -55,14 +56,14 @@ func _add_spheres() -> void:
 	_viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
 	add_child(_viewport)
 	var camera := Camera3D.new()
-	camera.fov = rad_to_deg(2 * atan(rows / 40.0))
+	camera.fov = rad_to_deg(2 * atan(rows / 40.0))  # `rows` high at a distance of 20
 	_viewport.add_child(camera)
 	camera.look_at_from_position(Vector3(COLUMNS / 2.0, -rows / 2.0, 20), Vector3(COLUMNS / 2.0, -rows / 2.0, 0))
 	for index in _looks.size():
 		var sphere := MeshInstance3D.new()
 		sphere.mesh = SphereMesh.new()
-		sphere.mesh.radius = 0.4
-		sphere.mesh.height = 0.8
+		sphere.mesh.radius = SPHERE_RADIUS
+		sphere.mesh.height = 2 * SPHERE_RADIUS
 		sphere.material_override = MaterialLooks.make(_looks[index])
 		@warning_ignore("integer_division")
 		sphere.position = Vector3(index % COLUMNS + 0.5, -(index / COLUMNS) - 0.5, 0)
@@ -90,7 +91,7 @@ func _add_light(light: String) -> void:
 	_light.light_energy = 2
 	_light.light_specular = 0.7
 	_light.light_color = Color(1, 0.9, 0.7)
-	_light.shadow_caster_mask = 0
+	_light.shadow_caster_mask = 0  # nothing casts a shadow: all masks are 1
 	_viewport.add_child(_light)
 	_light.look_at_from_position(Vector3(7, -1, 5), Vector3(4, -2.5, 0))
 
@@ -109,8 +110,8 @@ func _compare_cell(original: Image, patched: Image) -> float:
 	var differences: Array[float] = []
 	for y in CELL_PX:
 		for x in CELL_PX:
-			var from := Vector2(x + 0.5, y + 0.5) / CELL_PX - Vector2(0.5, 0.5)
-			if from.length() < 0.4:
+			var offset := Vector2(x + 0.5, y + 0.5) / CELL_PX - Vector2(0.5, 0.5)
+			if offset.length() < SPHERE_RADIUS:
 				var a := original.get_pixel(x, y)
 				var b := patched.get_pixel(x, y)
 				differences.append(maxf(absf(a.r - b.r), maxf(absf(a.g - b.g), absf(a.b - b.b))))

@@ -7,18 +7,18 @@ const SCALE := "rendering/gnomon/mask_resolution_scale"
 
 func test_nodes_without_a_technique_use_the_project_setting() -> void:
 	var scene := add_study()
-	var exact := await read_settled(scene)
+	var with_edge_count := await read_settled(scene)
 	scene.shadow.technique = "pcss"
-	var searched := await read_settled(scene)
-	check(count_different(exact, searched, 0.02) > 100, "pcss differs")
+	var with_pcss := await read_settled(scene)
+	check(count_different(with_edge_count, with_pcss, 0.02) > 100, "pcss differs")
 	scene.shadow.technique = "default"
 	ProjectSettings.set_setting(TECHNIQUE, "pcss")
-	check(count_different(await read_settled(scene), searched) == 0, "the project's technique")
+	check(count_different(await read_settled(scene), with_pcss) == 0, "the project's technique")
 	scene.shadow.technique = "edge_count"
-	check(count_different(await read_settled(scene), exact) == 0, "the node's own technique")
+	check(count_different(await read_settled(scene), with_edge_count) == 0, "the node's own technique")
 	scene.shadow.technique = "default"
 	ProjectSettings.set_setting(TECHNIQUE, "nothing")
-	check(count_different(await read_settled(scene), exact) == 0, "edge_count for one that does not exist")
+	check(count_different(await read_settled(scene), with_edge_count) == 0, "edge_count for one that does not exist")
 	ProjectSettings.set_setting(TECHNIQUE, null)
 	remove(scene)
 
@@ -43,7 +43,7 @@ func test_masks_of_fewer_pixels_shadow_the_same_image() -> void:
 	get_viewport().use_hdr_2d = false
 	var shadowed := count_different(full, lit, 0.1)
 	check(shadowed > 1000, "there is a shadow")
-	check(count_different(half, full, 0.1) < 0.02 * shadowed, "%d pixels differ, %d of their shadow" % [count_different(half, full, 0.1), shadowed])
+	check(count_different(half, full, 0.1) < 0.02 * shadowed, "%d pixels differ, %d are in shadow" % [count_different(half, full, 0.1), shadowed])
 	remove(scene)
 
 

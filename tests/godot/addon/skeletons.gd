@@ -2,7 +2,7 @@ extends AddonTest
 ## Skeletons and blend shapes: the masks equal those of static meshes whose vertices are where Godot draws the deformed ones.
 
 const HEIGHT := 2.0  # of the column, m
-const ROW_COUNT := 12  # rows of quads
+const SUBDIVISIONS := 12  # of the column's height: 13 rows of quads
 const TOLERANCE := 2.0 / 255.0
 
 
@@ -18,7 +18,7 @@ class Bend:
 func _make_arrays(influences := 4, offset := Vector3.ZERO) -> Array:
 	var box := BoxMesh.new()
 	box.size = Vector3(0.5, HEIGHT, 0.3)
-	box.subdivide_height = ROW_COUNT
+	box.subdivide_height = SUBDIVISIONS
 	box.subdivide_width = 2
 	var arrays := box.get_mesh_arrays()
 	var positions: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
@@ -28,7 +28,7 @@ func _make_arrays(influences := 4, offset := Vector3.ZERO) -> Array:
 		positions[index].y += 0.5 * HEIGHT
 		positions[index] = positions[index].snapped(Vector3.ONE / 1024.0)  # adjacent faces have exactly the same positions
 		var blend := smoothstep(0.3, 1.7, positions[index].y)
-		# The tip's bone occurs twice. With eight influences the second one is among the last four.
+		# With eight influences, half of the weight of the tip's bone (2) is among the last four.
 		var of_vertex := [0, 1, 2, 0, 1, 2, 2, 0].slice(0, influences)
 		var tip := maxf(blend - 0.5, 0.0) * 0.8
 		var values := [1.0 - blend, blend - 2.0 * tip, tip, 0.0, 0.0, tip, 0.0, 0.0].slice(0, influences)
@@ -227,7 +227,7 @@ func test_blend_shapes_cast_where_they_are_drawn() -> void:
 
 func test_blend_shapes_come_before_bones() -> void:
 	var scene := add_study()
-	var skeleton := _skin_caster(scene, _make_blended(Mesh.BLEND_SHAPE_MODE_NORMALIZED, true))
+	_skin_caster(scene, _make_blended(Mesh.BLEND_SHAPE_MODE_NORMALIZED, true))
 	scene.caster.set_blend_shape_value(0, 0.5)
 	var found := await read_settled(scene)
 	# The same shape as a mesh without blend shapes, with the same bones.
@@ -240,7 +240,7 @@ func test_blend_shapes_come_before_bones() -> void:
 	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
 	scene.caster.mesh = mesh
 	var expected := await read_settled(scene)
-	check(count_darker(expected) > 300 and skeleton.get_bone_count() == 3, "it casts a shadow")
+	check(count_darker(expected) > 300, "it casts a shadow")
 	check(count_different(expected, found, TOLERANCE) < 20, "%d pixels differ" % count_different(expected, found, TOLERANCE))
 	remove(scene)
 
@@ -271,7 +271,7 @@ func test_holes_follow_the_bones() -> void:
 func test_levels_of_detail_are_posed() -> void:
 	var arrays := _make_arrays()
 	var indices: PackedInt32Array = arrays[Mesh.ARRAY_INDEX]
-	var levels := {0.2: indices.slice(indices.size() / 9 * 3)}  # the column with a hole: any other set of triangles would do
+	var levels := {0.2: indices.slice(indices.size() / 9 * 3)}  # edge length: indices. Without a third of the triangles; any other subset would do
 	var mesh := ArrayMesh.new()
 	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays, [], levels)
 	var scene := add_study()
@@ -299,5 +299,5 @@ func test_instances_of_one_skin_have_poses_of_their_own() -> void:
 	other.mesh = _bake_skeleton(other)
 	other.skin = null
 	other.skeleton = NodePath()
-	check(count_different(both, await read_settled(scene), TOLERANCE) < 20, "the second has its own pose")
-	await _check_skeleton(scene, "and so has the first")
+	check(count_different(both, await read_settled(scene), TOLERANCE) < 20, "the second instance has its own pose")
+	await _check_skeleton(scene, "the first instance")

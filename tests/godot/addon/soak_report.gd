@@ -1,5 +1,6 @@
 class_name SoakReport
 extends RefCounted
+## Resource counts of the soak tests, which test_soak.py compares between frames.
 
 
 ## Prints Godot's resource counts as "SOAK frame objects nodes resources textures_bytes buffers_bytes video_bytes memory_kib".

@@ -15,7 +15,7 @@ const CASES: Array[GDScript] = [
 
 
 func _ready() -> void:
-	DisplayServer.window_set_size(Vector2i(200, 200))
+	DisplayServer.window_set_size(Vector2i(200, 200))  # tests expect masks of this size
 	var requested := OS.get_cmdline_user_args()
 	for script in CASES:
 		for method in script.get_script_method_list():

@@ -2,7 +2,7 @@ extends AddonTest
 ## Decals, fog, global illumination, and physics interpolation around lights with masks.
 
 const SIZE := Vector2i(160, 120)
-const ROUNDING := 0.004 # about 1/255, one step of an 8-bit image
+const ROUNDING := 0.004 # rounding error of half floats with values of 1 and more, as in lights.gd
 
 
 func _draw(viewport: SubViewport, frames := 4) -> PackedFloat32Array:
@@ -38,7 +38,7 @@ func _get_environment(scene: StudyScene) -> Environment:
 	return (scene.find_children("*", "WorldEnvironment", true, false)[0] as WorldEnvironment).environment
 
 
-## Draws with Godot's shadow only, and with ours. The light's shadow is enabled in both.
+## Draws with Godot's shadow only, and with the add-on's. The light's shadow is enabled in both.
 func _draw_both(scene: StudyScene, frames := 4) -> Array[PackedFloat32Array]:
 	scene.light.shadow_enabled = true
 	var viewport := _add_linear(scene)
@@ -121,8 +121,8 @@ func test_a_mask_is_made_where_a_surface_reads_it() -> void:
 	for node in ["Ground", "Caster"]:
 		scene.get_node(node).material_override = unshaded
 	await draw_frames(3)
-	check(not scene.shadow.makes_mask(), "nothing takes light")
-	var larger := SubViewport.new() # larger than any before: without masks no textures of this size are allocated
+	check(not scene.shadow.makes_mask(), "no surface is lit")
+	var larger := SubViewport.new() # without masks no textures of its size are allocated; nothing may be logged
 	larger.size = Vector2i(640, 480)
 	larger.render_target_update_mode = SubViewport.UPDATE_ALWAYS
 	larger.add_child(scene.camera.duplicate())
@@ -135,7 +135,7 @@ func test_a_mask_is_made_where_a_surface_reads_it() -> void:
 	scene.shadow.show_mask = false
 	scene.get_node("Ground").material_override = null
 	await draw_frames(2)
-	check(scene.shadow.makes_mask(), "the ground takes light again")
+	check(scene.shadow.makes_mask(), "the ground is lit again")
 	scene.light.light_cull_mask = 2
 	await draw_frames(2)
 	check(not scene.shadow.makes_mask(), "the light shines on other layers")
@@ -189,7 +189,7 @@ func test_physics_interpolation_moves_masks_too() -> void:
 			break
 	get_tree().physics_interpolation = false
 	Engine.physics_ticks_per_second = ticks
-	check(absf(drawn[0].origin.x) < 0.5, "no frame between two ticks was drawn")
+	check(absf(drawn[0].origin.x) < 0.5, "a frame between two ticks was drawn")
 	for index in 2:
 		nodes[index].global_transform = drawn[index]
 	check(count_different(found, await read_settled(scene), 0.01) < 20, "%d pixels differ" % count_different(found, await read(scene), 0.01))

@@ -2,6 +2,7 @@ extends AddonTest
 ## Masks in viewports of every kind: several views, scaling, multisampling, compositors, levels of detail, TAA.
 
 
+## An effect of the user, which counts the frames in which it runs.
 class CountingEffect:
 	extends CompositorEffect
 	var calls := 0
@@ -119,7 +120,7 @@ func test_the_mask_is_shown_over_the_image() -> void:
 		image.convert(Image.FORMAT_RF)
 		get_viewport().use_hdr_2d = false
 		get_viewport().msaa_3d = Viewport.MSAA_DISABLED
-		for index in mask.get_width() * mask.get_height():
+		for index in mask.get_width() * mask.get_height():  # pixels without a receiver, -1, are shown black
 			mask.set_pixel(index % mask.get_width(), index / mask.get_width(), Color(maxf(mask.get_pixel(index % mask.get_width(), index / mask.get_width()).r, 0.0), 0, 0))
 		check(count_different(mask, image, 0.002) == 0, "msaa %d: %d pixels differ" % [msaa, count_different(mask, image, 0.002)])
 		remove(scene)
@@ -144,12 +145,13 @@ func test_effects_of_the_user_stay() -> void:
 		await draw_frames(2)
 		var calls := effect.calls
 		await draw_frames(2)
-		check(effect.calls == calls + 2, "and goes on where ours is gone")
-		check(compositor.compositor_effects.size() == 1, "the resource has its one effect")
+		check(effect.calls == calls + 2, "it runs on without the add-on's effect")
+		check(compositor.compositor_effects.size() == 1, "the user's resource has only its own effect")
 		remove(scene)
 		await draw_frames(1)
 
 
+## test_addon.py counts the message.
 func test_orthogonal_cameras_are_refused_with_one_message() -> void:
 	var scene := add_study()
 	scene.camera.projection = Camera3D.PROJECTION_ORTHOGONAL

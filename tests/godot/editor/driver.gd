@@ -5,7 +5,7 @@ extends EditorPlugin
 
 const SCENE := "res://lamp.tscn"
 const SETTLED_FRAMES := 12
-const SCENE_LAYERS := 0xfffff
+const SCENE_LAYERS := 0xfffff  # the 20 layers that a user can choose
 
 var _light: OmniLight3D
 
@@ -31,7 +31,7 @@ func _run() -> void:
 	_report("the_viewport_shows_the_shadow", _count_darker(before, ticked) > 500)
 	await _drag_size()
 	_undo()
-	_report("undo_takes_the_size_back", is_equal_approx(_light.light_size, 0.2))
+	_report("undo_takes_the_size_back", is_equal_approx(_light.light_size, 0.2))  # as in lamp.tscn
 	(await _look()).save_png("res://undone.png")
 	_report("the_image_is_the_one_before", (await _look()).get_data() == ticked.get_data())
 	_undo()
@@ -168,4 +168,4 @@ func _redo() -> void:
 func _report_saved() -> void:
 	var saved := FileAccess.get_file_as_string(SCENE)
 	_report("the_saved_scene_has_the_node", "type=\"GnomonShadow3D\" parent=\"Light\"" in saved)
-	_report("the_saved_light_is_the_users", not "light_specular" in saved and not "shadow_enabled" in saved and not "visible" in saved)
+	_report("the_saved_light_has_no_changes_of_the_addon", not "light_specular" in saved and not "shadow_enabled" in saved and not "visible" in saved)

@@ -20,7 +20,7 @@ static func store(name: String, viewport: Viewport, scene: Node, light: Light3D)
 	shadow.visible = true
 	viewport.use_hdr_2d = false
 	await _settle(viewport)
-	var copy := scene.duplicate(0)  # includes unsaved changes
+	var copy := scene.duplicate(0)  # includes unsaved changes; 0: no signals, groups or scripts
 	var seen := viewport.get_camera_3d()
 	var camera := Camera3D.new()
 	camera.name = "ViewCamera"

@@ -4,6 +4,7 @@ extends EditorPlugin
 ## shadows themselves are made by the add-on's library, in the editor and in games.
 
 const ENABLED := "rendering/gnomon/enabled"
+# Names, defaults and ranges as in modules/godot_addon/addon_settings.cpp, which checks the values.
 const SETTINGS: Array[Dictionary] = [
 	{"name": ENABLED, "type": TYPE_BOOL, "value": true},
 	{"name": "rendering/gnomon/most_lights", "type": TYPE_INT, "value": 16, "hint": PROPERTY_HINT_RANGE, "hint_string": "1,63"},
@@ -65,13 +66,15 @@ func _disable_plugin() -> void:
 func _set_enabled(is_enabled: bool) -> void:
 	ProjectSettings.set_setting(ENABLED, is_enabled)
 	ProjectSettings.save()
-	RenderingServer.force_draw.call_deferred(false) # else the editor draws only when the scene changes
+	# Without this the editor draws only when the scene changes. false: the buffers are not swapped.
+	RenderingServer.force_draw.call_deferred(false)
 
 
 ## Makes the gizmos of lights in the scene that is open already. Once the gizmo plugin is removed, clears them.
 func _make_gizmos() -> void:
 	var root := EditorInterface.get_edited_scene_root()
 	if root:
+		# Recursive, and also without owner: lights that scripts have added.
 		for light: Light3D in root.find_children("*", "Light3D", true, false):
 			light.clear_gizmos()
 			light.update_gizmos()

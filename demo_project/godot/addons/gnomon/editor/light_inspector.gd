@@ -41,16 +41,16 @@ class ShadowCheckBox:
 		light.child_order_changed.disconnect(_update_property)
 
 	func _update_property() -> void:
-		_box.set_pressed_no_signal(_find() != null)
+		_box.set_pressed_no_signal(_find_shadow() != null)
 
-	func _find() -> Node:
+	func _find_shadow() -> Node:
 		for child in light.get_children():
 			if child.is_class(CLASS):
 				return child
 		return null
 
 	func _toggle() -> void:
-		var shadow := _find()
+		var shadow := _find_shadow()
 		if shadow:
 			undo_redo.create_action("Remove Gnomon Shadow")
 			undo_redo.add_do_method(light, "remove_child", shadow)

@@ -8,7 +8,9 @@ const SIZE := "light_size"
 const ANGLE := "light_angular_distance"
 const CIRCLE_POINTS := 48
 const CONE_LENGTH := 2.0 # of a directional light's cone, in metres
-const HANDLE := Vector3(0.7071068, -0.7071068, 0) # its direction, away from the axes of the editor's move gizmo
+const HANDLE_DIRECTION := Vector3(0.7071068, -0.7071068, 0) # away from the axes of the editor's move gizmo
+const MAX_HANDLE_DISTANCE := 1000.0 # in metres, to which the handle can be dragged
+const MOUSE_RAY_LENGTH := 10000.0 # in metres
 
 var undo_redo: EditorUndoRedoManager
 
@@ -48,16 +50,17 @@ func _redraw(gizmo: EditorNode3DGizmo) -> void:
 		for quarter in 4:
 			@warning_ignore("integer_division")
 			lines.append_array([Vector3.ZERO, rim[2 * quarter * (CIRCLE_POINTS / 4)]])
-		handle = HANDLE * radius + Vector3.BACK * CONE_LENGTH
+		handle = HANDLE_DIRECTION * radius + Vector3.BACK * CONE_LENGTH
 	else:
 		var size := light.light_size
 		for axes: Array in [[Vector3.RIGHT, Vector3.UP], [Vector3.UP, Vector3.BACK], [Vector3.BACK, Vector3.RIGHT]]:
 			lines.append_array(_make_circle(axes[0] * size, axes[1] * size, Vector3.ZERO))
-		handle = HANDLE * size
+		handle = HANDLE_DIRECTION * size
 	gizmo.add_lines(lines, get_material("lines", gizmo))
 	gizmo.add_handles(PackedVector3Array([handle]), get_material("handles", gizmo), [])
 
 
+## Returns CIRCLE_POINTS line segments, each as two points. first, second: perpendicular radii of the circle.
 static func _make_circle(first: Vector3, second: Vector3, center: Vector3) -> PackedVector3Array:
 	var lines := PackedVector3Array()
 	for point in CIRCLE_POINTS:
@@ -83,8 +86,10 @@ func _set_handle(gizmo: EditorNode3DGizmo, _handle: int, _secondary: bool, camer
 	var ray := [camera.project_ray_origin(mouse), camera.project_ray_normal(mouse)]
 	var is_sun := light is DirectionalLight3D
 	var start := pose * Vector3(0, 0, CONE_LENGTH if is_sun else 0.0)
-	var points := Geometry3D.get_closest_points_between_segments(start, start + pose.basis * HANDLE * 1000, ray[0], ray[0] + ray[1] * 10000)
+	var end := start + pose.basis * HANDLE_DIRECTION * MAX_HANDLE_DISTANCE
+	var points := Geometry3D.get_closest_points_between_segments(start, end, ray[0], ray[0] + ray[1] * MOUSE_RAY_LENGTH)
 	var radius := points[0].distance_to(start)
+	# Rounded to the steps that Godot's inspector has for these properties.
 	if is_sun:
 		light.light_angular_distance = snappedf(clampf(rad_to_deg(2 * atan(radius / CONE_LENGTH)), 0, 90), 0.01)
 	else:
