@@ -144,12 +144,14 @@ bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const vec3 edge_direction = b * d_a - a * d_b;
 	const float direction_length = length(edge_direction);
 	const float scaled_distance = abs(dot(p_to_light, cross(a, b)));
-	const bool is_outside_disc =
-			scaled_distance > inverse_distance * (radius * direction_length + ROUNDING * length_a * length_b);
+	// Upper bound of the rounding errors of edge_direction, whose terms cancel for a short edge, and of scaled_distance.
+	const float rounding = ROUNDING * inverse_distance * length_a * length_b;
+	const bool is_outside_disc = scaled_distance > inverse_distance * radius * direction_length + rounding;
 	// Along its line, the edge starts past the disc, or ends before it.
 	const bool is_beyond = min(d_a, d_b) > 0.0 &&
-			(dot(a, edge_direction) > direction_length * (radius * d_a + ROUNDING * length_a) ||
-					dot(b, edge_direction) < -direction_length * (radius * d_b + ROUNDING * length_b));
+			(dot(a, edge_direction) > direction_length * (radius * d_a + ROUNDING * length_a) + rounding * length_a ||
+					dot(b, edge_direction) <
+							-direction_length * (radius * d_b + ROUNDING * length_b) - rounding * length_b);
 	const bool is_below = max(d_a, d_b) <= 0.0;
 	const bool is_above = !IS_DIRECTIONAL && min(d_a, d_b) > 1.001;
 	return !is_outside_disc && !is_beyond && !is_below && !is_above;
