@@ -10,12 +10,14 @@ namespace gnomon {
 inline constexpr uint32_t MAX_IMAGE_SIZE_PX = 16384;
 /// Largest supersampling factor of an image: samples per pixel along each axis.
 inline constexpr uint32_t MAX_ANTIALIASING = 4;
-/// Largest length that a user may set, in metres: light sizes, penumbra widths, material distances.
+/// Largest light size, penumbra width and material distance that a user may set, in metres.
 inline constexpr double MAX_LENGTH_M = 1e4;
-/// The range of such a length as a PropertyInfo::hint: minimum, maximum and step (1 cm), in metres.
+/// The range of light sizes and penumbra widths as a PropertyInfo::hint: minimum, maximum and step
+/// (1 cm), in metres.
 inline constexpr const char *LENGTH_HINT = "0,10000,0.01";
-/// Resources that were not used for this many frames are freed. The delay avoids recreating them
-/// when a camera or light turns away for a short time.
+/// GPU resources of the render graph, the shadow system and the device inside Godot are freed when
+/// they were not used for this many frames. The delay avoids recreating them when a camera or light
+/// turns away for a short time.
 inline constexpr uint64_t MAX_UNUSED_FRAMES = 60;
 
 } // namespace gnomon

@@ -48,10 +48,10 @@ struct ReportComparison {
 ///
 /// Times are compared as ratios to the baseline of their own report, so that a slower machine alone
 /// is no difference. A ratio differs if it changes by more than 15 %, and by more than the sum of
-/// the relative spreads (90th percentile minus median, divided by the median) of all times in it.
-/// Times of the baseline and of cells without a baseline are compared in milliseconds, only if
-/// measured on the same machine. They differ if they change by more than 30 % and by more than the
-/// sum of the spreads.
+/// the relative spreads (90th percentile minus median, divided by the median) of its times: those
+/// of cell and baseline in both reports. Times of the baseline and of cells without a baseline are
+/// compared in milliseconds, only if measured on the same machine. They differ if they change by
+/// more than 30 % and by more than the sum of the spreads.
 ReportComparison compare_reports(const Report &p_old, const Report &p_new);
 
 /// Returns the value of "against" in report.json.

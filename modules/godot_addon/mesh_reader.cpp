@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t MAX_UNUSED_FRAMES = 600; // 10 s at 60 frames per second
+const uint64_t MAX_UNUSED_MESH_FRAMES = 600; // 10 s at 60 frames per second
 
 /// Returns the primitive type of a surface. ArrayMesh and PrimitiveMesh need no copy from the GPU
 /// for it.
@@ -158,7 +158,7 @@ void MeshReader::forget_unused() {
 	++frame;
 	std::erase_if(entries, [&](const auto &p_entry) {
 		return !p_entry.second.watched->is_alive() ||
-				frame - p_entry.second.last_use > MAX_UNUSED_FRAMES;
+				frame - p_entry.second.last_use > MAX_UNUSED_MESH_FRAMES;
 	});
 	std::erase_if(cut_meshes, [](const auto &p_entry) { return p_entry.second.expired(); });
 	worker.forget_unused();

@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t MAX_UNUSED_FRAMES = 600; // 10 s at 60 frames per second
+const uint64_t MAX_UNUSED_POSE_FRAMES = 600; // 10 s at 60 frames per second
 
 std::vector<float> read_weights(const godot::MeshInstance3D &p_node) {
 	std::vector<float> weights(size_t(p_node.get_blend_shape_count()));
@@ -66,7 +66,7 @@ void PoseReader::end_frame() {
 	skeletons.clear();
 	++frame;
 	std::erase_if(entries, [&](const auto &p_entry) {
-		return frame - p_entry.second.last_use > MAX_UNUSED_FRAMES ||
+		return frame - p_entry.second.last_use > MAX_UNUSED_POSE_FRAMES ||
 				godot::get_instance(p_entry.first.first) == nullptr;
 	});
 }

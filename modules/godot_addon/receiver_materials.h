@@ -9,7 +9,8 @@
 namespace gnomon {
 
 /// Replaces the shaders of materials in use by copies whose light() reads masks. This changes only
-/// materials of the RenderingServer, no resource and no scene. Main thread only.
+/// materials, and surfaces of meshes without a material, of the RenderingServer; no resource and no
+/// scene. Main thread only.
 ///
 /// Godot returns the generated shader of a BaseMaterial3D only to its native shader viewer:
 /// inspect_native_shader_code() calls the nodes of the viewer's group before the next frame.
@@ -21,7 +22,8 @@ public:
 	ReceiverMaterials(const ReceiverMaterials &) = delete;
 	ReceiverMaterials &operator=(const ReceiverMaterials &) = delete;
 
-	/// Call before the use() calls of a frame. Frees copies that no material uses.
+	/// Call before the use() calls of a frame. Takes over the shaders that Godot returned since
+	/// end_frame(), and frees copies that no material uses.
 	void begin_frame();
 	/// Makes p_material, and its next passes, read masks if possible. p_owner: the node, for
 	/// messages. Returns GODOT if the material is not supported, with one warning, and while the
@@ -63,8 +65,8 @@ private:
 	godot::RenderingServer server;
 	std::map<uint64_t, MaterialState> materials; // by material id
 	std::map<godot::RID, Copy> copies;			 // by original shader
-	std::vector<uint64_t> queried;				 // ids of materials, in the order of their shaders
-	std::vector<godot::RID> inspected_shaders;
+	std::vector<uint64_t> queried; // ids of materials whose shaders end_frame() queried
+	std::vector<godot::RID> inspected_shaders; // of `queried`, in its order; fewer: none is used
 	int incomplete_frames = 0; // consecutive frames in which shaders were missing
 	godot::RID bare_shader;
 	godot::RID bare_material;

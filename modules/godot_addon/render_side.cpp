@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t MAX_UNUSED_FRAMES = 120; // of views that are no longer drawn
+const uint64_t MAX_UNUSED_VIEW_FRAMES = 120;
 
 } // namespace
 
@@ -88,7 +88,7 @@ void RenderSide::record_failure(const std::exception &p_failure) {
 
 void RenderSide::forget_unused(uint64_t p_frame) {
 	std::erase_if(views, [&](const auto &p_entry) {
-		return p_frame - p_entry.second->last_use > MAX_UNUSED_FRAMES ||
+		return p_frame - p_entry.second->last_use > MAX_UNUSED_VIEW_FRAMES ||
 				godot::get_instance(p_entry.first) == nullptr;
 	});
 }

@@ -64,9 +64,8 @@ const ShadowTechnique::DebugView *choose_debug_view(
 	}
 	if (ids.empty()) {
 		fail("Debug view \"", p_request.id,
-				"\": no light in view has a shadow. `gnomon run --plan` lists why; see "
-				"shadow_enabled, "
-				"intensity and range of the lights.");
+				"\": no light casts a shadow. Set shadow_enabled of a light, or enable a technique; "
+				"`gnomon run --plan` lists why.");
 	}
 	if (p_request.id == ERROR_VIEW && !p_request.has_reference) {
 		fail("Debug view \"error\": no reference is loaded. Make one with `gnomon visibility SCENE "

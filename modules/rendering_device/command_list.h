@@ -65,7 +65,8 @@ public:
 	virtual void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) = 0;
 	/// The GPU skips draws and dispatches until end_conditional if the uint32 in the buffer at the
 	/// offset is 0 when it executes them. Both calls are inside the same begin_rendering ..
-	/// end_rendering, or both outside of any. Needs DeviceFeatures::conditional_rendering.
+	/// end_rendering, or outside with no begin_rendering between them. Needs
+	/// DeviceFeatures::conditional_rendering.
 	virtual void begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes = 0) = 0;
 	virtual void end_conditional() = 0;
 	virtual void dispatch(glm::uvec3 p_group_count) = 0;

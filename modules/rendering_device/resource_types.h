@@ -288,8 +288,8 @@ struct Barrier {
 	TextureRID texture;
 	Access before = Access::NONE; // NONE on a texture: its content is discarded
 	Access after = Access::NONE;
-	/// With before == NONE, for a texture in aliased memory: the last accesses to the textures that
-	/// used the memory before.
+	/// With before == NONE, for a texture or buffer that reuses the memory of others: the last
+	/// accesses to those.
 	std::vector<Access> earlier_users;
 };
 

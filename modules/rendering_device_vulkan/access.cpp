@@ -123,6 +123,7 @@ Dependency compute_dependency(const Barrier &p_barrier) {
 			dependency.source_stages |= get_access_scope(user).stages;
 			dependency.source_access |= get_write_access(user);
 		}
+		// A buffer without earlier users needs nothing: the full barrier suffices.
 		dependency.is_needed = is_texture || !p_barrier.earlier_users.empty();
 		return dependency;
 	}

@@ -101,7 +101,7 @@ void VulkanCommandList::begin_rendering_of_size(
 		.pColorAttachments = colors.data(),
 		.pDepthAttachment = p_depth ? &depth : nullptr,
 		.pStencilAttachment = has_target_stencil ? &depth : nullptr };
-	GNOMON_ASSERT(!is_conditional, "begin_rendering before end_conditional");
+	GNOMON_ASSERT(!is_conditional, "begin_rendering between begin_conditional and end_conditional");
 	vkCmdBeginRendering(commands, &info);
 	is_rendering = true;
 	set_viewport(glm::uvec2(0), p_size_px);

@@ -27,7 +27,7 @@ struct ReceiverPoint {
 	float spread_radius_m = 0.0f;
 };
 
-/// Parameters of CasterScene::compute.
+/// Parameters of CasterScene::compute (caster_scene.h).
 struct VisibilityOptions {
 	float scene_size_m = 1.0f;	  // S; rays start RECEIVER_OFFSET (5e-5) S off the surface
 	uint32_t sample_count = 1024; // rays per pixel, 1..65536
@@ -42,7 +42,7 @@ struct VisibilityOptions {
 	const SpreadVisibility *spread = nullptr;
 };
 
-/// Result of CasterScene::compute.
+/// Result of CasterScene::compute (caster_scene.h).
 struct VisibilityResult : ReferenceVisibility {
 	uint64_t ray_count = 0;
 	bool is_complete = false; // false when cancelled; pixels not reached are then 0

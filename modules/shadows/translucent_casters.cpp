@@ -8,7 +8,8 @@ namespace gnomon {
 namespace {
 
 /// Bounds of the volume that a caster darkens: a cone from the light's centre, or, for a
-/// directional light, a cylinder along its direction.
+/// directional light, a cylinder along its direction, which may_overlap widens by the light's
+/// angle.
 struct ShadowBounds {
 	/// The cone's axis, unit, away from the light. Directional: the caster's centre.
 	glm::dvec3 axis_or_centre = glm::dvec3(0.0);
@@ -32,8 +33,9 @@ ShadowBounds compute_shadow_bounds(const LightSnapshot &p_light, const Bounds &p
 	shadow.is_everywhere = !(shadow.radius_m + light_radius < distance);
 	if (!shadow.is_everywhere) {
 		shadow.axis_or_centre = to_caster / distance;
-		// Rays from the light's rim through the caster leave the cone from the light's centre by up
-		// to the second angle.
+		// The first angle bounds the directions of rays from the light's disc through the caster.
+		// Seen from the light's centre, a point on such a ray behind the caster deviates from the
+		// ray's direction by up to the second.
 		const double half_rad = std::asin((shadow.radius_m + light_radius) / distance) +
 				std::asin(std::min(1.0, light_radius / (distance - shadow.radius_m)));
 		shadow.is_everywhere = half_rad >= 1.57; // pi / 2, rounded down

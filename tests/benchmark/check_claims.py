@@ -31,7 +31,7 @@ GROUPS = {
         "0.08,0.4", "0.0013", "0.064", 0.5,
     ),
     "pierced": ("kitbash,rigging,grass", "0.08,0.4", "0.0024", "0.11", 0.5),
-    "courtyard": ("courtyard", "own", "0.0032", "0.074", 3),
+    "courtyard": ("courtyard", "own", "0.0035", "0.074", 3),
 }  # fmt: skip
 
 

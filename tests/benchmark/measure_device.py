@@ -2,7 +2,7 @@
 """Times the techniques of TECHNIQUES on this machine's device at screen resolutions, and compares their masks with the reference.
 
     measure_device.py [--write] [--out FILE.json] [--device NAME] [--scenes A,B] [--sizes 1920x1080,3840x2160]
-    measure_device.py --from FILE.json [--write]   writes the tables of an earlier run's --out, measures nothing
+    measure_device.py --from FILE.json --write   writes the tables of an earlier run's --out, measures nothing
 
 Scenes are those of demo_project/scenes with their first light, at its own size. Times are sums of the passes' GPU times, as medians of 20
 frames in which everything moves. Errors are those of 512 x 512 masks. --write puts the tables into doc/benchmarks.md between

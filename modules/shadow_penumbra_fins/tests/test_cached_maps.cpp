@@ -147,7 +147,8 @@ TEST_CASE("[GPU][PenumbraFins] fins of a caster outside an omni light's view rea
 			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
 	const MaskResult rotated_light = render(fixture, scene);
 	CHECK(compute_mask_difference(omni, rotated_light) < 0.001);
-	// The fins do darken the downward view, which extends 45 degrees to each side of straight down.
+	// The fins do darken the downward view of the light before its rotation: that view contains the
+	// whole ground, 3 m to each side, since it reaches 3.2 m to each side.
 	scene.light->properties["penumbra_outer_width"] = 0.0;
 	CHECK(compute_mask_difference(render(fixture, scene), omni) > 0.004);
 }

@@ -1,6 +1,6 @@
 class_name AddonTest
 extends Node
-## Base class of the add-on's tests: makes study scenes (study/study_scene.gd), reads masks and collects failed checks.
+## Base class of the add-on's tests: makes study scenes (demo_project/godot/study), reads masks and collects failed checks.
 ## Limits on numbers of pixels are of the 200 x 200 of the window.
 
 var failures := PackedStringArray()
