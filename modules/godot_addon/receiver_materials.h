@@ -65,9 +65,9 @@ private:
 	godot::RenderingServer server;
 	std::map<uint64_t, MaterialState> materials; // by material id
 	std::map<godot::RID, Copy> copies;			 // by original shader
-	std::vector<uint64_t> queried; // ids of materials whose shaders end_frame() queried
+	std::vector<uint64_t> queried;			   // ids of materials whose shaders end_frame() queried
 	std::vector<godot::RID> inspected_shaders; // of `queried`, in its order; fewer: none is used
-	int incomplete_frames = 0; // consecutive frames in which shaders were missing
+	int incomplete_frames = 0;				   // consecutive frames in which shaders were missing
 	godot::RID bare_shader;
 	godot::RID bare_material;
 	std::set<uint64_t> bare_meshes; // mesh ids

@@ -64,7 +64,8 @@ const ShadowTechnique::DebugView *choose_debug_view(
 	}
 	if (ids.empty()) {
 		fail("Debug view \"", p_request.id,
-				"\": no light casts a shadow. Set shadow_enabled of a light, or enable a technique; "
+				"\": no light casts a shadow. Set shadow_enabled of a light, or enable a "
+				"technique; "
 				"`gnomon run --plan` lists why.");
 	}
 	if (p_request.id == ERROR_VIEW && !p_request.has_reference) {

@@ -51,8 +51,8 @@ void draw_table(EditorContext &r_context) {
 		ImGui::TableSetupColumn(heading, ImGuiTableColumnFlags_WidthStretch, weight);
 	}
 	ImGui::TableHeadersRow();
-	// A copy, so that all rows of a frame show the state before a click, which can also switch other
-	// modules of the list.
+	// A copy, so that all rows of a frame show the state before a click, which can also switch
+	// other modules of the list.
 	const std::vector<ModuleInfo> modules = ModuleRegistry::get_modules();
 	for (const ModuleInfo &module : modules) {
 		if (module.can_disable && !module.is_example) {
