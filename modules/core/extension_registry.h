@@ -10,7 +10,8 @@ namespace gnomon {
 
 /// A registry of extensions of one kind, such as commands or techniques. Modules add entries when
 /// they start and remove them when they stop. Entries stay in the order of addition. Info must have
-/// a string member `id` that is unique within the registry. Main thread only.
+/// a string member `id` that is unique within the registry. Entries are added and removed on the
+/// main thread only. Others may read while the main thread waits for them.
 template <typename Info> class ExtensionRegistry {
 public:
 	/// Adds an entry. An id that is already registered is a programming error.

@@ -33,9 +33,9 @@ std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const C
 const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &p_name);
 
 /// Returns true if the light's disc, which faces the surface point p_position, is entirely above
-/// the tangent plane of the surface there. Positions and the unit normal are in the same space. For
-/// a directional light p_light_position is ignored. In the matrix, ReportError::whole_light has
-/// only such pixels.
+/// the tangent plane of the surface there. Positions have one origin, such as the world's or the
+/// camera's; they and the unit normal have the world's axes. For a directional light
+/// p_light_position is ignored. In the matrix, ReportError::whole_light has only such pixels.
 bool is_light_disc_above_horizon(const LightSnapshot &p_light, const glm::vec3 &p_light_position,
 		const glm::vec3 &p_position, const glm::vec3 &p_normal);
 

@@ -162,7 +162,8 @@ public:
 	std::unique_ptr<Node3D> copy() const override;
 	void assign(const Node3D &p_other) override;
 	/// light_size, light_angular_distance, shadow_enabled, shadow_technique, penumbra_outer_width,
-	/// penumbra_inner_width: the properties that every technique supports (doc/scene_files.md).
+	/// penumbra_inner_width: the properties that every light has. A technique ignores those that it
+	/// has no use for (doc/scene_files.md).
 	static const PropertyList &get_property_list();
 };
 

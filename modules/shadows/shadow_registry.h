@@ -48,9 +48,9 @@ public:
 
 	static void add(ShadowTechniqueInfo p_info);
 	static void remove(std::string_view p_id);
-	/// The settings of a technique, which must be registered: how it computes, for all lights. No
-	/// value changes the mask that it approximates. Set in project.cfg under [technique.ID], or on
-	/// the command line with --set technique.ID.NAME=value.
+	/// The settings of a technique, which must be registered: how it computes, for all lights. They
+	/// change time or memory, not the mask, except those for tests (TEST_SETTINGS_GROUP). Set in
+	/// project.cfg under [technique.ID], or on the command line with --set technique.ID.NAME=value.
 	static const PropertyList &get_settings(std::string_view p_id);
 	/// The values of all settings of a technique, as set or by default.
 	static const PropertyValues &get_setting_values(std::string_view p_id);

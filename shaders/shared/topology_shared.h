@@ -9,9 +9,10 @@
 // Flag in TopologyEdge::opposite1: the edge's connected part of the mesh is not closed, or is
 // inside out. Boundaries have it, too, which is correct: their part is not closed.
 #define TOPOLOGY_EDGE_NOT_SOLID 0x40000000u
-// Flags of a face. Edge i connects its corners i and i + 1. Bit i: the face owns edge i. Bit 3 + i:
-// no other face has edge i. Bit 6 + i: the other face of edge i winds along it in the same
-// direction. Bit 9: the face's connected part of the mesh is not closed, or is inside out.
+// Flags of a face. Edge i connects its corners i and i + 1. Bit i: the face owns edge i: it is the
+// edge's first face. The next two are set at the owner only. Bit 3 + i: edge i has no second face.
+// Bit 6 + i: the second face of edge i winds along it in the same direction. Bit 9: the face's
+// connected part of the mesh is not closed, or is inside out.
 #define TOPOLOGY_FACE_OWNS_EDGE 1u
 #define TOPOLOGY_FACE_HAS_BOUNDARY 8u
 #define TOPOLOGY_FACE_HAS_INCONSISTENT 64u

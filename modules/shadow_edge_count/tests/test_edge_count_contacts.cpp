@@ -69,10 +69,16 @@ TEST_CASE("[GPU][EdgeCount] outlines on the borders of texels or close to them c
 	scene.light->parent_from_node = look_down(height_m);
 	scene.light->properties["light_size"] = 0.03;
 	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
-	const uint32_t map_size_px = 256; // the default of edge_count_map_size
-	const uint32_t border_px = 1;	  // as in ShadowEdgeCount::get_light_views
-	const LightView view =
-			build_light_views(snapshot->lights[0], *snapshot, map_size_px, border_px)[0];
+	std::vector<LightView> views;
+	ShadowEdgeCount().get_light_views(snapshot->lights[0], *snapshot,
+			resolve_light_properties(
+					snapshot->lights[0], ShadowRegistry::get_light_properties("edge_count")),
+			views);
+	const LightView &view = views[0];
+	// The technique moves the light's centre slightly: move the light by as much the other way.
+	const glm::dvec3 shift = glm::dvec3(glm::inverse(view.view_from_world)[3]) -
+			glm::dvec3(scene.light->parent_from_node[3]);
+	scene.light->parent_from_node[3] -= glm::dvec4(shift, 0.0);
 	// The position of the box's side whose upper edge is p_texels from the border of the map.
 	const auto find_side_m = [&](double p_texels) {
 		return (2.0 * p_texels / view.size_px.x - 1.0) * view.half_extent.x * (height_m - top_m);

@@ -146,7 +146,8 @@ func test_a_mask_is_made_where_a_surface_reads_it() -> void:
 	remove(scene)
 
 
-## A hidden node changes nothing: materials must not have the add-on's light() already, which ignores sizes of lights.
+## A hidden GnomonShadow3D changes nothing: materials keep Godot's own shader until a mask is read. The add-on's light() would
+## treat a light without a row in its table as a point.
 func test_a_hidden_node_leaves_materials_as_they_were() -> void:
 	var scene := StudyScene.create("omni", "box")
 	scene.get_node("Ground").material_override = StandardMaterial3D.new()
