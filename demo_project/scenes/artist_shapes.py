@@ -123,7 +123,7 @@ def make_rope_points(start, end, sag, segment_count):
     return points
 
 
-HULL_HALF_LENGTH, HULL_HALF_BEAM, DECK_HEIGHT, KEEL_HEIGHT = 1.6, 0.45, 0.55, 0.03
+HULL_HALF_LENGTH, HULL_HALF_BEAM, RAIL_HEIGHT, KEEL_HEIGHT = 1.6, 0.45, 0.55, 0.03  # the rail: amidships
 MASTS = ((-0.85, 1.75), (0.05, 2.1), (0.9, 1.6))  # x, height of the top
 YARD_HALF_WIDTH = 0.6
 YARD_HEIGHT_FRACTIONS = (0.62, 0.88)  # of the mast's height
@@ -132,11 +132,14 @@ YARD_HEIGHT_FRACTIONS = (0.62, 0.88)  # of the mast's height
 def find_rail(x, side):
     """Return the point of the hull's upper edge at x; side: -1 or 1."""
     t = x / HULL_HALF_LENGTH
-    return (x, DECK_HEIGHT + 0.12 * t * t, side * HULL_HALF_BEAM * math.sqrt(max(0.0, 1.0 - t**4)))
+    return (x, RAIL_HEIGHT + 0.12 * t * t, side * HULL_HALF_BEAM * math.sqrt(max(0.0, 1.0 - t**4)))
 
 
 def make_hull(strake_count=6, station_count=24):
-    """Return a ship's hull: strakes (rows of planks) with separate vertices, a deck with hatches, masts and yards, all open."""
+    """Return a ship's hull: strakes (rows of planks) with separate vertices, a deck with hatches, masts and yards, all open.
+
+    Planks and deck are inside out, which a double-sided material hides.
+    """
     mesh = Mesh(is_closed=False, is_manifold=False)
     # Not quite to the ends, where the hull has no width and its quads would have no area.
     stations = [HULL_HALF_LENGTH * 0.985 * (2.0 * i / station_count - 1.0) for i in range(station_count + 1)]
@@ -156,6 +159,7 @@ def make_hull(strake_count=6, station_count=24):
     for i in range(station_count):
         if i % 7 == 3:
             continue  # a hatch
+        # The deck, below the rail.
         port, starboard = ([find_point(x, side, 0.8) for x in stations[i : i + 2]] for side in (-1.0, 1.0))
         mesh.add_mesh(make_strip(starboard, port))
     for x, top in MASTS:

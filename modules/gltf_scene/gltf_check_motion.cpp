@@ -25,7 +25,7 @@ void disable_channel(const GltfObject &p_channel) {
 void check_channel(
 		const GltfObject &p_channel, const GltfObject &p_animation, size_t p_node_count) {
 	const auto target = p_channel.find_object("target");
-	if (!target || !target->find("node")) { // valid: an extension may define the target
+	if (!target || !target->find("node")) { // no node is valid: an extension may define the target
 		if (target && target->get_text("path") == "pointer") {
 			p_channel.get_messages().warn("pointer", p_channel.get_member_path("target.path"),
 					"is \"pointer\": KHR_animation_pointer is not read, and its channels are "

@@ -25,7 +25,8 @@ DoubleVisibility::DoubleVisibility(const SceneSnapshot &p_scene, const LightSnap
 		scene(p_scene), light(p_light) {
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		const glm::dmat4 node_from_world = glm::inverse(instance.world_from_node);
-		// A singular transform collapses the caster to a line or a point, which hides nothing.
+		// Flat casters have a thickness here (thicken_if_flat), so that a singular transform
+		// collapses the caster to a line or a point, which hides nothing.
 		const bool is_singular = !std::isfinite(
 				node_from_world[0][0] + node_from_world[1][1] + node_from_world[2][2]);
 		if (instance.casts_shadow && !is_singular) {

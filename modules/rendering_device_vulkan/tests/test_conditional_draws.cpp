@@ -17,9 +17,8 @@ TEST_CASE("[GPU][RenderingDevice] conditional draws happen only while the predic
 	constexpr uint32_t UNREAD_WORD = 7; // not 0: would enable the draw
 	for (const uint32_t predicate : { 0u, 1u }) {
 		const TriangleTargets targets(fixture);
-		const OwnedBuffer condition =
-				fixture.make_buffer("condition", std::vector<uint32_t>{ predicate, UNREAD_WORD },
-						BufferUsage::CONDITIONAL | BufferUsage::COPY_TARGET);
+		const OwnedBuffer condition = fixture.make_buffer("condition",
+				std::vector<uint32_t>{ predicate, UNREAD_WORD }, BufferUsage::CONDITIONAL);
 		CommandList &commands = device.begin_commands();
 		commands.barriers(targets.get_barriers());
 		const ColorTarget color = { targets.color.get() };
@@ -43,7 +42,8 @@ TEST_CASE("[GPU][RenderingDevice] conditional dispatches read the word at their 
 		MESSAGE("this device has no conditional rendering");
 		return;
 	}
-	// Local size 1, factor 2, offset 10: the target gets 5 * 2 + 10 = 20 instead of its initial 1.
+	// modules/rendering_device/tests/scale.comp with local size 1, factor 2, and the push constants
+	// count 1 and offset 10: the target gets 5 * 2 + 10 = 20 instead of its initial 1.
 	const PipelineRID pipeline =
 			device.get_compute_pipeline({ "scale", "tests/scale.comp", { { 0, 1 }, { 1, 2 } } });
 	const OwnedBuffer source =
