@@ -76,7 +76,8 @@ VkCommandBufferSubmitInfo VulkanDevice::record_uploads(const SubmissionSlot &p_s
 		if (upload.texture) {
 			VkImageMemoryBarrier2 &barrier =
 					barriers.emplace_back(make_upload_barrier(textures.get(upload.texture)));
-			// Waits for all commands, because the memory may have belonged to an earlier resource.
+			// For the layout only: memory of a freed resource is used again after its submission
+			// has finished (defer_free), so that no earlier command needs to be waited for.
 			barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
 			barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 			barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;

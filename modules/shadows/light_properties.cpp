@@ -45,7 +45,8 @@ std::vector<const PropertyList *> get_added_lists() {
 	return lists;
 }
 
-/// Warns once per file about all removed properties that have the same advice.
+/// Logs one warning about all removed properties that have the same advice: once per index of the
+/// light in its file (LightSnapshot::file_path, such as "lights[0]") and set of names.
 void warn_of_removed(const LightSnapshot &p_light, const PropertyList &p_list) {
 	static std::set<std::string> reported;
 	std::map<std::string, std::string> names_of_advice;

@@ -26,7 +26,7 @@ std::vector<std::string> list_added_light_properties();
 
 /// Returns a value for each property in p_list, that of one technique or filter: the light's own
 /// value, or the default. A stored value of the wrong type or out of range is logged once per light
-/// and value, and the default is used; removed properties are logged once per file.
+/// and value, and the default is used; removed properties are logged once.
 PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list);
 
 /// Declares that the light property p_id + "_" + p_name, which older files may have, was removed

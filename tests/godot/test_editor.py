@@ -20,7 +20,7 @@ import measure_godot
 FOLDER = os.path.join(addon_project.ROOT, "build", "godot_editor")
 SOURCES = os.path.join(addon_project.ROOT, "tests", "godot", "editor")
 NODES = [".", "WorldEnvironment", "Ground", "Box", "Camera", "Light", "Light/GnomonShadow3D"]
-# Messages of an editor that a script quits, that runs without desktop services, or whose extension is missing.
+# Messages of an editor that a script quits, that runs without desktop services, or without settings.
 EDITOR_HARMLESS = re.compile(r"absolute paths from outside the active scene tree|text-to-speech|speech-dispatcher|libspeechd|D-Bus|dbus|Blender|SDK|editor_settings")
 PRESET = """[preset.0]
 name="Linux"
