@@ -31,7 +31,7 @@ def make_bunny(points, triangles):
     middle = ((low[0] + high[0]) / 2.0, low[1], (low[2] + high[2]) / 2.0)
     mesh = Mesh()
     for point in points:
-        # The normal is a placeholder: set_smooth_normals() replaces it.
+        # set_smooth_normals() below replaces this normal.
         mesh.add_vertex([(point[axis] - middle[axis]) * factor for axis in range(3)], (0.0, 1.0, 0.0))
     mesh.triangles = triangles
     mesh.set_smooth_normals()

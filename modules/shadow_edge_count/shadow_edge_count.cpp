@@ -46,7 +46,7 @@ void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightS
 	// Where the light's centre is exactly a caster's vertex, rounding decides whether it is inside
 	// the caster, and differently for its faces. A centre moved by 1e-4 of the radius, which
 	// changes no visibility by more than that, is at no vertex; the direction is no axis of any
-	// model.
+	// model. For lights below about 0.01 S this is as small as the rounding itself.
 	const glm::dvec3 CENTRE_SHIFT_RADII(4.1e-5, -7.3e-5, 5.5e-5);
 	const CountSettings view_settings = read_count_settings(p_light, p_scene.scene, p_properties);
 	LightSnapshot light = p_light;

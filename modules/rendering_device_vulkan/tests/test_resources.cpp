@@ -92,6 +92,7 @@ TEST_CASE("[GPU][RenderingDevice] memory of a freed resource is reused after its
 	device.wait_idle();
 	CHECK(fixture.read<uint32_t>(readback, 1)[0] == 5);
 	CHECK(device.get_memory_use().used_bytes < MIB);
+	CHECK(device.get_memory_use().peak_bytes < 64 * MIB); // the budget
 }
 
 TEST_CASE("[GPU][RenderingDevice] blocks of memory return to the driver") {

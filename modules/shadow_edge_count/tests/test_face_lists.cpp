@@ -135,6 +135,7 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 		  "cells") {
 	KernelFixture fixture;
 	TestRandom random;
+	size_t pair_count = 0;	 // of a face and a position
 	size_t listed_count = 0; // faces in the lists of the positions' texels
 	size_t cell_count = 0;	 // of these, in the positions' cells (4 x 4 in each texel)
 	for (const bool is_directional : { false, true }) {
@@ -185,6 +186,7 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 						missing_count += in_cell.contains(face) ? 0 : 1;
 					}
 				}
+				pair_count += faces.size();
 			}
 			CHECK(missing_count == 0);
 			CHECK(met_count > 200);
@@ -193,6 +195,7 @@ TEST_CASE("[GPU][EdgeCount] each face is in the lists of all texels that it cove
 					node_count < faces.size() * map_size_px * map_size_px / 20));
 		}
 	}
+	CHECK(pair_count >= 1'000'000);
 	CHECK(cell_count < 0.9 * double(listed_count)); // the cells are selective, too
 }
 
