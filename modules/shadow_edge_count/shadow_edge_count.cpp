@@ -44,14 +44,16 @@ void ShadowEdgeCount::get_quality_settings(
 void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	// Where the light's centre is exactly a caster's vertex, rounding decides whether it is inside
-	// the caster, and differently for its faces. A centre moved by 1e-4 of the radius, which
-	// changes no visibility by more than that, is at no vertex; the direction is no axis of any
-	// model. For lights below about 0.01 S this is as small as the rounding itself.
-	const glm::dvec3 CENTRE_SHIFT_RADII(4.1e-5, -7.3e-5, 5.5e-5);
+	// the caster, and differently for its faces. A centre moved by more than the rounding, but by
+	// a fraction of the radius that changes no visibility by more than about as much, is at no
+	// vertex. The direction is no axis of any model.
+	const glm::dvec3 SHIFT_DIRECTION(0.41, -0.73, 0.55);
 	const CountSettings view_settings = read_count_settings(p_light, p_scene.scene, p_properties);
 	LightSnapshot light = p_light;
 	if (light.type != LightType::DIRECTIONAL) {
-		light.position_world += double(view_settings.disc_radius) * CENTRE_SHIFT_RADII;
+		const double radius_m = view_settings.disc_radius;
+		light.position_world += SHIFT_DIRECTION *
+				std::clamp(2e-6 * p_scene.scene.scene_size_m, 1e-4 * radius_m, 2e-3 * radius_m);
 	}
 	// A directional light's view contains all casters, so nothing can hide receivers outside it.
 	const float margin_m = p_light.type == LightType::DIRECTIONAL
