@@ -29,10 +29,8 @@ void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
 	command->add_option("--stage", r_common.stage,
 				   "auto (default): a scene without camera gets one, and a scene without light "
-				   "gets a "
-				   "light and a ground; on: it gets all three; off: nothing. They are saved only "
-				   "if "
-				   "`staged` is switched off in the inspector")
+				   "gets a light and a ground; on: it gets all three; off: nothing. They are saved "
+				   "only if `staged` is switched off in the inspector")
 			->check(CLI::IsMember({ "auto", "on", "off" }));
 	command->callback([&r_common] {
 		options.stage = parse_stage_mode(r_common.stage, "--stage");

@@ -105,8 +105,7 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		if (instance.casts_shadow && shadow.kind == ShadowKind::CUT_OUT && !shadow.cut_out) {
 			warn_once(p_body,
 					"is cut out by alpha in a way that is not read, and casts the shadow of its "
-					"whole "
-					"surface. Use a StandardMaterial3D with alpha scissor, without triplanar "
+					"whole surface. Use a StandardMaterial3D with alpha scissor, without triplanar "
 					"coordinates, MSDF textures and albedo from vertex colours.");
 		}
 		if (instance.casts_shadow && !is_ready) {

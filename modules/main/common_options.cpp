@@ -161,8 +161,7 @@ void add_stage_option(CLI::App &r_command, CommonOptions &r_common) {
 void add_animation_options(CLI::App &r_command, CommonOptions &r_common) {
 	r_command.add_option("--animation", r_common.animation,
 			"The name of the animation that poses the scene; default: run takes that of the "
-			"project, "
-			"else the first; other commands the first if --at is given, else none");
+			"project, else the first; other commands the first if --at is given, else none");
 	r_command.add_option("--at", r_common.at_s,
 			"The time in s, from 0, at which the animation poses the scene (run plays it from "
 			"there); a time after its end wraps around");
@@ -232,13 +231,11 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
 	if (lights.empty()) {
 		fail("Scene ", p_scene.path,
 				" has no light. Add a light (KHR_lights_punctual) with extras.shadow_enabled true, "
-				"or "
-				"use --stage auto.");
+				"or use --stage auto.");
 	}
 	fail("Scene ", p_scene.path,
 			" has no light that casts shadows. Set extras.shadow_enabled of a light to true, or "
-			"name "
-			"one with --light, or use --stage on.");
+			"name one with --light, or use --stage on.");
 }
 
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting) {

@@ -38,8 +38,7 @@ BufferResource VulkanDevice::make_buffer(const BufferDesc &p_desc) {
 		fail("Buffer '", p_desc.name, "' is STORAGE and TEXEL at once, which device \"",
 				physical.info.name,
 				"\" lacks (DeviceFeatures::storage_and_texel_buffers). Use STORAGE alone, and a "
-				"shader "
-				"that reads it as a storage buffer.");
+				"shader that reads it as a storage buffer.");
 	}
 	const uint64_t texel_bytes = get_texel_size_bytes(p_desc.texel_format);
 	constexpr uint64_t NO_LIMIT = std::numeric_limits<uint64_t>::max();

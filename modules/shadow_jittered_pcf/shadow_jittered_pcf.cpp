@@ -16,8 +16,7 @@ void ShadowJitteredPcf::get_light_properties(PropertyList &r_list) const {
 			"Rings of eight taps. Few make noise, many cost time.", "", "Jittered filter" });
 	r_list.add({ "jittered_pcf_early_out", PropertyType::BOOL, true, "",
 			"Stop after the outermost ring where it is all lit or all hidden. Faster; misses what "
-			"is "
-			"smaller than the filter.",
+			"is smaller than the filter.",
 			"", "Jittered filter" });
 	add_size_property(r_list, "Jittered filter");
 }

@@ -18,8 +18,7 @@ const std::string &read_choice(const PropertyValues &p_values, const char *p_nam
 void add_volume_settings(bool p_is_on_cpu, PropertyList &r_list) {
 	r_list.add({ "method", PropertyType::ENUM, {}, "auto,z_pass,z_fail",
 			"How volumes are counted: in front of what is seen, or behind it with caps; auto "
-			"chooses "
-			"for each caster. z_pass alone is wrong where the camera is in a shadow.",
+			"chooses for each caster. z_pass alone is wrong where the camera is in a shadow.",
 			"", TEST_SETTINGS_GROUP });
 	r_list.add({ "robust", PropertyType::ENUM, {}, "auto,always",
 			"Which connected parts of a mesh get the shadow of each of their triangles: those that "

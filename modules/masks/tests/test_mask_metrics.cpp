@@ -101,8 +101,7 @@ TEST_CASE("[MaskMetrics] other sizes, other receivers and values that are not fi
 	CHECK_THROWS_WITH_AS(
 			compute_mask_metrics(reference, make_row({ 0, 0.5f, -1 }), "a.exr", "b.exr"),
 			"Masks differ in their receivers: 1 pixels, the first at (2, 0), of a.exr and b.exr. "
-			"Render "
-			"both with the same scene, light and camera.",
+			"Render both with the same scene, light and camera.",
 			Error);
 	for (const float bad :
 			{ std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity() }) {
