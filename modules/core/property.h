@@ -32,8 +32,9 @@ struct PropertyInfo {
 	std::string tooltip; // one or two sentences: the meaning, and the effect of extreme values
 	std::string unit;	 // "m", "px", "deg", or empty
 	std::string group;	 // heading in the inspector
-	/// A value outside the range that is also allowed and has its own meaning: "-1" for "derived".
+	/// A value outside the range that is also allowed and has its own meaning, such as "-1".
 	std::string special;
+	std::string special_meaning; // a word or two, "derived", which the inspector shows beside it
 	/// ENUM: the tooltip of each choice, in the order of the hint; may be empty.
 	std::vector<std::string> choice_tooltips;
 	bool is_color = false; // VECTOR3: linear red, green, blue

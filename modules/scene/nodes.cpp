@@ -84,8 +84,7 @@ const PropertyList &Light3D::get_property_list() {
 				"m", "Light" });
 		made.add({ "light_angular_distance", PropertyType::FLOAT, 0.5, "0,90,0.1",
 				"Apparent diameter of a directional light in the sky (the sun: 0.5). 0 makes a "
-				"hard "
-				"shadow; point and spot lights ignore it.",
+				"hard shadow; point and spot lights ignore it.",
 				"deg", "Light" });
 		made.add({ "shadow_enabled", PropertyType::BOOL, true, "",
 				"Whether objects hide this light. Off, it shines through them and costs no shadow "
@@ -93,17 +92,16 @@ const PropertyList &Light3D::get_property_list() {
 				"", "Shadow" });
 		made.add({ "shadow_technique", PropertyType::STRING, "", "",
 				"Id of the technique that computes the shadow. Empty means the default; one that "
-				"is "
-				"not in this build falls back with a warning and stays stored.",
+				"is not in this build falls back with a warning and stays stored.",
 				"", "Shadow" });
 		made.add({ "penumbra_outer_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Outer penumbra width r, how far the soft edge reaches out of the hard shadow. -1 "
 				"derives it from the light's size; 0 disables the outer part.",
-				"m", "Shadow", /*special=*/"-1" });
+				"m", "Shadow", /*special=*/"-1", "derived" });
 		made.add({ "penumbra_inner_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Inner penumbra width t, how far the soft edge reaches into the hard shadow. -1 "
 				"derives it from the light's size; 0 disables the inner part.",
-				"m", "Shadow", /*special=*/"-1" });
+				"m", "Shadow", /*special=*/"-1", "derived" });
 		return made;
 	}();
 	return list;

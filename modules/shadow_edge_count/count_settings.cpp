@@ -25,12 +25,10 @@ void add_count_properties(PropertyList &r_list) {
 			"and memory, and the mask only by rounding: more texels have shorter lists.",
 			"px", group });
 	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(-1), "0,65536,1",
-			"Edges that one block of 8 x 8 pixels may have. Blocks with more are filtered with "
-			"64 "
+			"Edges that one block of 8 x 8 pixels may have. Blocks with more are filtered with 64 "
 			"taps, which is faster and less exact. -1: no limit; 0: every block that has an edge "
-			"is "
-			"filtered.",
-			"", group, "-1" });
+			"is filtered.",
+			"", group, /*special=*/"-1", "no limit" });
 	r_list.add({ "edge_count_interpolation", PropertyType::FLOAT, 0.5, "0,1,0.01",
 			"Where the image of every edge on the light moves by no more than this share of the "
 			"light's radius within a block of 8 x 8 pixels, 16 of these are counted and the others "

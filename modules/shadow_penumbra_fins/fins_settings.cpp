@@ -44,7 +44,7 @@ void add_fins_properties(const std::string &p_id, bool p_has_inner_half, Propert
 				"How far behind the surface nearest to the light an inner fin may be; what is "
 				"farther belongs to an edge that the light does not see. -1 means a quarter of the "
 				"scene's size.",
-				"m", group, "-1" });
+				"m", group, /*special=*/"-1", "derived" });
 		r_list.add({ p_id + "_layers", PropertyType::INT, int64_t(3), "1,3,1",
 				"Depth layers peeled from the light. 2 skips the test of what is behind the "
 				"inner penumbra, 1 also that of hidden inner fins.",

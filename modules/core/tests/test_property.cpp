@@ -11,7 +11,7 @@ namespace {
 
 PropertyInfo make_width() {
 	return { "penumbra_outer_width", PropertyType::FLOAT, -1, "0,10000,0.001", "Width.", "m",
-		"Shadow", /*special=*/"-1" };
+		"Shadow", /*special=*/"-1", "derived" };
 }
 
 } // namespace

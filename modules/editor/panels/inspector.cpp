@@ -1,6 +1,7 @@
 // The panel "Inspector": the properties of the selected node.
 
 #include "modules/core/error.h"
+#include "modules/core/text.h"
 #include "modules/editor/editor_context.h"
 #include "modules/scene/node_properties.h"
 
@@ -68,7 +69,7 @@ private:
 		const float MIN_SPEED = 0.2f;
 		const PropertyRange range = get_range(info);
 		// The limits of a property without a range, 1e30, do not fit an int64_t.
-		return drag_number<int64_t>(ImGuiDataType_S64, "%lld", "",
+		return drag_number<int64_t>(ImGuiDataType_S64, "%lld",
 				std::max(float(range.step), MIN_SPEED),
 				static_cast<int64_t>(std::max(range.minimum, -1e15)),
 				static_cast<int64_t>(std::min(range.maximum, 1e15)));
@@ -76,16 +77,15 @@ private:
 
 	bool draw_number() {
 		const PropertyRange range = get_range(info);
-		return drag_number<double>(ImGuiDataType_Double, "%.4g", " (derived)", float(range.step),
-				range.minimum, range.maximum);
+		return drag_number<double>(
+				ImGuiDataType_Double, "%.4g", float(range.step), range.minimum, range.maximum);
 	}
 
 	/// A value that is dragged below the range becomes the special value, such as -1 for "derived".
-	/// Dragged up from there, it becomes the minimum of the range. p_special_meaning: shown after
-	/// the special value.
+	/// Dragged up from there, it becomes the minimum of the range.
 	template <typename T>
-	bool drag_number(ImGuiDataType p_type, const char *p_format, const char *p_special_meaning,
-			float p_speed, T p_minimum, T p_maximum) {
+	bool drag_number(
+			ImGuiDataType p_type, const char *p_format, float p_speed, T p_minimum, T p_maximum) {
 		T &number = std::get<T>(value);
 		T lower_limit = p_minimum;
 		T special = 0;
@@ -96,9 +96,10 @@ private:
 			lower_limit = std::min(lower_limit, special);
 		}
 		const bool is_special = has_special && number == special;
-		const bool is_changed = ImGui::DragScalar("##value", p_type, &number, p_speed, &lower_limit,
-				&p_maximum, is_special ? (info.special + p_special_meaning).c_str() : p_format,
-				ImGuiSliderFlags_AlwaysClamp);
+		const std::string special_text = text(info.special, " (", info.special_meaning, ")");
+		const bool is_changed =
+				ImGui::DragScalar("##value", p_type, &number, p_speed, &lower_limit, &p_maximum,
+						is_special ? special_text.c_str() : p_format, ImGuiSliderFlags_AlwaysClamp);
 		if (is_changed && has_special && number < p_minimum) {
 			number = is_special && number > special ? p_minimum : special;
 		}
