@@ -47,8 +47,8 @@ def describe_processor():
     return found.group(1) if found else "unknown processor"
 
 
-def describe_machine(load):
-    """Describe date, processor, device and driver in one line. load: load average before the measurement began."""
+def describe_machine(load=None):
+    """Describe date, processor, device and driver in one line. load: load average before a measurement of times began."""
     device, driver = "unknown", "unknown"
     with tempfile.TemporaryDirectory() as folder:
         times = os.path.join(folder, "time.json")
@@ -57,10 +57,12 @@ def describe_machine(load):
         with open(times, encoding="utf-8") as file:
             result = json.load(file)
         device, driver = result["device"], result["driver"]
-    cores = os.cpu_count() or 1
-    return "%s: %s, %d cores; %s, %s. Load when it began: %.1f%s." % (
-        datetime.date.today().isoformat(), describe_processor(), cores, device, driver, load,
-        " - other work ran at the same time, so times, if there are any, are too long" if load > 1.5 else "")  # fmt: skip
+    machine = "%s: %s, %d cores; %s, %s." % (
+        datetime.date.today().isoformat(), describe_processor(), os.cpu_count() or 1, device, driver)  # fmt: skip
+    if load is None:
+        return machine
+    other_work = " - if other work ran at the same time, the times are too long" if load > 1.5 else ""
+    return "%s Load when it began: %.1f%s." % (machine, load, other_work)
 
 
 def publish_tables(tables, measured, writes):

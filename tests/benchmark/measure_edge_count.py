@@ -390,7 +390,7 @@ def main():
             if part in PARTS_BY_GROUP:
                 tables = {"edge_count_%s_%s" % (part, name): select(images, GROUPS[name]) for name in names}
             for table, measured in tables.items():
-                load = os.getloadavg()[0]
+                load = None if part in PARTS_BY_GROUP else os.getloadavg()[0]  # these have no times
                 lines = PARTS[part](measured, folder, arguments.rounds)
                 publish_tables({table: lines}, describe_machine(load), arguments.write)
     return 0

@@ -4,13 +4,14 @@
     measure_volumes.py [--only TABLE]... [--write]
 
 Errors are counted in pixels: R = 0, so that every receiver is lit or hidden. Without --write the tables are
-only printed. Build first: scons.
+only printed. Times of culling are medians of three alternating runs. Build first: scons.
 """
 
 import argparse
 import json
 import os
 import re
+import statistics
 import sys
 import tempfile
 
@@ -21,6 +22,7 @@ from driver import SCENES, describe_machine, format_table, publish_tables, run
 GNOMON = os.path.abspath(os.environ.get("GNOMON", driver.PROGRAM))
 SIZE = "400x400"
 POINT = ("light_size=0", "light_angular_distance=0")
+CULLING_ROUNDS = 3  # a run of the program may be 1.7 times as long as the next one
 TIMED = {
     "auto": ("shadow_volume",),
     "compute": ("shadow_volume", "technique.shadow_volume.extrusion=compute"),
@@ -111,15 +113,23 @@ def count_hidden(scene, folder):
     return int(found.group(1)) if found else 0
 
 
+def measure_culling_once(scene, folder):
+    """Return times in ms without culling, with it, with it if nothing moves, and of `shadow_map`."""
+    return (
+        measure_time(scene, "Sun", folder, ["technique.shadow_volume.culling=off"]),
+        measure_time(scene, "Sun", folder, []),
+        measure_time(scene, "Sun", folder, [], "--still"),
+        measure_time(scene, "Sun", folder, ["shadow_map_size=2048"], technique="shadow_map"),
+    )
+
+
 def measure_culling(folder):
     rows = []
     for count, has_walls in ((1000, True), (5000, True), (20000, True), (1000, False), (5000, False)):
         scene = volume_scenes.make_yard(count, has_walls, folder)
         hidden = count_hidden(scene, folder)
-        off = measure_time(scene, "Sun", folder, ["technique.shadow_volume.culling=off"])
-        moving = measure_time(scene, "Sun", folder, [])
-        still = measure_time(scene, "Sun", folder, [], "--still")
-        shadow_map = measure_time(scene, "Sun", folder, ["shadow_map_size=2048"], technique="shadow_map")
+        rounds = [measure_culling_once(scene, folder) for _round in range(CULLING_ROUNDS)]
+        off, moving, still, shadow_map = (statistics.median(times) for times in zip(*rounds))
         ratios = ["%.0f (%.2f)" % (ms, ms / off) for ms in (moving, still)]
         rows.append((count, "yes" if has_walls else "no", hidden, "%.0f" % off, *ratios, "%.0f" % shadow_map))
         print(*rows[-1], flush=True)
