@@ -5,11 +5,12 @@
 #include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
-#ifdef COUNT_GROUP_SIZE // invocations per work group, if it is not one per pixel
-layout(local_size_x = COUNT_GROUP_SIZE) in;
-#else
+#ifndef COUNT_GROUP_SIZE // invocations per work group, if it is not one per pixel
 #define COUNT_GROUP_SIZE (EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX)
-layout(local_size_x = EDGE_COUNT_BLOCK_PX, local_size_y = EDGE_COUNT_BLOCK_PX) in;
+#endif
+#ifndef MAP_RESOLVE_INC_GLSL // which sets the size to 8 x 8
+// In one dimension: with two, llvmpipe fills subgroups only up to the size in x.
+layout(local_size_x = COUNT_GROUP_SIZE) in;
 #endif
 layout(std430, set = 0, binding = COUNT_BINDING_BLOCKS) readonly buffer Blocks {
 	uint blocks[]; // a list for each kind, EDGE_COUNT_BLOCKS_*

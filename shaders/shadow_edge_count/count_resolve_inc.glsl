@@ -466,16 +466,11 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	return result;
 }
 
-/// The invocation's index in the work group.
-uint find_invocation_index() {
-	return gl_SubgroupID * SUBGROUP_SIZE + gl_SubgroupInvocationID;
-}
-
 /// Each invocation computes one pixel of the work group's block.
 CountPixel count_pixel() {
 	const uint block = find_block();
 	const uint parts = load_parts(block);
-	const BlockPixel pixel = load_block_pixel(block, parts, find_invocation_index());
+	const BlockPixel pixel = load_block_pixel(block, parts, gl_LocalInvocationIndex);
 	return count_pixel_of_block(block, parts, find_pixel_in_block(pixel.index), pixel.sorted_part);
 }
 

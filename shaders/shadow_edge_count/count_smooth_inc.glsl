@@ -73,7 +73,7 @@ void main() {
 	load_count_constants();
 	const uint block = find_block();
 	const uint parts = load_parts(block);
-	const uint invocation = find_invocation_index();
+	const uint invocation = gl_LocalInvocationIndex;
 	// 0: the receivers of a smooth block are not sorted into parts.
 	counted[invocation] = count_pixel_of_block(block, parts, find_counted_pixel(invocation), 0u).visibility;
 	barrier();

@@ -11,7 +11,7 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D 
 
 void main() {
 	load_count_constants();
-	const ivec2 pixel = ivec2(find_block_corner(find_block()) + gl_LocalInvocationID.xy);
+	const ivec2 pixel = ivec2(find_block_corner(find_block()) + find_pixel_in_block(gl_LocalInvocationIndex));
 	if (!is_in_image(pixel)) {
 		return;
 	}
