@@ -96,7 +96,9 @@ private:
 			lower_limit = std::min(lower_limit, special);
 		}
 		const bool is_special = has_special && number == special;
-		const std::string special_text = text(info.special, " (", info.special_meaning, ")");
+		const std::string special_text = info.special_meaning.empty()
+				? info.special
+				: text(info.special, " (", info.special_meaning, ")");
 		const bool is_changed =
 				ImGui::DragScalar("##value", p_type, &number, p_speed, &lower_limit, &p_maximum,
 						is_special ? special_text.c_str() : p_format, ImGuiSliderFlags_AlwaysClamp);
