@@ -49,6 +49,8 @@ void VulkanDevice::read_environment() {
 			read_number("GNOMON_DEVICE_TIMEOUT_S", MAX_WAIT_S, "seconds", "wait for ever");
 	wait_limit_s = options.wait_limit_s.value_or(
 			wait_s.value_or(physical.info.type == "CPU" ? CPU_WAIT_S : GPU_WAIT_S));
+	const char *pattern = std::getenv("GNOMON_MEMORY_PATTERN");
+	memory_pattern = parse_memory_pattern(pattern ? pattern : "");
 	const char *fault = std::getenv("GNOMON_INJECT_FAULT");
 	injected_fault = parse_injected_fault(fault ? fault : "");
 }

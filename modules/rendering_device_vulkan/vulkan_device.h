@@ -4,6 +4,7 @@
 #include "modules/rendering_device/slot_table.h"
 #include "modules/rendering_device/spirv_reflection.h"
 #include "modules/rendering_device_vulkan/injected_fault.h"
+#include "modules/rendering_device_vulkan/memory_pattern.h"
 #include "modules/rendering_device_vulkan/memory_allocator.h"
 #include "modules/rendering_device_vulkan/vulkan_command_list.h"
 #include "modules/rendering_device_vulkan/vulkan_handles.h"
@@ -220,6 +221,8 @@ public:
 	VulkanSwapchain *swapchain = nullptr;
 
 	InjectedFault injected_fault;
+	std::optional<MemoryPattern> memory_pattern; // of new buffers
+	uint32_t random_memory = 1;					 // state of MemoryPattern::RANDOM
 	VkSemaphore hang_semaphore = VK_NULL_HANDLE; // not signalled; an injected hang waits for it
 	double wait_limit_s = 0;					 // 0: none
 	bool is_hung = false;  // lost because of a timeout; the GPU may still use everything
