@@ -271,7 +271,8 @@ part_command_line() {
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_downloaded_models.py tests/command_line/test_animation.py \
         tests/command_line/test_report.py tests/command_line/test_stopped_report.py \
-        tests/command_line/test_device_failures.py tests/command_line/test_kills.py
+        tests/command_line/test_device_failures.py tests/command_line/test_memory_patterns.py \
+        tests/command_line/test_kills.py
 }
 part_editor() {
     run_part editor python3 tests/run_unittest.py tests/command_line/test_window.py tests/command_line/test_editor.py \

@@ -1,5 +1,6 @@
 // Runs the tests. Ends with one line "N passed, N failed, N skipped" (test cases) and exits 1 when
-// any failed. A validation message during a test case fails that case, whatever it checked.
+// any failed. A validation message or a fault (log_fault) during a test case fails that case,
+// whatever it checked.
 
 #include "tests/test_runner.h"
 
@@ -12,6 +13,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cstdio>
 #include <set>
 #include <string>
@@ -24,6 +26,8 @@ std::span<const EmbeddedShader> get_test_shaders();
 namespace {
 
 std::set<std::string> cases_with_messages;
+std::set<std::string> cases_with_faults;
+std::atomic<unsigned> fault_count = 0;
 unsigned case_count = 0;
 unsigned failed_count = 0;
 
@@ -31,6 +35,7 @@ unsigned failed_count = 0;
 struct ValidationListener : doctest::IReporter {
 	const doctest::TestCaseData *current = nullptr;
 	unsigned messages_before = 0;
+	unsigned faults_before = 0;
 
 	explicit ValidationListener(const doctest::ContextOptions &) {}
 	void report_query(const doctest::QueryData &) override {}
@@ -39,16 +44,21 @@ struct ValidationListener : doctest::IReporter {
 	void test_case_start(const doctest::TestCaseData &p_case) override {
 		current = &p_case;
 		messages_before = gnomon::get_validation_message_count();
+		faults_before = fault_count;
 	}
 	void test_case_reenter(const doctest::TestCaseData &) override {}
 	void test_case_end(const doctest::CurrentTestCaseStats &p_stats) override {
 		const unsigned messages = gnomon::get_validation_message_count();
 		const bool has_messages = messages != messages_before;
+		const bool has_faults = fault_count != faults_before;
 		++case_count;
 		if (has_messages) {
 			cases_with_messages.insert(current->m_name);
 		}
-		if (has_messages || !p_stats.testCaseSuccess) {
+		if (has_faults) {
+			cases_with_faults.insert(current->m_name);
+		}
+		if (has_messages || has_faults || !p_stats.testCaseSuccess) {
 			++failed_count;
 		}
 	}
@@ -64,6 +74,10 @@ REGISTER_LISTENER("validation", /*priority=*/1, ValidationListener);
 } // namespace
 
 int run_tests(int p_argument_count, char **p_arguments) {
+	gnomon::set_log_sink([](gnomon::LogLevel p_level, const std::string &p_line) {
+		fault_count += p_line.starts_with(gnomon::FAULT_PREFIX) ? 1 : 0;
+		gnomon::forward_log({}, p_level, p_line);
+	});
 	gnomon::add_embedded_shaders(gnomon::get_test_shaders());
 	gnomon::register_modules();
 	gnomon::ModuleRegistry::initialize(gnomon::ModuleLevel::FEATURES);
@@ -79,6 +93,9 @@ int run_tests(int p_argument_count, char **p_arguments) {
 	}
 	for (const std::string &name : cases_with_messages) {
 		std::fprintf(stderr, "FAILED: validation messages during \"%s\"\n", name.c_str());
+	}
+	for (const std::string &name : cases_with_faults) {
+		std::fprintf(stderr, "FAILED: an incomplete result during \"%s\"\n", name.c_str());
 	}
 	// A test case that lacks what it needs prints a message, returns and counts as passed.
 	std::printf("%u passed, %u failed, 0 skipped\n", case_count - failed_count, failed_count);

@@ -41,6 +41,13 @@ template <typename... Arguments> void log_info(const Arguments &...p_arguments) 
 template <typename... Arguments> void log_warning(const Arguments &...p_arguments) {
 	write_log(LogLevel::WARNING, text(p_arguments...));
 }
+/// Starts the warnings of log_fault. Tests fail on such a line.
+inline constexpr char FAULT_PREFIX[] = "Incomplete result: ";
+/// Logs a warning about a result that is incomplete although its input is valid, because of a
+/// programming error or of a limit of the driver.
+template <typename... Arguments> void log_fault(const Arguments &...p_arguments) {
+	write_log(LogLevel::WARNING, text(FAULT_PREFIX, p_arguments...));
+}
 template <typename... Arguments> void log_error(const Arguments &...p_arguments) {
 	write_log(LogLevel::ERROR, text(p_arguments...));
 }

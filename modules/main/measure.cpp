@@ -100,13 +100,17 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 	const CasterCounts casters =
 			count_casters(*p_request.scene, p_request.scene->find_light(p_request.mask_light));
 	const DeviceInfo &info = r_renderer.get_device().get_info();
+	Json counters = Json::object();
+	for (const WorkCounter &counter : result.counters) {
+		counters[counter.name] = counter.value;
+	}
 	const Json json = { { "device", info.name }, { "driver", info.driver },
 		{ "threads", std::thread::hardware_concurrency() }, { "frames", p_count },
 		{ "triangles", casters.triangle_count }, { "edges", casters.edge_count },
 		{ "passes", to_json(timing.passes) }, { "total", to_json(timing.total) },
 		{ "frame", to_json(compute_frame_cost(gpu_ms, wall_ms)) },
 		{ "call_ms", compute_percentile(call_ms, 0.5) }, { "pass_count", result.timings.size() },
-		{ "draws", result.commands.draws }, { "dispatches", result.commands.dispatches },
+		{ "counters", counters }, { "draws", result.commands.draws }, { "dispatches", result.commands.dispatches },
 		{ "bytes", r_renderer.get_device().get_memory_use().used_bytes } };
 	return json.dump(2) + "\n";
 }

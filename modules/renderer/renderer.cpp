@@ -270,6 +270,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 						{ result.depth_texels.data(), result.normal_texels.data(),
 								frame.material_texels.data() });
 	}
+	result.counters = shadows.get_counters(p_request.mask_light);
 	if (p_request.wants_mask && !p_request.mask_light.empty()) {
 		result.standard_error = shadows.get_standard_error(p_request.mask_light);
 		static_cast<MaskValues &>(result) = frame.mask.get_values();

@@ -76,6 +76,7 @@ struct RenderResult : MaskValues {
 	std::vector<uint8_t> image;			  // RGBA8, sRGB-encoded, rows from the top
 	std::vector<std::string> debug_views; // available views, if one was requested
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
+	std::vector<WorkCounter> counters;	  // of mask_light, of a finished frame
 	std::vector<SurfacePoint> surfaces;	  // one per pixel
 	std::vector<uint8_t> depth_texels;	  // in the format of HostSurfaces; with the surfaces
 	std::vector<uint8_t> normal_texels;

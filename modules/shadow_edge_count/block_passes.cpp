@@ -41,6 +41,8 @@ std::vector<PassBinding> make_plain_bindings(
 	bindings.push_back(PassBinding::read(COUNT_BINDING_CUT_FACES, p_passes.light.cut_faces));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_BLOCK_RECEIVERS, p_blocks.block_receivers));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_CHAINS, p_blocks.chains));
+	bindings.push_back(PassBinding::write(
+			COUNT_BINDING_STATUS, p_blocks.status, PassBuilder::Content::UPDATE));
 	return bindings;
 }
 
@@ -162,10 +164,16 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	blocks.dispatches = r_graph.create_buffer(
 			{ "block dispatches", EDGE_COUNT_DISPATCH_WORDS * sizeof(uint32_t),
 					BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::COPY_TARGET });
+	blocks.status = r_graph.create_buffer(
+			{ "edge count status", EDGE_COUNT_STATUS_WORDS * sizeof(uint32_t),
+					BufferUsage::STORAGE | BufferUsage::COPY_TARGET | BufferUsage::COPY_SOURCE });
 	r_graph.add_pass("clear blocks")
 			.writes(blocks.dispatches, Access::COPY_WRITE)
-			.execute([dispatches = blocks.dispatches](PassContext &p_context) {
+			.writes(blocks.status, Access::COPY_WRITE)
+			.execute([dispatches = blocks.dispatches, status = blocks.status](
+							 PassContext &p_context) {
 				p_context.commands.clear_buffer(p_context.get(dispatches));
+				p_context.commands.clear_buffer(p_context.get(status));
 			});
 	// Each work group is one subgroup.
 	const uint32_t subgroup_size = inputs.device.get_features().subgroup_size;
@@ -200,6 +208,8 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 							COUNT_BINDING_CHAINS, blocks.chains, PassBuilder::Content::UPDATE),
 					PassBinding::write(COUNT_BINDING_LISTS, blocks.lists),
 					PassBinding::write(COUNT_BINDING_BLOCKS, blocks.blocks),
+					PassBinding::write(
+							COUNT_BINDING_STATUS, blocks.status, PassBuilder::Content::UPDATE),
 					PassBinding::write(COUNT_BINDING_DISPATCHES, blocks.dispatches,
 							PassBuilder::Content::UPDATE) },
 			{ constants.tile_count.x * subgroup_size, constants.tile_count.y, 1 });

@@ -27,6 +27,7 @@ struct CountBlocks {
 	RGBuffer lists;						// chunks of edges, see EDGE_COUNT_CHUNK_SIZE
 	RGBuffer blocks;					// a list of blocks for each kind, EDGE_COUNT_BLOCKS_*
 	RGBuffer dispatches;				// indirect dispatch arguments for each kind
+	RGBuffer status;					// EDGE_COUNT_STATUS_*, see count_status.h
 	uint32_t block_count = 0;
 };
 

@@ -254,10 +254,13 @@ RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 		passes.depth_views = build_depth_views(p_inputs);
 	}
 	const CountBlocks blocks = add_block_passes(r_graph, passes);
+	after_lists(r_graph, passes.light, blocks);
 	if (p_inputs.wants_debug_views) {
 		debug_image = add_count_debug_pass(r_graph, passes, blocks);
 	}
-	return add_count_passes(r_graph, passes, blocks);
+	const RGTexture mask = add_count_passes(r_graph, passes, blocks);
+	status.add_read_back(r_graph, blocks.status, p_inputs.light.name);
+	return mask;
 }
 
 void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {

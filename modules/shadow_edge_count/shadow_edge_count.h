@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/shadow_edge_count/block_passes.h"
+#include "modules/shadow_edge_count/count_status.h"
 #include "modules/shadows/cached_views.h"
 
 #include <vector>
@@ -26,7 +27,16 @@ public:
 			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;
 	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
 	void get_debug_views(std::vector<DebugView> &r_views) const override;
+	void get_counters(std::vector<WorkCounter> &r_counters) const override {
+		status.get_counters(r_counters);
+	}
 	std::vector<std::string> get_shader_files() const override;
+
+protected:
+	/// Called between the passes that write the lists of blocks and those that read them. Tests
+	/// damage lists here.
+	virtual void after_lists(RenderGraph & /*r_graph*/, const CountFrameBuffers & /*p_light*/,
+			const CountBlocks & /*p_blocks*/) {}
 
 private:
 	/// The light and casters for which the buffers were last filled.
@@ -52,6 +62,7 @@ private:
 	OwnedBuffer masks;					// mask tables of all sample sets, see import_masks
 	uint32_t mask_sample_set_count = 0; // number of sets in masks
 	OwnedTexture depth_map;
+	CountStatus status;
 
 	// State of this frame.
 	CountSettings settings;

@@ -26,6 +26,15 @@ float ShadowSystem::get_standard_error(const std::string &p_light_name) const {
 	return slot == slots.end() ? 0.0f : slot->second.technique->get_standard_error();
 }
 
+std::vector<WorkCounter> ShadowSystem::get_counters(const std::string &p_light_name) const {
+	std::vector<WorkCounter> counters;
+	const auto slot = slots.find({ p_light_name, 0 });
+	if (slot != slots.end()) {
+		slot->second.technique->get_counters(counters);
+	}
+	return counters;
+}
+
 void ShadowSystem::begin_frame(const SceneSnapshot &p_scene) {
 	if (technique_revision != ShadowRegistry::get_revision()) {
 		technique_revision = ShadowRegistry::get_revision();

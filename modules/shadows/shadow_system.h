@@ -31,6 +31,8 @@ public:
 	MeshStore &get_meshes() { return *meshes; }
 	/// Standard error of the light's mask in the last frame, see ShadowTechnique.
 	float get_standard_error(const std::string &p_light_name) const;
+	/// Work that the light's technique counted for its opaque casters, see ShadowTechnique.
+	std::vector<WorkCounter> get_counters(const std::string &p_light_name) const;
 	/// Destroys all techniques and their caches, for example after shaders were replaced.
 	void clear_caches() { slots.clear(); }
 

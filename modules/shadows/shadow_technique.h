@@ -66,6 +66,12 @@ struct ShadowLimits {
 	double max_inner_width_sizes = std::numeric_limits<double>::infinity();
 };
 
+/// An amount of work that a technique counted, such as entries of lists.
+struct WorkCounter {
+	std::string name; // "listed_edges"
+	uint64_t value = 0;
+};
+
 /// Computes, for one light, the fraction of its area that is visible from each pixel's surface.
 ///
 /// The shadow system owns one instance per shadow-casting light, and one more for each group of
@@ -166,6 +172,9 @@ public:
 	/// Returns the standard error of the last mask, for a technique that samples at random and can
 	/// estimate it, otherwise 0. Called after the frame was executed.
 	virtual float get_standard_error() const { return 0.0f; }
+	/// Appends the work that the technique counted on the GPU in the last frame whose submission has
+	/// finished. Called after the frame was executed.
+	virtual void get_counters(std::vector<WorkCounter> & /*r_counters*/) const {}
 	/// Entry points under shaders/; compiled by the tests and watched for hot reload.
 	virtual std::vector<std::string> get_shader_files() const = 0;
 };

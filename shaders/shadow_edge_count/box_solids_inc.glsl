@@ -34,7 +34,8 @@ bool is_face_irrelevant(CountBox p_box, uint p_face) {
 }
 
 /// True if no face that the texels p_first..p_last list can separate receivers of the box: all are on the same side of
-/// its plane, or the face is entirely in front of them or behind them. False if the test takes too many steps.
+/// its plane, or the face is entirely in front of them or behind them. False if the test takes too many steps, or if the
+/// driver ends the loop.
 bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	uvec2 texel = p_first;
 	uint next = load_count_first_node(p_view, texel);
@@ -42,12 +43,14 @@ bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_
 	bool is_one_sided = true;
 	// A single loop over all lists, since each loop takes as many iterations as its slowest invocation.
 	while (texel.y <= p_last.y && is_one_sided) {
-		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
+		const bool is_listed = next <= light.node_capacity;
+		note_fault(!is_listed, EDGE_COUNT_FAULT_FACE_LIST);
+		const uvec2 node = load_count_node(p_view * light.node_capacity + (is_listed ? max(next, 1u) - 1u : 0u));
 		const uint face = node.x & EDGE_COUNT_FACE_MASK;
 		const vec4 plane = load_count_plane(face);
 		const bool is_known =
 				next == 0u || find_count_side(p_box, plane) != 0 || is_face_irrelevant(p_box, face);
-		is_one_sided = is_known && step_count < end;
+		is_one_sided = is_known && is_listed && step_count < end;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
 		texel.x = is_row_end ? p_first.x : (is_end ? texel.x + 1u : texel.x);
@@ -55,7 +58,7 @@ bool has_no_separating_face(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_
 		next = is_end ? load_count_first_node(p_view, min(texel, p_last)) : node.y;
 		++step_count;
 	}
-	return is_one_sided;
+	return is_one_sided && texel.y > p_last.y;
 }
 
 /// A flag, SOME_ARE_LIT or the following, for the receivers of one part if they need no edge: then the number of solids

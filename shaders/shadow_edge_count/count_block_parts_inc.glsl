@@ -3,6 +3,7 @@
 #define COUNT_BLOCK_PARTS_INC_GLSL
 
 #include "shadow_edge_count/count_blocks_inc.glsl"
+#include "shadow_edge_count/count_status_inc.glsl"
 
 layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) readonly buffer BlockReceivers {
 	uint block_receivers[]; // per block, EDGE_COUNT_RECEIVERS_*
@@ -10,6 +11,16 @@ layout(std430, set = 0, binding = COUNT_BINDING_BLOCK_RECEIVERS) readonly buffer
 layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) readonly buffer Chains {
 	uint chains[]; // per block and part, EDGE_COUNT_CHAIN_*
 };
+layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
+	uint status[]; // EDGE_COUNT_STATUS_*
+};
+
+/// Writes what note_fault noted. Called once per invocation, at its end.
+void report_faults() {
+	if (count_faults != 0u) {
+		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], count_faults << push.kind);
+	}
+}
 
 /// The block's word EDGE_COUNT_RECEIVERS_PARTS.
 uint load_parts(uint p_block) {

@@ -27,9 +27,14 @@ uint load_block_entry() {
 	return blocks[push.first_block + index];
 }
 
+/// The block of an entry, limited to the blocks of the image.
+uint limit_block(uint p_entry) {
+	return min(p_entry & ~EDGE_COUNT_BLOCK_IS_DARK, light.block_count.x * light.block_count.y - 1u);
+}
+
 /// The work group's block.
 uint find_block() {
-	return load_block_entry() & ~EDGE_COUNT_BLOCK_IS_DARK;
+	return limit_block(load_block_entry());
 }
 
 /// The position of the block's first pixel in the image.

@@ -18,13 +18,36 @@ struct CountBounds {
 	vec2 minimum;	   // of (x', y')
 	vec2 maximum; // of (x', y')
 	vec2 slope;
-	vec2 range;
+	vec2 range; // of w - slope.(x', y')
+	vec2 w_range;
 };
 
 const float COUNT_FAR = 3e38;
 
 CountBounds make_count_bounds() {
-	return CountBounds(vec2(COUNT_FAR), vec2(-COUNT_FAR), vec2(0.0), vec2(COUNT_FAR, -COUNT_FAR));
+	const vec2 none = vec2(COUNT_FAR, -COUNT_FAR);
+	return CountBounds(vec2(COUNT_FAR), vec2(-COUNT_FAR), vec2(0.0), none, none);
+}
+
+/// Adds a receiver at p_warped (x', y', w) to bounds whose slope is set.
+void add_to_bounds(vec3 p_warped, bool p_is_selected, inout CountBounds r_bounds) {
+	const float range = p_warped.z - dot(r_bounds.slope, p_warped.xy);
+	r_bounds.minimum = p_is_selected ? min(r_bounds.minimum, p_warped.xy) : r_bounds.minimum;
+	r_bounds.maximum = p_is_selected ? max(r_bounds.maximum, p_warped.xy) : r_bounds.maximum;
+	r_bounds.range.x = p_is_selected ? min(r_bounds.range.x, range) : r_bounds.range.x;
+	r_bounds.range.y = p_is_selected ? max(r_bounds.range.y, range) : r_bounds.range.y;
+	r_bounds.w_range.x = p_is_selected ? min(r_bounds.w_range.x, p_warped.z) : r_bounds.w_range.x;
+	r_bounds.w_range.y = p_is_selected ? max(r_bounds.w_range.y, p_warped.z) : r_bounds.w_range.y;
+}
+
+/// Replaces the plane by one across the view if that has the narrower range. A plane that the light sees nearly edge-on
+/// is steep, and a range about it says little about the receivers.
+CountBounds choose_flatter(CountBounds p_bounds) {
+	const bool is_flat = p_bounds.range.y - p_bounds.range.x <= p_bounds.w_range.y - p_bounds.w_range.x;
+	CountBounds bounds = p_bounds;
+	bounds.slope = is_flat ? bounds.slope : vec2(0.0);
+	bounds.range = is_flat ? bounds.range : bounds.w_range;
+	return bounds;
 }
 
 bool is_count_bounds_empty(CountBounds p_bounds) {
@@ -39,11 +62,6 @@ vec2 find_range_about(CountBounds p_bounds, vec2 p_slope) {
 	return p_bounds.range + vec2(middle - half_width, middle + half_width);
 }
 
-/// The range of w.
-vec2 find_w_range(CountBounds p_bounds) {
-	return find_range_about(p_bounds, vec2(0.0));
-}
-
 /// Joins bounds in the same view. The range is relative to the plane of p_one, or of p_other if p_one is empty.
 CountBounds join_count_bounds(CountBounds p_one, CountBounds p_other) {
 	if (is_count_bounds_empty(p_one)) {
@@ -52,12 +70,18 @@ CountBounds join_count_bounds(CountBounds p_one, CountBounds p_other) {
 	const bool is_empty = is_count_bounds_empty(p_other);
 	const vec2 range = find_range_about(p_other, p_one.slope);
 	return CountBounds(min(p_one.minimum, p_other.minimum), max(p_one.maximum, p_other.maximum), p_one.slope,
-			is_empty ? p_one.range : vec2(min(p_one.range.x, range.x), max(p_one.range.y, range.y)));
+			is_empty ? p_one.range : vec2(min(p_one.range.x, range.x), max(p_one.range.y, range.y)),
+			vec2(min(p_one.w_range.x, p_other.w_range.x), max(p_one.w_range.y, p_other.w_range.y)));
 }
 
 CountBounds unpack_count_bounds(CountBlockBox p_box) {
-	return CountBounds(p_box.min_max.xy, p_box.min_max.zw, p_box.slope_range.xy,
-			p_box.slope_range.zw);
+	return CountBounds(p_box.min_max.xy, p_box.min_max.zw, p_box.slope_range.xy, p_box.slope_range.zw,
+			p_box.w_range.xy);
+}
+
+CountBlockBox pack_count_bounds(CountBounds p_bounds) {
+	return CountBlockBox(vec4(p_bounds.minimum, p_bounds.maximum), vec4(p_bounds.slope, p_bounds.range),
+			vec4(p_bounds.w_range, 0.0, 0.0));
 }
 
 /// Receivers of one view, prepared for tests of edges in light space. q and d: see the head of this file.
@@ -88,7 +112,9 @@ float find_tilt(float p_radius, vec3 p_normal, float p_min, float p_longest) {
 /// `above` of a point light: from the receivers' plane; if that is not flat or is tilted too much towards the disc,
 /// from a plane across the view; if that fails too, 1, which d never exceeds.
 vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds, vec2 p_w_range) {
-	const float MAX_TILT = 0.7; // above it, the bound, which is divided by 1 - tilt, is too loose
+	// At a height h above the receivers' plane, an edge is out of reach from R h / (1 - 2 tilt) on, in the direction in
+	// which the plane rises.
+	const float MAX_TILT = 0.25;
 	const vec2 far = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
 	const float min_w = p_w_range.x;
 	const float longest = min_w > 0.0 ? sqrt(1.0 + dot(far, far)) / min_w : 1e37;
@@ -100,8 +126,7 @@ vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBou
 	const vec3 across_normal = min_w * p_view.axis_z.xyz;
 	const float across_tilt =
 			find_tilt(p_light.disc_radius, across_normal, min_w / max(p_w_range.y, 1e-37), longest);
-	const bool is_flat = p_bounds.range.y - p_bounds.range.x <= p_w_range.y - p_w_range.x;
-	if (min_w > 0.0 && is_flat && own_tilt < MAX_TILT) {
+	if (min_w > 0.0 && own_tilt < MAX_TILT) {
 		return vec4(-own_normal, 1.0) / (1.0 - own_tilt);
 	}
 	if (min_w > 0.0 && across_tilt < MAX_TILT) {
@@ -141,10 +166,9 @@ float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds, ve
 
 /// `above` of a directional light, whose d is in metres.
 vec4 find_above_directional(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
-	const float MAX_TILT = 0.7; // see find_above
+	const float MAX_TILT = 0.25; // see find_above
 	const float tilt = p_light.disc_radius * length(p_bounds.slope);
-	const bool is_flat = p_bounds.range.y - p_bounds.range.x <= p_w_range.y - p_w_range.x;
-	return is_flat && tilt < MAX_TILT
+	return tilt < MAX_TILT
 			? vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.x) / (1.0 - tilt)
 			: vec4(0.0, 0.0, -1.0, p_light.depth_far_m - p_w_range.x);
 }
@@ -160,7 +184,7 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 	box.range = 0.5 * vec2(p_bounds.range.x + p_bounds.range.y, WIDENING * (p_bounds.range.y - p_bounds.range.x));
 	box.radius = p_light.disc_radius;
 	box.depth_far_m = p_light.depth_far_m;
-	const vec2 w_range = find_w_range(p_bounds);
+	const vec2 w_range = p_bounds.w_range;
 	const vec2 minimum = box.center - box.half_size;
 	const vec2 maximum = box.center + box.half_size;
 	const vec3 x = p_view.axis_x.xyz;

@@ -8,8 +8,9 @@
 FETCHED_UVEC4S(COUNT_BINDING_EDGES, edges_buffer);
 FETCHED_VEC4S(COUNT_BINDING_BUNDLES, bundles_buffer);
 
+/// p_index: what a list has, limited to the capacity of the light's edges.
 CountEdgeRecord load_count_edge(uint p_index) {
-	const int first = int(2u * p_index);
+	const int first = int(2u * min(p_index, max(light.max_edge_count, 1u) - 1u));
 	return CountEdgeRecord(FETCH_UVEC4(edges_buffer, first), FETCH_UVEC4(edges_buffer, first + 1));
 }
 
@@ -25,7 +26,7 @@ vec4 load_count_plane1(CountEdgeRecord p_edge) {
 
 /// True if the edge is of the level of detail that receivers of a part with this distance see.
 bool is_in_distance_range(float p_part_distance, CountEdgeRecord p_edge) {
-	const int first = int(3u * (p_edge.a_face0.w & EDGE_COUNT_FACE_MASK));
+	const int first = int(3u * limit_face(p_edge.a_face0.w & EDGE_COUNT_FACE_MASK));
 	return p_part_distance >= uintBitsToFloat(FETCH_UVEC4(faces_buffer, first + 1).w) &&
 			p_part_distance < uintBitsToFloat(FETCH_UVEC4(faces_buffer, first + 2).w);
 }

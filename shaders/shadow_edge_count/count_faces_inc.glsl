@@ -4,6 +4,7 @@
 #define COUNT_FACES_INC_GLSL
 
 #include "shadow_edge_count/count_space_inc.glsl"
+#include "shadow_edge_count/count_status_inc.glsl"
 
 // Accessors, which the includer defines for its buffers.
 
@@ -17,6 +18,7 @@ uint load_count_head(uint p_index);
 uvec2 load_count_node(uint p_index);
 /// How often the size of a view's map was halved because its face lists did not fit.
 uint load_count_level(uint p_view);
+/// p_face: what a list has; the accessors limit it to the light's faces.
 CountFaceRecord load_count_face(uint p_face);
 vec4 load_count_plane(uint p_face);
 
@@ -77,6 +79,8 @@ struct FaceWalk {
 	uint first_node; // of the view
 	uint next;		 // counted from 1; 0 at the end
 	uint cell;		 // bits of the receiver's column and row of cells, as in a node
+	uint capacity;	 // of the view's nodes
+	uint steps_left; // a list has each face once at most
 };
 
 /// p_position: x' and y' of the receiver in its view.
@@ -91,17 +95,21 @@ FaceWalk start_face_walk(CountLightConstants p_light, uint p_view, vec2 p_positi
 	const bool is_inside = all(lessThanEqual(abs(p_position), view.half_extent));
 	return FaceWalk(p_view * p_light.node_capacity,
 			is_inside ? load_count_first_node(p_view, uvec2(texel)) : 0u,
-			(1u << cell.x | 1u << (EDGE_COUNT_NODE_CELLS_PER_SIDE + cell.y)) << EDGE_COUNT_NODE_CELLS_SHIFT);
+			(1u << cell.x | 1u << (EDGE_COUNT_NODE_CELLS_PER_SIDE + cell.y)) << EDGE_COUNT_NODE_CELLS_SHIFT,
+			p_light.node_capacity, min(p_light.node_capacity, p_light.face_count));
 }
 
 /// Goes to the next node unless r_faces is full. Adds the node's face to r_faces if its bounds overlap the receiver's
 /// cell. r_faces: unused items, which follow the others, are EDGE_COUNT_NO_FACE.
 void step_face_walk(inout FaceWalk r_walk, inout uvec4 r_faces) {
-	const bool is_valid = r_walk.next != 0u && r_faces.w == EDGE_COUNT_NO_FACE;
-	const uvec2 node = load_count_node(r_walk.first_node + max(r_walk.next, 1u) - 1u);
+	const bool is_due = r_walk.next != 0u && r_faces.w == EDGE_COUNT_NO_FACE;
+	const bool is_valid = is_due && r_walk.next <= r_walk.capacity && r_walk.steps_left > 0u;
+	note_fault(is_due != is_valid, EDGE_COUNT_FAULT_FACE_LIST);
+	const uvec2 node = load_count_node(r_walk.first_node + (is_valid ? r_walk.next - 1u : 0u));
 	const bool overlaps = is_valid && (node.x & r_walk.cell) == r_walk.cell;
 	r_faces = overlaps ? uvec4(node.x & EDGE_COUNT_FACE_MASK, r_faces.xyz) : r_faces;
-	r_walk.next = is_valid ? node.y : r_walk.next;
+	r_walk.next = is_valid ? node.y : (is_due ? 0u : r_walk.next);
+	r_walk.steps_left -= is_valid ? 1u : 0u;
 }
 
 /// Counts crossings of the faces that the receiver's texel lists. p_position: x' and y' of the receiver in its view.
@@ -120,7 +128,7 @@ CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_
 		} while (walk.next != 0u && faces.w == EDGE_COUNT_NO_FACE);
 		do {
 			const bool is_valid = faces.x != EDGE_COUNT_NO_FACE;
-			const uint face = is_valid ? faces.x : 0u;
+			const uint face = is_valid ? faces.x : 0u; // load_count_face() and load_count_plane() limit it
 			const vec4 plane = load_count_plane(face);
 			const bool is_in_front = is_count_in_front(plane, p_receiver.position);
 			if (is_valid && is_in_front != is_count_light_in_front(plane)) {
@@ -128,7 +136,9 @@ CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_
 			}
 			faces = uvec4(faces.yzw, EDGE_COUNT_NO_FACE);
 		} while (faces.x != EDGE_COUNT_NO_FACE);
+		note_fault(faces.x != EDGE_COUNT_NO_FACE, EDGE_COUNT_FAULT_LOOP);
 	}
+	note_fault(walk.next != 0u, EDGE_COUNT_FAULT_LOOP);
 	return found;
 }
 

@@ -26,14 +26,18 @@ uint load_count_level(uint p_view) {
 	return totals[EDGE_COUNT_TOTAL_LEVELS + p_view];
 }
 
+uint limit_face(uint p_face) {
+	return min(p_face, light.face_count - 1u);
+}
+
 CountFaceRecord load_count_face(uint p_face) {
-	const int first = int(3u * p_face);
+	const int first = int(3u * limit_face(p_face));
 	return CountFaceRecord(FETCH_UVEC4(faces_buffer, first), FETCH_UVEC4(faces_buffer, first + 1),
 			FETCH_UVEC4(faces_buffer, first + 2));
 }
 
 vec4 load_count_plane(uint p_face) {
-	return FETCH_VEC4(planes_buffer, p_face);
+	return FETCH_VEC4(planes_buffer, limit_face(p_face));
 }
 
 /// The number of faces that may cut the light's disc. 0 if no caster comes near it: then no pass has written a total.

@@ -31,12 +31,10 @@ struct CountPoint {
 	vec3 position; // light space
 	uint view;	   // light view that contains it
 	vec3 warped;   // x', y' and w in the view
-	vec2 slope;	   // of its surface's plane: w per x' and y'; 0 if the light sees the plane edge-on
 };
 
 /// The pixel must have a receiver, see is_receiver_pixel.
 CountPoint load_count_point(ivec2 p_pixel) {
-	const float EDGE_ON_COSINE = 1e-7; // cosine of normal and light direction, below which the plane is edge-on
 	const ReceiverPixel pixel = load_receiver(frame_copy, p_pixel);
 	CountPoint point;
 	point.view = VIEW_COUNT == 1u ? 0u : find_view_of_direction((axes_from_camera * vec4(pixel.position, 1.0)).xyz);
@@ -45,12 +43,7 @@ CountPoint load_count_point(ivec2 p_pixel) {
 	const mat3 light_from_view = mat3(view.axis_x.xyz, view.axis_y.xyz, view.axis_z.xyz);
 	// In the view's axes: a product with the matrix on the right applies its transpose.
 	const vec3 r = VIEW_COUNT == 1u ? point.position : point.position * light_from_view;
-	const vec3 normal_light = mat3(light_from_camera) * pixel.normal;
-	const vec3 n = VIEW_COUNT == 1u ? normal_light : normal_light * light_from_view;
 	point.warped = IS_DIRECTIONAL ? vec3(r.xy, light.depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;
-	const float height = IS_DIRECTIONAL ? n.z : dot(n, r);
-	const float threshold = EDGE_ON_COSINE * (IS_DIRECTIONAL ? 1.0 : length(r));
-	point.slope = abs(height) >= threshold ? n.xy / height : vec2(0.0);
 	return point;
 }
 

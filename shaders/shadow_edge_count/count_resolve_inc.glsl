@@ -16,7 +16,7 @@ layout(constant_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) const uint FULL_SUBGROUP
 /// Active invocations of a subgroup: a work group may be smaller than the device's subgroups.
 const uint SUBGROUP_SIZE =
 		FULL_SUBGROUP_SIZE < uint(COUNT_GROUP_SIZE) ? FULL_SUBGROUP_SIZE : uint(COUNT_GROUP_SIZE);
-#include "common/subgroup_inc.glsl"
+#include "shadow_edge_count/plane_fit_inc.glsl"
 /// The blocks have no edge lists: each subgroup tests all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
@@ -69,12 +69,16 @@ CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, Count
 	CountChoice choice = CountChoice(p_first, 0u);
 	do {
 		const uint index = choice.next + gl_SubgroupInvocationID;
-		const bool is_valid = index < p_end;
+		const bool is_chunk = r_chunk < light.chunk_capacity;
+		note_fault(choice.next < p_end && !is_chunk, EDGE_COUNT_FAULT_EDGE_LIST);
+		const bool is_valid = index < p_end && is_chunk;
 		const uint entry = FETCH_UINT(lists_buffer, is_valid ? int(r_chunk * size + index % size) : 0);
-		choose_edge(p_box, is_valid ? entry : 0u, is_valid, choice);
+		const bool is_edge = (entry & COUNT_EDGE_MASK) < light.max_edge_count;
+		note_fault(is_valid && !is_edge, EDGE_COUNT_FAULT_EDGE_LIST);
+		choose_edge(p_box, is_valid && is_edge ? entry : 0u, is_valid && is_edge, choice);
 		choice.next += SUBGROUP_SIZE;
 		r_chunk = choice.next % size == 0u
-				? FETCH_UINT(lists_buffer, light.chunk_capacity * size + r_chunk)
+				? FETCH_UINT(lists_buffer, light.chunk_capacity * size + min(r_chunk, light.chunk_capacity - 1u))
 				: r_chunk;
 	} while (choice.next < p_end && has_choice_room(choice, SUBGROUP_SIZE));
 	return choice;
@@ -121,7 +125,9 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 				}
 				i += 2u * SUBGROUP_SIZE;
 			} while (2u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
+			note_fault(i - gl_SubgroupInvocationID < size, EDGE_COUNT_FAULT_LOOP);
 		} while (subgroupBallotBitCount(needed) != 0u);
+		note_fault(subgroupBallotBitCount(needed) != 0u, EDGE_COUNT_FAULT_LOOP);
 	} while (choice.next < p_end && has_choice_room(choice, size));
 	return choice;
 }
@@ -296,6 +302,7 @@ CountEdgeMasks test_round(uint p_first, uint p_count, CountReceiver p_receiver, 
 		batches_without_weight |= subgroup_any(lacks_weight) ? 1u << batch : 0u;
 		++batch;
 	} while (batch * BATCH_SIZE < p_count);
+	note_fault(batch * BATCH_SIZE < p_count, EDGE_COUNT_FAULT_LOOP);
 	do {
 		// If none is left, this iteration has no effect.
 		batch = batches_without_weight != 0u ? uint(findLSB(batches_without_weight)) : 0u;
@@ -313,6 +320,7 @@ CountEdgeMasks test_round(uint p_first, uint p_count, CountReceiver p_receiver, 
 			i += EDGES_PER_ITERATION;
 		} while (BATCH_SIZE > EDGES_PER_ITERATION && i < find_loaded_count(batch, p_count));
 	} while (batches_without_weight != 0u);
+	note_fault(batches_without_weight != 0u, EDGE_COUNT_FAULT_LOOP);
 	return edge_masks;
 }
 
@@ -367,15 +375,18 @@ void count_round(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks 
 		}
 		i += HAS_NO_LIST ? 4u : 2u;
 	} while (i < max_count);
+	note_fault(i < max_count, EDGE_COUNT_FAULT_LOOP);
 }
 
-/// The bounds of the receivers of a subgroup for which p_is_selected is true. p_slope: of the plane that their range
-/// refers to.
-CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_selected, vec2 p_slope) {
-	const float range = p_point.warped.z - dot(p_slope, p_point.warped.xy);
-	return CountBounds(subgroup_min(p_is_selected ? p_point.warped.xy : vec2(COUNT_FAR)),
-			subgroup_max(p_is_selected ? p_point.warped.xy : vec2(-COUNT_FAR)), p_slope,
-			vec2(subgroup_min(p_is_selected ? range : COUNT_FAR), subgroup_max(p_is_selected ? range : -COUNT_FAR)));
+/// The bounds of the receivers of a subgroup for which p_is_selected is true.
+CountBounds find_receiver_bounds(vec3 p_warped, bool p_is_selected) {
+	const vec3 mean = find_mean_receiver(p_is_selected ? vec4(p_warped, 1.0) : vec4(0.0));
+	PlaneMoments moments = PlaneMoments(vec3(0.0), vec2(0.0));
+	add_to_moments(p_warped - mean, p_is_selected, moments);
+	CountBounds bounds = make_count_bounds();
+	bounds.slope = find_fitted_slope(moments);
+	add_to_bounds(p_warped, p_is_selected, bounds);
+	return find_subgroup_bounds(bounds);
 }
 
 /// Each invocation counts the edges of one pixel and computes its visibility. The pixel is at position p_pixel in the
@@ -388,7 +399,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	result.edge_count = 0u;
 	const bool is_receiver = is_in_image(result.pixel) && is_receiver_pixel(result.pixel);
 	// Replaced if there is a receiver, else not counted.
-	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), vec2(0.0));
+	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0));
 	if (is_receiver) {
 		point = load_count_point(result.pixel);
 	}
@@ -425,7 +436,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		const uint view = find_part_view(p_parts, part);
 		const bool is_selected = waits && own_part == part;
 		CountBox box = make_count_box(light, load_count_view(view),
-				find_subgroup_bounds(point, is_selected, subgroupShuffle(point.slope, leader)));
+				find_receiver_bounds(point.warped, is_selected));
 		box.distances = vec2(subgroupShuffle(distance, leader));
 		uint end = is_any ? find_edge_count() : 0u;
 		uint chunk = 0u;
@@ -433,7 +444,11 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 			const uint chain = find_chain(p_block, part);
 			// A part without receivers has no chain. Rounding can put a receiver into one, see load_part_distance.
 			const bool has_chain = is_any && (p_parts >> part & 1u) != 0u;
+			// The list has each edge once at most.
+			const uint edge_count = end;
 			end = has_chain ? chains[chain + uint(EDGE_COUNT_CHAIN_COUNT)] : 0u;
+			note_fault(end > edge_count, EDGE_COUNT_FAULT_EDGE_LIST);
+			end = min(end, edge_count);
 			chunk = has_chain ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
 		}
 		uint next = 0u; // in the list
@@ -457,10 +472,14 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 				result.edge_count += uint(bitCount(edge_masks.own));
 				first += ROUND_SIZE;
 			} while (first < choice.count);
+			note_fault(first < choice.count, EDGE_COUNT_FAULT_LOOP);
 			sync_subgroup_memory();
 		} while (next < end);
+		note_fault(next < end, EDGE_COUNT_FAULT_LOOP);
 		waits = waits && !is_selected;
 	} while (subgroup_any(waits));
+	note_fault(waits, EDGE_COUNT_FAULT_LOOP);
+	report_faults();
 	result.solid_count = state.solid_count;
 	result.visibility = is_counted ? count_resolve(state) : (is_receiver ? 1.0 : 0.0);
 	return result;

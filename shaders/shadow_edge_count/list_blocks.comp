@@ -40,10 +40,13 @@ layout(std430, set = 0, binding = COUNT_BINDING_BLOCKS) writeonly buffer Blocks 
 layout(std430, set = 0, binding = COUNT_BINDING_DISPATCHES) buffer Dispatches {
 	uint dispatches[];
 };
+layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
+	uint status[]; // EDGE_COUNT_STATUS_*
+};
 
 const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
-#include "common/subgroup_inc.glsl"
+#include "shadow_edge_count/plane_fit_inc.glsl"
 
 const uint BLOCKS_PER_TILE = uint(EDGE_COUNT_BLOCKS_PER_TILE_SIDE * EDGE_COUNT_BLOCKS_PER_TILE_SIDE);
 const uint PARTS_PER_TILE = BLOCKS_PER_TILE * PART_COUNT;
@@ -111,8 +114,7 @@ vec2 find_w_range_of_tile(uvec2 p_tile, uint p_parts) {
 	uint first = 0u;
 	do {
 		const CountBounds box = load_box(p_tile, p_parts, first + gl_SubgroupInvocationID);
-		const vec2 range = find_w_range(box);
-		w = is_count_bounds_empty(box) ? w : vec2(min(w.x, range.x), max(w.y, range.y));
+		w = vec2(min(w.x, box.w_range.x), max(w.y, box.w_range.y)); // no change if it is empty
 		first += GROUP_SIZE;
 	} while (is_part_left(p_parts, first));
 	return vec2(subgroup_min(w.x), subgroup_max(w.y));
@@ -125,8 +127,7 @@ CountBounds find_bounds(uvec2 p_tile, uint p_parts, float p_min_w, float p_max_w
 	uint first = 0u;
 	do {
 		const CountBounds box = load_box(p_tile, p_parts, first + gl_SubgroupInvocationID);
-		const vec2 w = find_w_range(box);
-		const float middle = 0.5 * (w.x + w.y);
+		const float middle = 0.5 * (box.w_range.x + box.w_range.y);
 		const bool is_selected =
 				!is_count_bounds_empty(box) && middle >= p_min_w && middle < p_max_w;
 		bounds = is_selected ? join_count_bounds(bounds, box) : bounds;
@@ -136,9 +137,9 @@ CountBounds find_bounds(uvec2 p_tile, uint p_parts, float p_min_w, float p_max_w
 	const uvec4 filled = subgroup_ballot(!is_empty);
 	const uint leader = subgroupBallotBitCount(filled) > 0u ? subgroupBallotFindLSB(filled) : 0u;
 	const vec2 slope = subgroupShuffle(bounds.slope, leader);
-	const vec2 range = is_empty ? bounds.range : find_range_about(bounds, slope);
-	return CountBounds(subgroup_min(bounds.minimum), subgroup_max(bounds.maximum), slope,
-			vec2(subgroup_min(range.x), subgroup_max(range.y)));
+	bounds.range = is_empty ? bounds.range : find_range_about(bounds, slope);
+	bounds.slope = slope;
+	return find_subgroup_bounds(bounds);
 }
 
 BoxPair make_pair(uint p_view, CountBounds p_near, CountBounds p_far) {
@@ -488,6 +489,10 @@ void list_view(uvec2 p_tile, uint p_view) {
 			chains[first_word + uint(EDGE_COUNT_CHAIN_FIRST)] = chain.first;
 			chains[first_word + uint(EDGE_COUNT_CHAIN_COUNT)] = chain.edge_count;
 			atomicAdd(block_edge_counts[i % BLOCKS_PER_TILE], chain.edge_count);
+			if (chain.edge_count > 0u) {
+				atomicAdd(status[EDGE_COUNT_STATUS_LISTED_EDGES], chain.edge_count);
+				atomicMax(status[EDGE_COUNT_STATUS_LONGEST_LIST], chain.edge_count);
+			}
 			// Chunks are allocated in increasing order: if the last one fits, all do.
 			if (chain.edge_count > 0u && chain.chunk >= light.chunk_capacity) {
 				blocks_have_room[i % BLOCKS_PER_TILE] = 0u;
@@ -548,5 +553,8 @@ void main() {
 			const bool is_dark = kind == uint(EDGE_COUNT_BLOCKS_EVEN) && solids == SOME_ARE_DARK;
 			add_block(block | (is_dark ? EDGE_COUNT_BLOCK_IS_DARK : 0u), kind);
 		}
+	}
+	if (count_faults != 0u) {
+		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], count_faults << EDGE_COUNT_PASS_LIST_BLOCKS);
 	}
 }

@@ -24,7 +24,7 @@ layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) writeonly buffer Chains 
 
 const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
-#include "common/subgroup_inc.glsl"
+#include "shadow_edge_count/plane_fit_inc.glsl"
 
 const uint PIXEL_COUNT = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
 const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
@@ -35,7 +35,7 @@ const uint NO_VIEW = 0xffffffffu;
 CountPoint load_point(uint p_index, inout bool r_is_lit) {
 	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * uint(EDGE_COUNT_BLOCK_PX) +
 			find_pixel_in_block(p_index));
-	CountPoint point = CountPoint(vec3(0.0), NO_VIEW, vec3(0.0), vec2(0.0));
+	CountPoint point = CountPoint(vec3(0.0), NO_VIEW, vec3(0.0));
 	if (p_index < PIXEL_COUNT && is_in_image(pixel) && is_receiver_pixel(pixel)) {
 		const CountPoint loaded = load_count_point(pixel);
 		if (may_count_at(loaded)) {
@@ -58,29 +58,24 @@ bool needs_sorting(vec2 p_camera_range) {
 	return p_camera_range.y - p_camera_range.x > MIN_SORTED_RANGE_SIZES * light.scene_size_m;
 }
 
-/// The bounds of the receivers for which p_is_selected is true, relative to the plane of one of them. Empty if there is
-/// none.
+/// The bounds of the receivers for which p_is_selected is true, relative to the plane that fits them best. Empty if
+/// there is none.
 CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_selected[PIXELS_PER_INVOCATION]) {
+	vec4 sum = vec4(0.0);
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		sum += p_is_selected[i] ? vec4(p_points[i].warped, 1.0) : vec4(0.0);
+	}
+	const vec3 mean = find_mean_receiver(sum);
+	PlaneMoments moments = PlaneMoments(vec3(0.0), vec2(0.0));
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		add_to_moments(p_points[i].warped - mean, p_is_selected[i], moments);
+	}
 	CountBounds bounds = make_count_bounds();
-	bool is_any = false;
-	vec2 slope = vec2(0.0);
+	bounds.slope = find_fitted_slope(moments);
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-		slope = p_is_selected[i] && !is_any ? p_points[i].slope : slope;
-		is_any = is_any || p_is_selected[i];
+		add_to_bounds(p_points[i].warped, p_is_selected[i], bounds);
 	}
-	const uvec4 lanes = subgroup_ballot(is_any);
-	const uint leader = subgroup_any(is_any) ? subgroupBallotFindLSB(lanes) : 0u;
-	slope = subgroupShuffle(slope, leader);
-	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-		const vec3 warped = p_points[i].warped;
-		const float range = warped.z - dot(slope, warped.xy);
-		bounds.minimum = p_is_selected[i] ? min(bounds.minimum, warped.xy) : bounds.minimum;
-		bounds.maximum = p_is_selected[i] ? max(bounds.maximum, warped.xy) : bounds.maximum;
-		bounds.range.x = p_is_selected[i] ? min(bounds.range.x, range) : bounds.range.x;
-		bounds.range.y = p_is_selected[i] ? max(bounds.range.y, range) : bounds.range.y;
-	}
-	return CountBounds(subgroup_min(bounds.minimum), subgroup_max(bounds.maximum), slope,
-			vec2(subgroup_min(bounds.range.x), subgroup_max(bounds.range.y)));
+	return find_subgroup_bounds(bounds);
 }
 
 /// Writes a part's bounds, and the distance of its nearest receiver from the light (EDGE_COUNT_CHAIN_DISTANCE). The
@@ -97,7 +92,7 @@ bool write_part(uint p_block, uint p_part, CountPoint p_points[PIXELS_PER_INVOCA
 	distance_m = subgroup_min(distance_m);
 	if (subgroupElect()) {
 		const uint index = p_block * PART_COUNT + p_part;
-		boxes[index] = CountBlockBox(vec4(bounds.minimum, bounds.maximum), vec4(bounds.slope, bounds.range));
+		boxes[index] = pack_count_bounds(bounds);
 		chains[index * uint(EDGE_COUNT_CHAIN_WORDS) + uint(EDGE_COUNT_CHAIN_DISTANCE)] = floatBitsToUint(distance_m);
 	}
 	return !is_count_bounds_empty(bounds);

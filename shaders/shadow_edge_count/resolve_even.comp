@@ -10,7 +10,7 @@ void main() {
 	load_count_constants();
 	const uint entry = load_block_entry();
 	const ivec2 pixel = ivec2(
-			find_block_corner(entry & ~EDGE_COUNT_BLOCK_IS_DARK) + find_pixel_in_block(gl_LocalInvocationIndex));
+			find_block_corner(limit_block(entry)) + find_pixel_in_block(gl_LocalInvocationIndex));
 	if (is_in_image(pixel)) {
 		const bool is_lit = (entry & EDGE_COUNT_BLOCK_IS_DARK) == 0u && is_receiver_pixel(pixel);
 		imageStore(mask_image, pixel, vec4(is_lit ? 1.0 : 0.0));

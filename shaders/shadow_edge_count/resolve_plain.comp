@@ -28,4 +28,5 @@ void main() {
 				: 0.0;
 	}
 	imageStore(mask_image, pixel, vec4(visibility));
+	report_faults();
 }

@@ -193,13 +193,14 @@ SHARED_OFFSET(CountLightConstants, block_count, 400);
 #define EDGE_COUNT_SORTED_PARTS 4
 #define EDGE_COUNT_PARTS(view_count)                                                               \
 	((view_count) == 1u ? EDGE_COUNT_SORTED_PARTS : EDGE_COUNT_MAX_VIEWS)
-/// Bounds of the receivers of one part: a rectangle of (x', y'), and a range of w relative to a
-/// plane.
+/// Bounds of the receivers of one part: a rectangle of (x', y'), a range of w, and a range of w
+/// relative to a plane.
 struct SHARED_ALIGN CountBlockBox {
 	vec4 min_max;	  // min x', min y', max x', max y'
 	vec4 slope_range; // slope: w per x' and y' of the plane; min and max of w - slope.(x', y')
+	vec4 w_range;	  // min and max of w; the others are 0
 };
-SHARED_SIZE(CountBlockBox, 32);
+SHARED_SIZE(CountBlockBox, 48);
 
 // Words that describe the receivers of a block. Word EDGE_COUNT_RECEIVERS_PARTS has bit i set if
 // part i has receivers, and flags. EDGE_COUNT_IS_SORTED: parts are sorted by distance, and the bits
@@ -248,6 +249,20 @@ SHARED_SIZE(CountBlockBox, 32);
 #define COUNT_BINDING_BUNDLES (MAP_RESOLVE_FIRST_FREE_BINDING + 15)
 #define COUNT_BINDING_BLOCK_RECEIVERS (MAP_RESOLVE_FIRST_FREE_BINDING + 16)
 #define COUNT_BINDING_CUT_FACES (MAP_RESOLVE_FIRST_FREE_BINDING + 17)
+#define COUNT_BINDING_STATUS (MAP_RESOLVE_FIRST_FREE_BINDING + 18)
+
+// Words of the status buffer, which is cleared in each frame and read back after it. The first has
+// one bit per kind of fault and pass, EDGE_COUNT_FAULT_* << pass; a pass is a kind of blocks that
+// is resolved (EDGE_COUNT_BLOCKS_*), or EDGE_COUNT_PASS_LIST_BLOCKS. The others count the work.
+#define EDGE_COUNT_STATUS_FAULTS 0
+#define EDGE_COUNT_STATUS_LISTED_EDGES 1 // entries of all lists
+#define EDGE_COUNT_STATUS_LONGEST_LIST 2 // entries of a part's list
+#define EDGE_COUNT_STATUS_WORDS 4
+#define EDGE_COUNT_PASS_LIST_BLOCKS 6
+#define EDGE_COUNT_PASS_BITS 8
+#define EDGE_COUNT_FAULT_LOOP 0x1u		  // a loop did not reach its end: the driver ended it
+#define EDGE_COUNT_FAULT_FACE_LIST 0x100u // a list of faces has no end, or an index out of range
+#define EDGE_COUNT_FAULT_EDGE_LIST 0x10000u // the same of a list of edges
 
 // Kinds of blocks. Each kind has a list of its blocks, and the arguments of an indirect dispatch,
 // (blocks, 1, 1). After the arguments of all kinds is the number of requested chunks, including

@@ -33,7 +33,10 @@ def run(*arguments, **environment):
     variables = {**os.environ, **environment}
     variables = {name: value for name, value in variables.items() if value is not None}
     command = [GNOMON, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, env=variables, check=False)
+    result = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, env=variables, check=False)
+    if "Incomplete result: " in result.stderr:  # log_fault of modules/core/log.h
+        raise AssertionError("%s: %s" % (" ".join(command), result.stderr))
+    return result
 
 
 def load_json(*arguments):

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/count_box_inc.glsl"
 
-// Input: items 2 i and 2 i + 1 are CountBlockBox i. Output per box and edge: x is 1 if the edge may matter to a
+// Input: items 3 i to 3 i + 2 are CountBlockBox i. Output per box and edge: x is 1 if the edge may matter to a
 // receiver of the box, y is its weight if all receivers see the same one, else 9. z and w are 1 if the test of bundles
 // accepts a bundle of this edge alone, and a bundle of all edges.
 layout(local_size_x = 64) in;
@@ -45,11 +45,12 @@ void main() {
 	const uint edge_count = uint(edges.length());
 	const uint box_index = item / edge_count;
 	const uint index = item % edge_count;
-	if (2u * box_index >= uint(items.length())) {
+	if (3u * box_index >= uint(items.length())) {
 		return;
 	}
 	const CountBox box = make_count_box(light, light.views[0],
-			unpack_count_bounds(CountBlockBox(items[2u * box_index], items[2u * box_index + 1u])));
+			unpack_count_bounds(CountBlockBox(
+					items[3u * box_index], items[3u * box_index + 1u], items[3u * box_index + 2u])));
 	const CountEdgeKind kind = make_count_kind(edges[index].a_face0.w, edges[index].b_face1.w);
 	const uint packed_weight = find_packed_weight(box, kind, planes[edges[index].a_face0.w & EDGE_COUNT_FACE_MASK],
 			kind.has_face1 ? planes[edges[index].b_face1.w] : vec4(0.0));

@@ -54,6 +54,7 @@ struct CountArrays {
 		light.nearer_tolerance = float(space.nearer_tolerance);
 		light.view_count = 1;
 		light.face_count = uint32_t(faces.size());
+		light.node_capacity = light.face_count; // of the lists of count_receiver.comp
 	}
 };
 

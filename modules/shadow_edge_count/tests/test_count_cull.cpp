@@ -61,14 +61,18 @@ ReceiverBox make_box(
 		glm::vec2 minimum(1e30f);
 		glm::vec2 maximum(-1e30f);
 		glm::vec2 range(1e30f, -1e30f);
+		glm::vec2 w_range(1e30f, -1e30f);
 		for (const glm::dvec3 &receiver : result.receivers) {
 			const glm::dvec3 warped = warp(p_scene, receiver);
 			const float above = float(warped.z - glm::dot(glm::dvec2(slope), glm::dvec2(warped)));
 			minimum = glm::min(minimum, glm::vec2(warped));
 			maximum = glm::max(maximum, glm::vec2(warped));
 			range = { std::min(range.x, above), std::max(range.y, above) };
+			w_range = { std::min(w_range.x, float(warped.z)),
+				std::max(w_range.y, float(warped.z)) };
 		}
-		result.box = { glm::vec4(minimum, maximum), glm::vec4(slope, range) };
+		result.box = { glm::vec4(minimum, maximum), glm::vec4(slope, range),
+			glm::vec4(w_range, 0, 0) };
 		return result;
 	}
 }
@@ -86,6 +90,7 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 	for (const ReceiverBox &box : p_boxes) {
 		input.push_back(box.box.min_max);
 		input.push_back(box.box.slope_range);
+		input.push_back(box.box.w_range);
 	}
 	const OwnedBuffer light = r_fixture.make_buffer("light",
 			std::vector<shader::CountLightConstants>{ arrays.light }, BufferUsage::STORAGE);

@@ -1,0 +1,78 @@
+#include "modules/shadow_edge_count/count_status.h"
+
+#include "modules/core/log.h"
+#include "modules/core/text.h"
+
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+/// By bit of a fault: kinds of blocks that are resolved, then EDGE_COUNT_PASS_LIST_BLOCKS.
+const char *const PASS_NAMES[] = { "resolve even", "resolve plain", "resolve",
+	"resolve without lists", "filter", "resolve smooth", "list blocks" };
+
+struct FaultKind {
+	uint32_t bits;
+	const char *what;
+	const char *next_step;
+};
+
+const FaultKind FAULT_KINDS[] = {
+	{ EDGE_COUNT_FAULT_LOOP, "the driver ended a loop before all edges were counted",
+			"Make the light smaller, let fewer casters cast shadows, or set edge_count_budget; on "
+			"llvmpipe an invocation makes at most 65535 iterations." },
+	{ EDGE_COUNT_FAULT_FACE_LIST, "a list of faces has no end, or an index out of range",
+			"Please report it with the scene and the device; another shadow_technique avoids it." },
+	{ EDGE_COUNT_FAULT_EDGE_LIST, "a list of edges has no end, or an index out of range",
+			"Please report it with the scene and the device; another shadow_technique avoids it." },
+};
+
+} // namespace
+
+std::vector<std::string> describe_count_faults(uint32_t p_faults, const std::string &p_light) {
+	std::vector<std::string> lines;
+	for (const FaultKind &kind : FAULT_KINDS) {
+		for (uint32_t pass = 0; pass < std::size(PASS_NAMES); ++pass) {
+			if ((p_faults & kind.bits << pass) != 0) {
+				lines.push_back(text("Light \"", p_light, "\", edge_count, pass \"",
+						PASS_NAMES[pass], "\": ", kind.what, ". Some of its shadows are wrong. ",
+						kind.next_step));
+			}
+		}
+	}
+	return lines;
+}
+
+void CountStatus::add_read_back(
+		RenderGraph &r_graph, RGBuffer p_status, const std::string &p_light) {
+	const auto receive = [latest = latest, light = p_light](std::span<const uint8_t> p_bytes) {
+		std::array<uint32_t, EDGE_COUNT_STATUS_WORDS> words;
+		std::memcpy(words.data(), p_bytes.data(), sizeof(words));
+		latest->words = words;
+		const uint32_t faults = words[EDGE_COUNT_STATUS_FAULTS];
+		for (const std::string &line :
+				describe_count_faults(faults & ~latest->logged_faults, light)) {
+			log_fault(line);
+		}
+		latest->logged_faults |= faults;
+	};
+	r_graph.add_pass("read edge count status")
+			.reads(p_status, Access::COPY_READ)
+			.keep()
+			.execute([=](PassContext &p_context) {
+				p_context.get_device().read_back(p_context.get(p_status), receive);
+			});
+}
+
+void CountStatus::get_counters(std::vector<WorkCounter> &r_counters) const {
+	if (latest->words) {
+		r_counters.push_back(
+				{ "listed_edges", (*latest->words)[EDGE_COUNT_STATUS_LISTED_EDGES] });
+		r_counters.push_back(
+				{ "longest_list", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_LIST] });
+	}
+}
+
+} // namespace gnomon
