@@ -180,7 +180,8 @@ bool CountCasters::has_layout_of(const CountCasters &p_other) const {
 			});
 }
 
-CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius) {
+CountCasters build_count_casters(
+		const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, CasterOrder &r_order) {
 	const LightView &first = p_inputs.views.front();
 	const bool is_directional = first.is_orthographic;
 	std::vector<uint32_t> view_indices(p_inputs.views.size());
@@ -191,11 +192,17 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	bool is_deformed = false; // some mesh is deformed on the GPU, so the CPU has no face positions
 	const std::vector<uint32_t> indices = collect_casters(p_inputs, view_indices);
 	uint64_t triangle_count = 0;
+	std::vector<OrderedCaster> ordered;
+	ordered.reserve(indices.size());
 	for (const uint32_t index : indices) {
-		triangle_count += p_inputs.scene.instances[index].caster_mesh->get_triangle_count();
+		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
+		const auto count = static_cast<uint32_t>(instance.caster_mesh->get_triangle_count());
+		triangle_count += count;
+		ordered.push_back({ instance.bounds_world, count }); // about one edge per triangle
 	}
 	const bool may_have_levels = triangle_count <= MAX_COUNT_WITH_LEVELS;
-	for (const uint32_t index : indices) {
+	for (const uint32_t ordered_index : r_order.update(ordered, p_inputs.may_reuse)) {
+		const uint32_t index = indices[ordered_index];
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
 		if (volume == 0 || !std::isfinite(volume)) {

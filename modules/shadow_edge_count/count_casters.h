@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/shadow_edge_count/caster_order.h"
 #include "modules/shadow_edge_count/count_mesh.h"
 #include "modules/shadows/shadow_technique.h"
 
@@ -45,10 +46,11 @@ struct CountCasters {
 	bool has_layout_of(const CountCasters &p_other) const;
 };
 
-/// Collects the casters of all views, and uploads their meshes where needed. p_disc_radius: R, see
-/// CountSettings. Throws an Error if there are more than 10,000,000 faces or edges: face indices
+/// Collects the casters of all views, in the order of r_order, and uploads their meshes where
+/// needed. p_disc_radius: R, see CountSettings. Throws an Error if there are more than 10,000,000 faces or edges: face indices
 /// have 24 bits, edge indices 26.
-CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius);
+CountCasters build_count_casters(
+		const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, CasterOrder &r_order);
 
 /// Clears CountCaster::is_moved of casters with the same transform and pose as in p_before, which
 /// are earlier casters of the same light with the same layout.

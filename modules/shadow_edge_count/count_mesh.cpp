@@ -2,11 +2,11 @@
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
+#include "modules/shadow_edge_count/hilbert_curve.h"
 #include "modules/shadow_edge_count/source_parts.h"
 #include "modules/shadows/fetched_buffers.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace gnomon {
@@ -16,40 +16,6 @@ static_assert(NO_FACE == EDGE_COUNT_NO_FACE);
 namespace {
 
 constexpr uint32_t CURVE_BITS = 10; // the curve has 2^CURVE_BITS cells per axis
-
-/// Spreads the lowest CURVE_BITS bits to every third bit, as for Morton codes.
-uint32_t spread_bits(uint32_t p_value) {
-	uint32_t value = (p_value | p_value << 16) & 0x030000ffu;
-	value = (value | value << 8) & 0x0300f00fu;
-	value = (value | value << 4) & 0x030c30c3u;
-	return (value | value << 2) & 0x09249249u;
-}
-
-/// A cell's position along a Hilbert curve, whose consecutive cells are neighbours. Skilling 2004,
-/// "Programming the Hilbert curve", AIP Conference Proceedings 707.
-uint32_t find_curve_position(const glm::uvec3 &p_cell) {
-	glm::uvec3 bits = p_cell;
-	for (uint32_t bit = 1u << (CURVE_BITS - 1); bit > 1; bit >>= 1) {
-		const uint32_t lower = bit - 1;
-		for (int axis = 0; axis < 3; ++axis) {
-			if ((bits[axis] & bit) != 0) {
-				bits.x ^= lower; // mirrors the curve below this level
-			} else {
-				const uint32_t change = (bits.x ^ bits[axis]) & lower; // swaps two axes
-				bits.x ^= change;
-				bits[axis] ^= change;
-			}
-		}
-	}
-	bits.y ^= bits.x; // Gray code
-	bits.z ^= bits.y;
-	uint32_t change = 0;
-	for (uint32_t bit = 1u << (CURVE_BITS - 1); bit > 1; bit >>= 1) {
-		change ^= (bits.z & bit) != 0 ? bit - 1 : 0;
-	}
-	bits ^= change;
-	return spread_bits(bits.x) << 2 | spread_bits(bits.y) << 1 | spread_bits(bits.z);
-}
 
 /// The mesh's edges, sorted by their midpoints along a Hilbert curve through a cube around the
 /// mesh, so that bundles of consecutive edges are compact.
@@ -61,16 +27,13 @@ std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
 		minimum = glm::min(minimum, glm::dvec3(position));
 		maximum = glm::max(maximum, glm::dvec3(position));
 	}
-	const glm::dvec3 size = maximum - minimum;
-	const double cells_per_unit = ((1u << CURVE_BITS) - 1) /
-			std::max({ size.x, size.y, size.z, std::numeric_limits<double>::min() });
-	std::vector<std::pair<uint32_t, MeshEdge>> ordered;
+	const HilbertCurve curve(minimum, maximum, CURVE_BITS);
+	std::vector<std::pair<uint64_t, MeshEdge>> ordered;
 	ordered.reserve(p_topology.edges.size());
 	for (const MeshEdge &edge : p_topology.edges) {
 		const glm::dvec3 middle =
 				0.5 * (glm::dvec3(positions[edge.a]) + glm::dvec3(positions[edge.b]));
-		ordered.emplace_back(
-				find_curve_position(glm::uvec3((middle - minimum) * cells_per_unit)), edge);
+		ordered.emplace_back(curve.find_position(middle), edge);
 	}
 	std::stable_sort(ordered.begin(), ordered.end(),
 			[](const auto &p_left, const auto &p_right) { return p_left.first < p_right.first; });

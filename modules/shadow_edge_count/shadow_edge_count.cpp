@@ -69,7 +69,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	are_casters_found = false;
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	const size_t view_count = p_inputs.views.size();
-	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius);
+	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius, order);
 	// A block may list the same edge once per view.
 	may_filter = settings.has_budget() &&
 			(uint64_t(casters.edge_count) * view_count > settings.budget || !p_inputs.may_skip);

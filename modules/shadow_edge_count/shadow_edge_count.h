@@ -56,6 +56,7 @@ private:
 	RGTexture import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs);
 	std::vector<LightView> build_depth_views(const Inputs &p_inputs) const;
 
+	CasterOrder order;
 	CountBuffers buffers;
 	CachedViews views;
 	CachedState cached;

@@ -1,0 +1,89 @@
+#include "modules/shadow_edge_count/caster_order.h"
+
+#include "modules/shadow_edge_count/hilbert_curve.h"
+
+#include "shadow_edge_count/shadow_edge_count_shared.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace gnomon {
+
+namespace {
+
+constexpr uint32_t CURVE_BITS = 20; // cells of 2 mm in a world of 2 km
+constexpr uint32_t EDGES_PER_GROUP = EDGE_COUNT_BUNDLE_SIZE * EDGE_COUNT_BUNDLES_PER_GROUP;
+// Growth of the groups' area since the last sort at which casters are sorted again.
+constexpr double MAX_GROWTH = 1.5;
+
+glm::dvec3 compute_center(const Bounds &p_bounds) {
+	return 0.5 * (p_bounds.minimum + p_bounds.maximum);
+}
+
+double compute_area(const Bounds &p_bounds) {
+	if (p_bounds.is_empty()) {
+		return 0;
+	}
+	const glm::dvec3 size = p_bounds.maximum - p_bounds.minimum;
+	return 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+std::vector<uint32_t> sort_along_curve(std::span<const OrderedCaster> p_casters) {
+	Bounds centers;
+	for (const OrderedCaster &caster : p_casters) {
+		centers.add(compute_center(caster.bounds_world));
+	}
+	const HilbertCurve curve(centers.minimum, centers.maximum, CURVE_BITS);
+	std::vector<std::pair<uint64_t, uint32_t>> keys;
+	keys.reserve(p_casters.size());
+	for (uint32_t index = 0; index < p_casters.size(); ++index) {
+		keys.emplace_back(
+				curve.find_position(compute_center(p_casters[index].bounds_world)), index);
+	}
+	std::sort(keys.begin(), keys.end());
+	std::vector<uint32_t> order;
+	order.reserve(keys.size());
+	for (const auto &[position, index] : keys) {
+		order.push_back(index);
+	}
+	return order;
+}
+
+} // namespace
+
+double sum_group_areas(
+		std::span<const OrderedCaster> p_casters, std::span<const uint32_t> p_order) {
+	double sum = 0;
+	Bounds group;
+	uint32_t edge_count = 0;
+	for (const uint32_t index : p_order) {
+		group.add(p_casters[index].bounds_world);
+		edge_count += p_casters[index].edge_count;
+		if (edge_count >= EDGES_PER_GROUP) {
+			sum += compute_area(group);
+			group = {};
+			edge_count = 0;
+		}
+	}
+	return sum + compute_area(group);
+}
+
+const std::vector<uint32_t> &CasterOrder::update(
+		std::span<const OrderedCaster> p_casters, bool p_may_reuse) {
+	if (p_casters.size() <= MAX_UNSORTED) {
+		order.resize(p_casters.size());
+		std::iota(order.begin(), order.end(), 0u);
+		sorted_area_m2 = 0;
+		return order;
+	}
+	if (!p_may_reuse || order.size() != p_casters.size() ||
+			sum_group_areas(p_casters, order) > MAX_GROWTH * sorted_area_m2) {
+		order = sort_along_curve(p_casters);
+		sorted_area_m2 = sum_group_areas(p_casters, order);
+		++sort_count;
+	}
+	return order;
+}
+
+} // namespace gnomon
