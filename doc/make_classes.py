@@ -78,10 +78,19 @@ def make_page_link(added_id):
     return []
 
 
+def make_widths(widths):
+    """Return lines on the penumbra widths of a light that sets none; no lines if they are the light's size."""
+    if all(factor == 1 for factor in widths.values()):
+        return []
+    texts = ["%.3g R" % factor if factor else "0" for factor in (widths["outer_per_size"], widths["inner_per_size"])]
+    return ["", "Penumbra widths that a light does not set are r = %s and t = %s." % tuple(texts)]
+
+
 def make_properties_page(item):
     """Return the page of a technique or filter. item: its description in the JSON of `gnomon techniques` or `filters`."""
     lines = ["# Properties of `%s`" % item["id"], "", NOTE, "", "%s. Source: %s." % (item["name"], item["source"])]
-    lines += make_page_link(item["id"]) + [""]
+    lines += make_page_link(item["id"])
+    lines += make_widths(item.get("derived_widths", {})) + [""]
     if item["properties"]:
         lines += ["A light stores them in its `extras`; `--set` changes them for one run.", ""]
         lines += format_table(item["properties"])

@@ -66,6 +66,9 @@ Json list_techniques(bool p_as_text, const CommonOptions & /*p_common*/) {
 		list.push_back({ { "id", info.id }, { "name", info.name }, { "source", info.source },
 				{ "is_default", &info == chosen }, { "is_fallback", info.is_fallback },
 				{ "is_reference", info.is_reference }, { "is_example", info.is_example },
+				{ "derived_widths",
+						{ { "outer_per_size", info.derived_widths.outer_per_size },
+								{ "inner_per_size", info.derived_widths.inner_per_size } } },
 				{ "properties", describe_properties(properties) },
 				{ "settings", describe_properties(settings) } });
 		if (p_as_text && !info.is_example) {

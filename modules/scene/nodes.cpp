@@ -96,11 +96,13 @@ const PropertyList &Light3D::get_property_list() {
 				"", "Shadow" });
 		made.add({ "penumbra_outer_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Outer penumbra width r, how far the soft edge reaches out of the hard shadow. -1 "
-				"derives it from the light's size; 0 disables the outer part.",
+				"derives it from the light's size as suits the technique; 0 disables the outer "
+				"part.",
 				"m", "Shadow", /*special=*/"-1", "derived" });
 		made.add({ "penumbra_inner_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Inner penumbra width t, how far the soft edge reaches into the hard shadow. -1 "
-				"derives it from the light's size; 0 disables the inner part.",
+				"derives it from the light's size as suits the technique; 0 disables the inner "
+				"part.",
 				"m", "Shadow", /*special=*/"-1", "derived" });
 		return made;
 	}();

@@ -177,16 +177,23 @@ void LightSnapshot::decide_settings(double p_scene_size_m) {
 	light_angular_distance_deg = read_float(*this, "light_angular_distance");
 	casts_shadow = std::get<bool>(read_property(*this, "shadow_enabled"));
 	technique_id = std::get<std::string>(read_property(*this, "shadow_technique"));
-	const float derived_m = type == LightType::DIRECTIONAL
+	size_m = type == LightType::DIRECTIONAL
 			? std::min(get_disc_radius() * static_cast<float>(p_scene_size_m), float(MAX_LENGTH_M))
 			: light_size_m;
-	const auto decide_width = [&](const char *p_property, float &r_width_m, bool &r_is_derived) {
-		r_width_m = read_float(*this, p_property);
-		r_is_derived = r_width_m < 0;
-		r_width_m = r_is_derived ? derived_m : r_width_m;
-	};
-	decide_width("penumbra_outer_width", penumbra_outer_width_m, is_outer_width_derived);
-	decide_width("penumbra_inner_width", penumbra_inner_width_m, is_inner_width_derived);
+	penumbra_outer_width_m = read_float(*this, "penumbra_outer_width");
+	penumbra_inner_width_m = read_float(*this, "penumbra_inner_width");
+	is_outer_width_derived = penumbra_outer_width_m < 0;
+	is_inner_width_derived = penumbra_inner_width_m < 0;
+	derive_widths({});
+}
+
+void LightSnapshot::derive_widths(const DerivedWidths &p_widths) {
+	if (is_outer_width_derived) {
+		penumbra_outer_width_m = p_widths.outer_per_size * size_m;
+	}
+	if (is_inner_width_derived) {
+		penumbra_inner_width_m = p_widths.inner_per_size * size_m;
+	}
 }
 
 double LightSnapshot::compute_max_penumbra_half_width(

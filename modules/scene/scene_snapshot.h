@@ -26,6 +26,12 @@ struct CameraSnapshot {
 	uint64_t compute_hash(uint64_t p_seed) const;
 };
 
+/// The penumbra widths of a light that sets none, as multiples of its size.
+struct DerivedWidths {
+	float outer_per_size = 1.0f;
+	float inner_per_size = 1.0f;
+};
+
 /// A light's settings, its transform, and values derived from the settings.
 struct LightSnapshot : LightSettings {
 	std::string name;
@@ -40,9 +46,11 @@ struct LightSnapshot : LightSettings {
 	float light_angular_distance_deg = 0.0f; // apparent diameter; directional
 	bool casts_shadow = true;
 	std::string technique_id; // empty = the registry's default
-	/// Outer (r) and inner (t) penumbra widths of Sun et al. 2010. If unset, they are R for spot
-	/// and omni; for directional, whose R is a tangent, they are R times S, so that a scaled scene
-	/// has a scaled penumbra.
+	/// R for spot and omni; for directional, whose R is a tangent, R times S, so that a scaled
+	/// scene has a scaled penumbra.
+	float size_m = 0.0f;
+	/// Outer (r) and inner (t) penumbra widths of Sun et al. 2010. If unset, they are size_m, or
+	/// multiples of it, see derive_widths.
 	float penumbra_outer_width_m = 0.0f;
 	float penumbra_inner_width_m = 0.0f;
 	bool is_outer_width_derived = true;
@@ -54,6 +62,9 @@ struct LightSnapshot : LightSettings {
 	/// Sets the members above from the properties. A value out of range is an Error that names the
 	/// light. p_scene_size_m: S.
 	void decide_settings(double p_scene_size_m);
+	/// Sets those penumbra widths that the light's properties leave unset. Called for the technique
+	/// that runs, whose widths replace those of any earlier call.
+	void derive_widths(const DerivedWidths &p_widths);
 	/// Computes half the width, in metres, of the widest penumbra that a caster within p_caster
 	/// casts on receivers within p_scene, measured at the caster: the radius of the light's disc as
 	/// it is projected onto the caster from the receiver.

@@ -378,11 +378,13 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 		selections.push_back(selection);
 	}
 	const SceneSnapshot &seen = selection ? *selection : *scene;
-	const Work work = { seen, p_light, *choice.info, properties, p_lit, r_shadow,
+	LightSnapshot &light = lights.emplace_back(p_light);
+	light.derive_widths(choice.info->derived_widths);
+	const Work work = { seen, light, *choice.info, properties, p_lit, r_shadow,
 		p_wants_debug_views };
 	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
 	for (const ExceededLimit &limit : slot.limits.find_exceeded(
-				 seen, p_light, choice.info->id, slot.technique->get_limits(properties))) {
+				 seen, light, choice.info->id, slot.technique->get_limits(properties))) {
 		system.warn_once(limit.key, limit.warning);
 	}
 	RGTexture mask;

@@ -5,6 +5,7 @@
 #include "modules/shadows/shadow_system.h"
 #include "modules/shadows/translucent_casters.h"
 
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -113,6 +114,8 @@ private:
 	RGBuffer constants;
 	HostSurfaces surfaces;
 	VisibleReceivers receivers; // for all lights
+	/// Copies of lights, with the widths that their technique derives.
+	std::deque<LightSnapshot> lights;
 	/// Snapshots for lights for which some casters cast no shadow.
 	std::vector<std::shared_ptr<const SceneSnapshot>> selections;
 	bool has_ended = false;

@@ -34,6 +34,9 @@ struct ShadowTechniqueInfo {
 	/// True: only instances whose node declares them planar receive shadows
 	/// (InstanceSnapshot::is_planar_receiver). Useless in a host whose nodes cannot declare it.
 	bool needs_planar_receivers = false;
+	/// The widths r and t of lights that set none, for a technique whose error is smaller with
+	/// other widths than the light's size R.
+	DerivedWidths derived_widths = {};
 };
 
 /// All registered techniques.

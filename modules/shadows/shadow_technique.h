@@ -85,6 +85,8 @@ public:
 		RenderingDevice &device;
 		MeshStore &meshes; // GPU buffers of the casters
 		const SceneSnapshot &scene;
+		/// With the technique's own derived widths (ShadowTechniqueInfo::derived_widths), unlike
+		/// the lights of `scene`.
 		const LightSnapshot &light;
 		/// The technique's properties of the light, with defaults filled in and every value in
 		/// range.
@@ -140,9 +142,8 @@ public:
 	/// which mask it approximates, so they are not light properties. Names do not contain the id.
 	/// Called on any instance, at any time; always the same list.
 	virtual void get_settings(PropertyList & /*r_list*/) const {}
-	/// Quality settings that the error report compares, for a light whose penumbra widths r and t
-	/// are derived from its size. Cheapest first. Empty: only the defaults. Called on any
-	/// instance, at any time.
+	/// Quality settings that the error report compares, for a light that sets no penumbra widths.
+	/// Cheapest first. Empty: only the defaults. Called on any instance, at any time.
 	virtual void get_quality_settings(const LightSnapshot & /*p_light*/,
 			std::vector<QualitySetting> & /*r_settings*/) const {}
 	/// Appends the views that are rendered from the light. Called once a frame with p_properties as

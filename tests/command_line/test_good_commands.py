@@ -264,7 +264,8 @@ class Listings(CommandLineTest):
         techniques = load_json("techniques", "--json")
         keys = {"id", "name", "source", "is_default", "is_fallback", "is_reference", "is_example", "properties", "settings"}
         for item in techniques:
-            self.assertLessEqual(keys, set(item))
+            self.assertLessEqual(keys | {"derived_widths"}, set(item))
+            self.assertEqual({"outer_per_size", "inner_per_size"}, set(item["derived_widths"]))
             for value in item["properties"] + item["settings"]:
                 self.assertLessEqual({"name", "type", "default", "range", "unit", "tooltip"}, set(value))
                 self.assertTrue(value["tooltip"], value["name"])

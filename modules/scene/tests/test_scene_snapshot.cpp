@@ -68,6 +68,41 @@ TEST_CASE("[SceneSnapshot] derived widths of a directional light scale with the 
 	}
 }
 
+TEST_CASE("[SceneSnapshot] widths are derived with the factors of one technique, not of two") {
+	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		CAPTURE(get_light_type_name(type));
+		SmallScene small;
+		small.scene.scene_size_m = 40.0;
+		small.light->type = type;
+		small.light->properties = { { "light_size", 0.4 }, { "light_angular_distance", 6.0 } };
+		LightSnapshot light = small.build()->lights[0];
+		const double size_m =
+				type == LightType::DIRECTIONAL ? std::tan(glm::radians(3.0)) * 40.0 : 0.4;
+		CHECK(light.size_m == doctest::Approx(size_m));
+		for (const DerivedWidths &widths :
+				{ DerivedWidths{ 0.25f, 0.5f }, DerivedWidths{ 0.5f, 0.0f }, DerivedWidths() }) {
+			light.derive_widths(widths);
+			CHECK(light.penumbra_outer_width_m == doctest::Approx(widths.outer_per_size * size_m));
+			CHECK(light.penumbra_inner_width_m == doctest::Approx(widths.inner_per_size * size_m));
+			CHECK(light.size_m == doctest::Approx(size_m));
+		}
+	}
+}
+
+TEST_CASE("[SceneSnapshot] a width that is set, even to 0, stays when widths are derived") {
+	for (const char *set : { "penumbra_outer_width", "penumbra_inner_width" }) {
+		for (const double width_m : { 0.0, 0.3 }) {
+			SmallScene small;
+			small.light->properties = { { "light_size", 0.4 }, { set, width_m } };
+			LightSnapshot light = small.build()->lights[0];
+			light.derive_widths({ 0.25f, 0.5f });
+			const bool is_outer = std::string(set) == "penumbra_outer_width";
+			CHECK(light.penumbra_outer_width_m == (is_outer ? float(width_m) : 0.1f));
+			CHECK(light.penumbra_inner_width_m == (is_outer ? 0.2f : float(width_m)));
+		}
+	}
+}
+
 TEST_CASE("[SceneSnapshot] a value out of range is an error that names the light") {
 	SmallScene small;
 	small.light->properties = { { "light_size", -1.0 } };

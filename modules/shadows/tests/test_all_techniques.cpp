@@ -348,11 +348,33 @@ TEST_CASE("[Techniques] every shader file exists, every property has a tooltip a
 	});
 }
 
+TEST_CASE("[GPU][Techniques] a light without widths has the mask of one with the derived widths") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		const auto render = [&](SmallScene &r_scene, const DerivedWidths &p_widths) {
+			const double size_m = r_scene.snap()->lights[0].size_m;
+			r_scene.light->properties["penumbra_outer_width"] = p_widths.outer_per_size * size_m;
+			r_scene.light->properties["penumbra_inner_width"] = p_widths.inner_per_size * size_m;
+			return fixture.render_mask(r_scene, p_info.id);
+		};
+		SmallScene scene(p_type);
+		use_cheap_settings(*scene.light);
+		const MaskResult derived = fixture.render_mask(scene, p_info.id);
+		const MaskResult same = render(scene, p_info.derived_widths);
+		CHECK(compute_mask_difference(derived, same) < 1e-4);
+		const DerivedWidths size;
+		if (p_info.derived_widths.outer_per_size != size.outer_per_size ||
+				p_info.derived_widths.inner_per_size != size.inner_per_size) {
+			CHECK(compute_mask_difference(derived, render(scene, size)) > 1e-3);
+		}
+	});
+}
+
 TEST_CASE("[Techniques] quality settings name properties that exist, with values in range") {
 	LightSnapshot light;
 	light.light_size_m = 0.4f;
-	light.penumbra_outer_width_m = 0.4f;
-	light.penumbra_inner_width_m = 0.4f;
+	light.size_m = 0.4f;
+	light.derive_widths({});
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		std::vector<QualitySetting> settings;
 		p_info.make()->get_quality_settings(light, settings);
