@@ -14,6 +14,14 @@ enum class Peeling { PASSES, ONE_PASS };
 /// How the fins are extruded; both ways give the same edges and vertices.
 enum class FinMethod { GEOMETRY_SHADER, COMPUTE };
 
+/// The widths r and t of a light that sets none. Over the study's scenes and three light sizes, r =
+/// t = R has a mean error of 0.220, as large as that of a hard shadow, because the fins cross.
+/// These have 0.139; the best widths for each scene and size have 0.126
+/// (doc/techniques/penumbra_fins.md).
+constexpr DerivedWidths PENUMBRA_FINS_WIDTHS = { 1.0f / 4.0f, 1.0f / 2.0f };
+/// Without inner fins: 0.187 instead of 0.340 (doc/techniques/outer_fins.md).
+constexpr DerivedWidths OUTER_FINS_WIDTHS = { 1.0f / 6.0f, 0.0f };
+
 /// The technique's parameters for one light and device. Lengths in metres.
 struct FinsSettings {
 	float outer_width_m = 0; // r of Sun et al. 2010

@@ -33,19 +33,11 @@ void ShadowPenumbraFins::get_settings(PropertyList &r_list) const {
 
 void ShadowPenumbraFins::get_quality_settings(
 		const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const {
-	// Close to the best widths that tests/benchmark/search_fins.py found over scenes and light
-	// sizes.
-	const double outer_width_m = p_light.penumbra_outer_width_m * 0.25;
-	const double inner_width_m = p_light.penumbra_inner_width_m * 0.5;
-	if (!has_inner_half) {
-		r_settings.push_back({ "r = R/4", { { "penumbra_outer_width", outer_width_m } } });
-		return;
-	}
-	r_settings.push_back({ "r = t = R",
+	const double size_m = p_light.size_m;
+	r_settings.push_back({ has_inner_half ? "r = R/4, t = R/2" : "r = R/6",
 			{ { "penumbra_outer_width", -1.0 }, { "penumbra_inner_width", -1.0 } } });
-	r_settings.push_back({ "r = R/4, t = R/2",
-			{ { "penumbra_outer_width", outer_width_m },
-					{ "penumbra_inner_width", inner_width_m } } });
+	r_settings.push_back({ has_inner_half ? "r = t = R" : "r = R",
+			{ { "penumbra_outer_width", size_m }, { "penumbra_inner_width", size_m } } });
 }
 
 void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,

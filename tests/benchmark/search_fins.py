@@ -4,8 +4,8 @@
     search_fins.py [--scenes A,B] [--jobs N] [--write]
 
 It minimises the MAE over penumbra pixels. Starting from the better of r = t = R and r = t = R/4 it scales the widths one at a
-time by decreasing factors, and also tries 0. Then it tries fixed values of beta, and then scales the widths once more. The table also shows the error of
-the derived widths, r = t = R, and the means over the study's six scenes. --write puts it into doc/techniques/penumbra_fins.md.
+time by decreasing factors, and also tries 0. Then it tries fixed values of beta, and then scales the widths once more. The table also shows the errors of
+r = t = R and of the derived widths, and the means over the study's six scenes. --write puts it into doc/techniques/penumbra_fins.md.
 References are traced once (the program caches them).
 """
 
@@ -33,7 +33,7 @@ FACTORS = (2.0, 1.4, 1.2)
 BETAS_M = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 MAX_EVALUATIONS = 40  # per target
 RESERVED_EVALUATIONS = 6  # of these, reserved for the widths after beta
-SCENE_SIZE_M = 4  # of the demo scenes: a sun's derived width is the tangent of half its angle times this
+SCENE_SIZE_M = 4  # of the demo scenes: a sun's R in metres is the tangent of half its angle times this
 SUN_ANGLES_DEG = (1.0, 6.0, 20.0)
 MIN_GAIN = 0.0002  # decrease of the MAE that makes a point better: a tenth of the reference's noise
 ERRORS = ("mae", "bias", "umbra_over")
@@ -47,7 +47,7 @@ class Target:
         self.light = light  # None: the scene's only light
         is_sun = light == "Sun"
         self.setting = ("light_angular_distance=%g" if is_sun else "light_size=%g") % size
-        self.width_m = SCENE_SIZE_M * math.tan(math.radians(size / 2)) if is_sun else size  # derived r and t
+        self.width_m = SCENE_SIZE_M * math.tan(math.radians(size / 2)) if is_sun else size  # R
         self.name = scene if light is None else "%s, %s" % (scene, light)
         self.size = "%g" % size + (" degrees" if is_sun else "")
 
@@ -75,8 +75,9 @@ class Search:
         self.reference = reference
         self.pool = pool
         self.errors = {}  # point -> penumbra errors
-        self.derived = (target.width_m, target.width_m, DERIVED)
-        self.best = self.derived
+        self.derived_errors = {}  # with the widths that the technique derives, for comparison
+        self.wide = (target.width_m, target.width_m, DERIVED)
+        self.best = self.wide
 
     def measure(self, point, reference_path):
         settings = ["%s=%g" % pair for pair in zip(PROPERTIES, point)]
@@ -122,7 +123,8 @@ class Search:
         with tempfile.TemporaryDirectory() as folder:
             reference_path = os.path.join(folder, "reference.exr")
             self.pool.submit(self.target.render, self.reference, [], reference_path).result()
-            self.evaluate([self.derived, (start, start, DERIVED)], reference_path, MAX_EVALUATIONS)
+            self.derived_errors = self.pool.submit(self.measure, (DERIVED,) * len(PROPERTIES), reference_path).result()
+            self.evaluate([self.wide, (start, start, DERIVED)], reference_path, MAX_EVALUATIONS)
             for factor in FACTORS:
                 self.improve_widths(factor, reference_path, MAX_EVALUATIONS - len(BETAS_M) - RESERVED_EVALUATIONS)
             if self.best[INNER] > 0:  # beta affects only the inner fins
@@ -136,7 +138,7 @@ def build_table(searches):
     rows, columns = [], []
     for search in searches:
         best = search.best
-        errors = [search.errors[search.derived]["mae"]] + [search.errors[best][name] for name in ERRORS]
+        errors = [search.errors[search.wide]["mae"], search.derived_errors["mae"]] + [search.errors[best][name] for name in ERRORS]
         cells = [format_number(error) for error in errors]
         beta = "derived" if best[BETA] == DERIVED else "%g" % best[BETA]
         target = search.target
@@ -145,17 +147,17 @@ def build_table(searches):
             columns = []
         if target in STUDY:
             columns.append(errors)
-        rows.append((target.name, target.size, cells[0], "%.3g" % best[OUTER], "%.3g" % best[INNER], beta, *cells[1:]))
+        rows.append((target.name, target.size, *cells[:2], "%.3g" % best[OUTER], "%.3g" % best[INNER], beta, *cells[2:]))
         print(" ".join(rows[-1]), "after %d evaluations" % len(search.errors), flush=True)
     if columns:
         rows.append(build_means(columns))
-    header = ("scene", "R", "derived r = t = R: MAE", "best r", "best t", "best beta", "MAE", "bias", "`umbra_over`")
+    header = ("scene", "R", "r = t = R: MAE", "derived r, t: MAE", "best r", "best t", "best beta", "MAE", "bias", "`umbra_over`")
     return format_table(header, rows)
 
 
 def build_means(columns):
     means = [format_number(statistics.fmean(values)) for values in zip(*columns)]
-    return ("**mean of the above**", "", means[0], "", "", "", *means[1:])
+    return ("**mean of the above**", "", *means[:2], "", "", "", *means[2:])
 
 
 def split_page():
@@ -192,7 +194,7 @@ def main():
     # One pool runs the programs, the other one the searches that wait for them.
     with ThreadPoolExecutor(arguments.jobs) as evaluations, ThreadPoolExecutor(arguments.jobs) as searches:
         lines = build_table(searches.map(Search.run, [Search(target, reference, evaluations) for target in targets]))
-    lines += ["", "Errors over penumbra pixels, widths and beta in metres; masks of %s. A sun has degrees; its derived r and t are tan(R / 2) S." % MASK_SIZE]
+    lines += ["", "Errors over penumbra pixels, widths and beta in metres; masks of %s. A sun has degrees; its R in metres is tan(R / 2) S. Derived: r = R/4, t = R/2." % MASK_SIZE]
     print("\n" + "\n".join(lines))
     if arguments.write:
         before, after = split_page()
