@@ -13,19 +13,24 @@ import re
 import struct
 import subprocess
 
+import spirv_phis
 from SCons.Script import Action
 
 STAGES = ("vert", "frag", "geom", "comp")
 # glslang calls every function and leaves every variable in memory. With these passes of spirv-opt lavapipe creates pipelines in half
 # the time. With all of -O (SPIRV-Tools 2023.1) the masks of edge_count and the culling of shadow_volume are wrong.
+# --scalar-replacement=0 (no limit) comes before --ssa-rewrite, which would otherwise make phis of structures (see spirv_phis.py);
+# --simplify-instructions then removes the composites that this leaves, a third of the code.
 # The shaders of the Godot add-on stay as they are: Godot 4.6 has an optimizer of its own, after which lavapipe refuses some of these.
 OPTIMIZER_PASSES = (
     "--inline-entry-points-exhaustive",
     "--eliminate-dead-functions",
+    "--scalar-replacement=0",
     "--convert-local-access-chains",
     "--eliminate-local-single-block",
     "--eliminate-local-single-store",
     "--ssa-rewrite",
+    "--simplify-instructions",
     "--eliminate-dead-code-aggressive",
 )
 _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
@@ -102,6 +107,15 @@ def _optimize(target, source, env):
     return result.returncode
 
 
+def _refuse_aggregate_phis(target, source, env):
+    """Fails the build of SPIR-V with phis of structures or arrays."""
+    path = str(target[0])
+    count = spirv_phis.count_aggregate_phis(spirv_phis.load_words(path))
+    if count > 0:
+        print("ERROR: %s has %d OpPhi of a structure or array; must be 0. Change OPTIMIZER_PASSES." % (path, count))
+    return int(count > 0)
+
+
 def add_builders(env):
     """Adds the builders `Spirv` and `EmbeddedShaders`."""
     scanner = env.Scanner(function=_scan, skeys=["." + stage for stage in STAGES] + [".glsl", ".h"], recursive=True)
@@ -115,6 +129,7 @@ def add_builders(env):
         env["OPTIMIZER_PASSES"] = OPTIMIZER_PASSES
         # varlist: a change of the passes rebuilds the shaders.
         actions.append(Action(_optimize, None, varlist=["OPTIMIZER_PASSES"]))
+    actions.append(Action(_refuse_aggregate_phis, None))
     env["BUILDERS"]["Spirv"] = env.Builder(action=actions, source_scanner=scanner)
     env["BUILDERS"]["EmbeddedShaders"] = env.Builder(action=Action(_embed, "Embedding shaders in $TARGET"))
 
