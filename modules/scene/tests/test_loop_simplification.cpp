@@ -1,9 +1,11 @@
 // build: optimised
 #include "modules/scene/line_moments.h"
+#include "modules/scene/loop_intersections.h"
 #include "modules/scene/loop_simplification.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -36,6 +38,60 @@ PolygonLoop make_polygon(
 		loop.push_back(glm::ivec2(glm::round(point)) + glm::ivec2(noise_x, noise_y));
 	}
 	return loop;
+}
+
+/// A circle as of a contour: one point for every 45 units or so. p_is_hole: runs clockwise.
+PolygonLoop make_circle(const glm::ivec2 &p_center, double p_radius, bool p_is_hole = false) {
+	const int count = std::max(16, int(p_radius / 7));
+	PolygonLoop loop;
+	for (int i = 0; i < count; ++i) {
+		const double angle = 2 * std::numbers::pi * (p_is_hole ? -i : i) / count;
+		loop.push_back(p_center +
+				glm::ivec2(glm::round(p_radius * glm::dvec2(std::cos(angle), std::sin(angle)))));
+	}
+	return loop;
+}
+
+PolygonLoop make_rectangle(const glm::ivec2 &p_center, const glm::ivec2 &p_half) {
+	const int STEPS = 8; // points per side
+	const glm::ivec2 corners[] = { -p_half, { p_half.x, -p_half.y }, p_half,
+		{ -p_half.x, p_half.y } };
+	PolygonLoop loop;
+	for (int side = 0; side < 4; ++side) {
+		for (int step = 0; step < STEPS; ++step) {
+			loop.push_back(p_center +
+					(corners[side] * (STEPS - step) + corners[(side + 1) % 4] * step) / STEPS);
+		}
+	}
+	return loop;
+}
+
+/// Discs, rings and rectangles of random sizes in cells of 16 texels, which nearly fill them.
+std::vector<PolygonLoop> make_shapes(uint32_t p_seed) {
+	const int CELL = 16 * 256;
+	std::minstd_rand random(p_seed);
+	std::uniform_int_distribution<int> radius(300, CELL / 2 - 40);
+	std::vector<PolygonLoop> loops;
+	for (int y = 0; y < 8; ++y) {
+		for (int x = 0; x < 8; ++x) {
+			const glm::ivec2 center = (glm::ivec2(x, y) * 2 + 1) * (CELL / 2) + 200;
+			const int size = radius(random);
+			switch (random() % 3) {
+				case 0:
+					loops.push_back(make_circle(center, size));
+					break;
+				case 1:
+					loops.push_back(make_circle(center, size));
+					loops.push_back(make_circle(center, size * 0.7, /*p_is_hole=*/true));
+					break;
+				default: {
+					const int height = radius(random);
+					loops.push_back(make_rectangle(center, { size, height }));
+				}
+			}
+		}
+	}
+	return loops;
 }
 
 double compute_area(const PolygonLoop &p_loop) {
@@ -90,6 +146,48 @@ TEST_CASE("[Loops] a circle gets as few points as the tolerance allows, and line
 			CHECK(distance > 0);
 			CHECK(distance < 0.9 * tolerance);
 		}
+	}
+}
+
+TEST_CASE("[Loops] small shapes that are close together keep their areas at every tolerance") {
+	for (const uint32_t seed : { 1u, 2u, 3u }) {
+		for (const int32_t tolerance : { 64, 256, 512, 1024 }) {
+			CAPTURE(seed);
+			CAPTURE(tolerance);
+			const std::vector<PolygonLoop> loops = make_shapes(seed);
+			const auto simplified = simplify_loops(loops, tolerance, SIZE);
+			REQUIRE(simplified.size() == loops.size());
+			CHECK(find_intersections(simplified).empty());
+			size_t point_count = 0;
+			size_t before_count = 0;
+			for (size_t i = 0; i < loops.size(); ++i) {
+				CAPTURE(i);
+				CHECK(compute_area(simplified[i]) ==
+						doctest::Approx(compute_area(loops[i])).epsilon(0.01));
+				point_count += simplified[i].size();
+				before_count += loops[i].size();
+			}
+			// At four texels triangles and squares would do, where they do not meet.
+			CHECK(point_count < (tolerance == 1024 ? 10 * loops.size() : before_count / 2));
+		}
+	}
+}
+
+TEST_CASE("[Loops] only loops whose fitted lines meet get more points") {
+	const int32_t TOLERANCE = 1024;
+	const double RADIUS = 1536; // six texels
+	const PolygonLoop alone = make_circle(CENTER, RADIUS);
+	const glm::ivec2 far(12000, 0);
+	const PolygonLoop one = make_circle(CENTER + far, RADIUS);
+	const PolygonLoop other =
+			make_circle(CENTER + far + glm::ivec2(0, int(2 * RADIUS) + 40), RADIUS);
+	const auto separate = simplify_loops({ alone }, TOLERANCE, SIZE);
+	const auto simplified = simplify_loops({ alone, one, other }, TOLERANCE, SIZE);
+	CHECK(simplified[0] == separate[0]);
+	CHECK(simplified[1].size() + simplified[2].size() > 2 * separate[0].size());
+	CHECK(find_intersections(simplified).empty());
+	for (const PolygonLoop &loop : simplified) {
+		CHECK(compute_area(loop) == doctest::Approx(compute_area(alone)).epsilon(0.004));
 	}
 }
 
