@@ -1,4 +1,4 @@
-#include "modules/rendering_device_vulkan/range_allocator.h"
+#include "modules/rendering_device/range_allocator.h"
 
 #include "modules/core/error.h"
 
@@ -6,7 +6,9 @@ namespace gnomon {
 
 RangeAllocator::RangeAllocator(uint64_t p_size_bytes) :
 		size_bytes(p_size_bytes), free_bytes(p_size_bytes) {
-	add_gap(0, p_size_bytes);
+	if (p_size_bytes > 0) {
+		add_gap(0, p_size_bytes);
+	}
 }
 
 void RangeAllocator::add_gap(uint64_t p_offset_bytes, uint64_t p_size_bytes) {
@@ -70,6 +72,14 @@ void RangeAllocator::free(uint64_t p_offset_bytes, uint64_t p_size_bytes) {
 	}
 	add_gap(begin, end - begin);
 	free_bytes += p_size_bytes;
+}
+
+void RangeAllocator::grow(uint64_t p_size_bytes) {
+	GNOMON_ASSERT(p_size_bytes >= size_bytes, "size ", p_size_bytes, ", was ", size_bytes);
+	const uint64_t old_size_bytes = std::exchange(size_bytes, p_size_bytes);
+	if (p_size_bytes > old_size_bytes) {
+		free(old_size_bytes, p_size_bytes - old_size_bytes);
+	}
 }
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-#include "modules/rendering_device_vulkan/range_allocator.h"
+#include "modules/rendering_device/range_allocator.h"
 
 #include <doctest/doctest.h>
 
@@ -59,4 +59,23 @@ TEST_CASE("[RangeAllocator] a request that does not fit is refused") {
 	CHECK(allocator.allocate(98, 2) == 2);
 	CHECK(allocator.allocate(1, 1) == 1); // what alignment skipped
 	CHECK_FALSE(allocator.allocate(1, 1));
+}
+
+TEST_CASE("[RangeAllocator] a block that grows keeps its ranges, and its last gap grows with it") {
+	RangeAllocator allocator;
+	CHECK_FALSE(allocator.allocate(1, 1));
+	allocator.grow(10);
+	CHECK(allocator.allocate(6, 1) == 0);
+	CHECK_FALSE(allocator.allocate(5, 1));
+	allocator.grow(11);
+	CHECK(allocator.get_gap_count() == 1);
+	CHECK(allocator.allocate(5, 1) == 6);
+	allocator.grow(20);
+	allocator.free(0, 6);
+	CHECK(allocator.allocate(9, 1) == 11);
+	CHECK(allocator.get_free_bytes() == 6);
+	allocator.free(6, 5);
+	allocator.free(11, 9);
+	CHECK(allocator.is_empty());
+	CHECK(allocator.get_size_bytes() == 20);
 }
