@@ -55,6 +55,11 @@ RGTexture RenderGraph::import_texture(TextureRID p_texture, ImportedContent p_co
 }
 
 RGBuffer RenderGraph::import_buffer(BufferRID p_buffer) {
+	for (uint32_t index = 0; index < resources.size(); ++index) {
+		if (resources[index].is_imported && resources[index].buffer == p_buffer) {
+			return { { index } };
+		}
+	}
 	const RGBuffer handle = create_buffer(device.get_desc(p_buffer));
 	Resource &resource = resources.back();
 	resource.is_imported = true;

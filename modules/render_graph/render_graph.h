@@ -132,6 +132,7 @@ public:
 	/// Access::SHADER_READ_COMPUTE. NONE: the texture has no content yet, or none that is needed.
 	enum class ImportedContent { NONE, PRESERVED };
 	RGTexture import_texture(TextureRID p_texture, ImportedContent p_content);
+	/// A buffer that is imported again has the same handle, so that barriers separate its users.
 	RGBuffer import_buffer(BufferRID p_buffer);
 	/// Imports the window's next image, acquired by p_acquire when the pass that uses it is
 	/// recorded, and presented when that pass is submitted. Only one pass may use it. The pass is

@@ -202,6 +202,18 @@ TEST_CASE("[GPU][RenderGraph] an imported texture keeps its content from frame t
 	CHECK(value == 3.0f);
 }
 
+TEST_CASE("[GPU][RenderGraph] a buffer that is imported twice has one handle, as its users share "
+		  "barriers") {
+	GraphFixture fixture;
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const OwnedBuffer first(*fixture.device, fixture.device->create_buffer({ "first", 16 }));
+	const OwnedBuffer second(*fixture.device, fixture.device->create_buffer({ "second", 16 }));
+	const RGBuffer handle = graph.import_buffer(first.get());
+	CHECK(graph.import_buffer(second.get()) != handle);
+	CHECK(graph.import_buffer(first.get()) == handle);
+	CHECK(graph.get_desc(handle).name == "first");
+}
+
 TEST_CASE("[GPU][RenderGraph] drawing one layer of an array leaves the other layers as they were") {
 	GraphFixture fixture;
 	RenderGraph graph(*fixture.device, *fixture.pool);
