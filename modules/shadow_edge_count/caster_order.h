@@ -38,7 +38,6 @@ private:
 
 /// The summed surface area of the bounds of casters that share a group of bundles, in square
 /// metres. A measure of how many groups a receiver's shaft meets. p_order: indices into p_casters.
-double sum_group_areas(
-		std::span<const OrderedCaster> p_casters, std::span<const uint32_t> p_order);
+double sum_group_areas(std::span<const OrderedCaster> p_casters, std::span<const uint32_t> p_order);
 
 } // namespace gnomon

@@ -23,6 +23,10 @@ constexpr uint64_t NODES_PER_TEXEL_OF_SIX_VIEWS = 2;
 
 } // namespace
 
+uint32_t CountCapacities::get_block_count() const {
+	return (word_count + EDGE_COUNT_WORDS_PER_BLOCK - 1) / EDGE_COUNT_WORDS_PER_BLOCK;
+}
+
 uint32_t CountCapacities::get_bundle_count() const {
 	return (edge_count + EDGE_COUNT_BUNDLE_SIZE - 1) / EDGE_COUNT_BUNDLE_SIZE;
 }
@@ -40,7 +44,6 @@ CountCapacities choose_capacities(
 	capacities.cut_face_count = p_casters.may_cut_disc ? p_casters.face_count : 0;
 	capacities.edge_count = p_casters.edge_count;
 	capacities.word_count = p_casters.word_count;
-	capacities.block_count = p_casters.block_count;
 	const uint64_t usual = NODES_PER_FACE * p_casters.face_count +
 			capacities.texels_per_view *
 					(p_view_count == 1 ? NODES_PER_TEXEL_OF_ONE_VIEW
@@ -87,7 +90,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	planes = make("planes", needed.face_count, sizeof(glm::vec4), Format::RGBA32_SFLOAT);
 	faces = make("faces", needed.face_count, sizeof(shader::CountFaceRecord), Format::RGBA32_UINT);
 	words = make("edge words", needed.word_count, sizeof(uint32_t), Format::R32_UINT);
-	blocks = make("edge blocks", needed.block_count, sizeof(uint32_t), Format::R32_UINT);
+	blocks = make("edge blocks", needed.get_block_count(), sizeof(uint32_t), Format::R32_UINT);
 	edges = make("edges", needed.edge_count, sizeof(shader::CountEdgeRecord), Format::RGBA32_UINT);
 	bundles = make("bundles", needed.get_bundle_count() + needed.get_bundle_group_count(),
 			sizeof(shader::CountEdgeBundle), Format::RGBA32_SFLOAT);

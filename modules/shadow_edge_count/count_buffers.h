@@ -15,9 +15,9 @@ struct CountCapacities {
 	uint32_t face_count = 0;
 	uint32_t cut_face_count = 0; // faces that may cut the light's disc
 	uint32_t edge_count = 0;
-	uint32_t word_count = 0;  // words of EDGE_COUNT_EDGES_PER_WORD edges
-	uint32_t block_count = 0; // blocks of EDGE_COUNT_WORDS_PER_BLOCK words
+	uint32_t word_count = 0; // words of EDGE_COUNT_EDGES_PER_WORD edges
 	bool operator==(const CountCapacities &) const = default;
+	uint32_t get_block_count() const; // blocks of EDGE_COUNT_WORDS_PER_BLOCK words
 	uint32_t get_bundle_count() const;
 	uint32_t get_bundle_group_count() const;
 };

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <numeric>
 
@@ -80,6 +79,28 @@ uint64_t compute_max_overlapped_texels(
 	return static_cast<uint64_t>(std::ceil(sum));
 }
 
+/// A mesh with faces that casts an instance's shadow, and the views that may see it.
+struct SeenMesh {
+	std::shared_ptr<const Mesh> mesh;
+	uint32_t instance_index = 0;
+	uint32_t views = 0;
+};
+
+/// The sum of compute_max_overlapped_texels over the meshes in one view.
+uint64_t sum_max_overlapped_texels(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
+		const std::vector<SeenMesh> &p_meshes) {
+	const LightView &view = p_inputs.views[p_view_index];
+	uint64_t sum = 0;
+	for (const SeenMesh &seen : p_meshes) {
+		if ((seen.views >> p_view_index & 1u) != 0) {
+			const InstanceSnapshot &instance = p_inputs.scene.instances[seen.instance_index];
+			sum += compute_max_overlapped_texels(*get_topology(seen.mesh),
+					view.compute_clip_from_node(instance.world_from_node), glm::vec2(view.size_px));
+		}
+	}
+	return sum;
+}
+
 /// True if the instance's bounds come within R of the light's centre.
 bool is_near_light(
 		const InstanceSnapshot &p_instance, const LightView &p_view, double p_disc_radius) {
@@ -141,33 +162,45 @@ uint32_t find_seeing_views(const ShadowTechnique::Inputs &p_inputs, uint32_t p_i
 	return views;
 }
 
-/// Adds one mesh of an instance, and uploads it where needed. p_caster has what all its meshes have
-/// in common. False if the mesh has no faces.
+uint32_t count_words(uint32_t p_edge_count) {
+	return (p_edge_count + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
+}
+
+/// Adds one mesh of an instance, also to the pools of meshes where needed. p_caster has what all
+/// its meshes have in common. False if the mesh has no faces.
 bool add_caster(const ShadowTechnique::Inputs &p_inputs, const CasterMesh &p_level,
 		CountCaster p_caster, CountCasters &r_casters) {
-	const auto &gpu = p_inputs.meshes.get_derived<CountGpuMesh>(
-			p_level.mesh, [&] { return upload_count_mesh(p_inputs.device, p_level.mesh); });
-	if (gpu.face_count == 0) {
+	CountMeshPools &pools = p_inputs.meshes.get_shared<CountMeshPools>();
+	const CountGpuMesh &gpu = pools.get(p_inputs.meshes, p_level.mesh);
+	p_caster.face_count = gpu.faces.get_count();
+	if (p_caster.face_count == 0) {
 		return false;
 	}
-	p_caster.gpu = &gpu;
-	p_caster.positions =
-			p_inputs.meshes.get_topology(p_level.mesh, TopologyBuffer::POSITIONS).positions.get();
 	p_caster.mesh_id = p_level.mesh->id;
-	p_caster.push.face_count = gpu.face_count;
-	p_caster.push.first_face = r_casters.face_count;
-	p_caster.push.edge_count = gpu.edge_count;
-	p_caster.push.first_word = r_casters.word_count;
-	p_caster.push.first_block = r_casters.block_count;
-	p_caster.push.first_half_width = static_cast<float>(p_level.first_half_width_m);
-	p_caster.push.end_half_width = static_cast<float>(p_level.end_half_width_m);
-	r_casters.face_count =
-			add_checked(r_casters.face_count, gpu.face_count, "triangles", p_inputs.light.name);
+	shader::CountCasterRecord &record = p_caster.record;
+	record.edge_count = gpu.edges.get_count();
+	record.first_mesh_face = gpu.faces.get_first();
+	record.first_mesh_edge = gpu.edges.get_first();
+	record.first_vertex = gpu.points.get_first();
+	record.first_source_part = gpu.get_first_source_part();
+	if (p_level.mesh->rest) {
+		p_caster.posed = pools.get_posed(p_inputs.meshes, p_level.mesh);
+		p_caster.posed_positions =
+				p_inputs.meshes.get_topology(p_level.mesh, TopologyBuffer::POSITIONS)
+						.positions.get();
+		record.first_vertex = p_caster.posed->points.get_first();
+	}
+	p_caster.word_count = count_words(record.edge_count);
+	record.first_face = r_casters.face_count;
+	record.first_word = r_casters.word_count;
+	record.first_half_width = static_cast<float>(p_level.first_half_width_m);
+	record.end_half_width = static_cast<float>(p_level.end_half_width_m);
+	r_casters.face_count = add_checked(
+			r_casters.face_count, p_caster.face_count, "triangles", p_inputs.light.name);
 	r_casters.edge_count =
-			add_checked(r_casters.edge_count, gpu.edge_count, "edges", p_inputs.light.name);
-	r_casters.word_count += gpu.word_count;
-	r_casters.block_count += gpu.block_count;
-	r_casters.casters.push_back(p_caster);
+			add_checked(r_casters.edge_count, record.edge_count, "edges", p_inputs.light.name);
+	r_casters.word_count += p_caster.word_count;
+	r_casters.casters.push_back(std::move(p_caster));
 	return true;
 }
 
@@ -176,7 +209,7 @@ bool add_caster(const ShadowTechnique::Inputs &p_inputs, const CasterMesh &p_lev
 bool CountCasters::has_layout_of(const CountCasters &p_other) const {
 	return std::equal(casters.begin(), casters.end(), p_other.casters.begin(),
 			p_other.casters.end(), [](const CountCaster &p_a, const CountCaster &p_b) {
-				return p_a.mesh_id == p_b.mesh_id && p_a.push.flags == p_b.push.flags;
+				return p_a.mesh_id == p_b.mesh_id && p_a.record.flags == p_b.record.flags;
 			});
 }
 
@@ -187,9 +220,15 @@ CountCasters build_count_casters(
 	std::vector<uint32_t> view_indices(p_inputs.views.size());
 	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
+	result.casters.reserve(p_inputs.casters[0].instances.size());
+	result.disc_radius = p_disc_radius;
+	result.side_tolerance =
+			static_cast<float>(is_directional ? SIDE_TOLERANCE_COSINE
+											  : SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
 	const Bounds scene_bounds = p_inputs.scene.compute_bounds();
-	std::map<uint32_t, std::vector<std::shared_ptr<const Mesh>>> with_faces; // by instance
+	std::vector<SeenMesh> meshes_with_faces; // as long as their faces are few enough to examine
 	bool is_deformed = false; // some mesh is deformed on the GPU, so the CPU has no face positions
+	uint32_t views_with_faces = 0;
 	const std::vector<uint32_t> indices = collect_casters(p_inputs, view_indices);
 	uint64_t triangle_count = 0;
 	std::vector<OrderedCaster> ordered;
@@ -215,54 +254,35 @@ CountCasters build_count_casters(
 		CountCaster caster;
 		caster.pose_hash = instance.get_pose_hash();
 		caster.views = find_seeing_views(p_inputs, index);
-		caster.push.light_from_node = first.view_from_world * instance.world_from_node;
-		caster.push.flags = (volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
-				(is_directional ? EDGE_COUNT_CASTER_DIRECTIONAL : 0u) |
+		caster.record.light_from_node = first.view_from_world * instance.world_from_node;
+		caster.record.flags = (volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
 				(meshes.size() > 1 ? EDGE_COUNT_CASTER_LEVEL : 0u);
-		caster.push.disc_radius = static_cast<float>(p_disc_radius);
-		caster.push.side_tolerance = static_cast<float>(is_directional
-						? SIDE_TOLERANCE_COSINE
-						: SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
-		caster.push.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
+		caster.record.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
+		bool has_faces = false;
 		for (const CasterMesh &level : meshes) {
 			if (add_caster(p_inputs, level, caster, result)) {
-				with_faces[index].push_back(level.mesh);
+				has_faces = true;
+				if (result.face_count <= MAX_BOUNDED_FACES) {
+					meshes_with_faces.push_back({ level.mesh, index, caster.views });
+				}
 			}
 		}
-		if (with_faces.contains(index)) {
+		if (has_faces) {
+			views_with_faces |= caster.views;
 			is_deformed = is_deformed || instance.pose;
 			result.may_cut_disc = result.may_cut_disc ||
 					(!is_directional && p_disc_radius > 0 &&
 							is_near_light(instance, first, p_disc_radius));
 		}
 	}
-	const auto last = std::find_if(result.casters.rbegin(), result.casters.rend(),
-			[](const CountCaster &p_caster) { return p_caster.gpu->edge_count > 0; });
-	if (last != result.casters.rend()) {
-		last->push.flags |= EDGE_COUNT_CASTER_LAST;
-	}
-	const bool is_bounded = result.face_count <= MAX_BOUNDED_FACES && !is_deformed;
-	for (const uint32_t view : view_indices) {
-		uint64_t bound = 0;
-		bool has_faces = false;
-		for (const uint32_t index : p_inputs.casters[view].instances) {
-			const auto found = with_faces.find(index);
-			if (found == with_faces.end()) {
-				continue;
-			}
-			has_faces = true;
-			const glm::dmat4 &world_from_node = p_inputs.scene.instances[index].world_from_node;
-			for (const std::shared_ptr<const Mesh> &mesh : found->second) {
-				bound += is_bounded
-						? compute_max_overlapped_texels(*get_topology(mesh),
-								  p_inputs.views[view].compute_clip_from_node(world_from_node),
-								  glm::vec2(p_inputs.views[view].size_px))
-						: 0;
-			}
+	result.empty_views = ~views_with_faces & ~0u >> (32 - view_indices.size());
+	if (result.face_count > MAX_BOUNDED_FACES || is_deformed) {
+		result.max_nodes_per_view = CountCasters::UNBOUNDED;
+	} else {
+		for (const uint32_t view : view_indices) {
+			result.max_nodes_per_view = std::max(result.max_nodes_per_view,
+					sum_max_overlapped_texels(p_inputs, view, meshes_with_faces));
 		}
-		result.empty_views |= has_faces ? 0u : 1u << view;
-		result.max_nodes_per_view =
-				is_bounded ? std::max(result.max_nodes_per_view, bound) : CountCasters::UNBOUNDED;
 	}
 	return result;
 }
@@ -271,7 +291,7 @@ void compare_casters(const CountCasters &p_before, CountCasters &r_casters) {
 	for (size_t index = 0; index < r_casters.casters.size(); ++index) {
 		CountCaster &caster = r_casters.casters[index];
 		const CountCaster &before = p_before.casters[index];
-		caster.is_moved = caster.push.light_from_node != before.push.light_from_node ||
+		caster.is_moved = caster.record.light_from_node != before.record.light_from_node ||
 				caster.pose_hash != before.pose_hash;
 	}
 }

@@ -4,24 +4,28 @@
 #include "modules/shadow_edge_count/count_mesh.h"
 #include "modules/shadows/shadow_technique.h"
 
+#include <memory>
 #include <vector>
 
 namespace gnomon {
 
 /// One caster of a light, or one level of detail of it.
 struct CountCaster {
-	const CountGpuMesh *gpu = nullptr; // lives as long as the mesh, which the scene owns
-	BufferRID positions;			   // vec4 per welded vertex; lives as long as the mesh
 	uint64_t mesh_id = 0;
 	uint64_t pose_hash = 0;
 	uint32_t views = 0; // bit i: view i may see it
-	shader::CountCasterPush push = {};
+	uint32_t face_count = 0;
+	uint32_t word_count = 0; // words of EDGE_COUNT_EDGES_PER_WORD edges
+	shader::CountCasterRecord record = {};
+	// Of a deformed mesh: its vertices in the pool, and the buffer that they are copied from.
+	std::shared_ptr<CountPosedMesh> posed;
+	BufferRID posed_positions;
 	/// Its transform in light space or its pose has changed since the light's faces and edges were
 	/// last found.
 	bool is_moved = true;
 
 	/// Whether it is the coarse one of two levels of detail.
-	bool is_coarse() const { return push.first_half_width > 0; }
+	bool is_coarse() const { return record.first_half_width > 0; }
 };
 
 /// The casters of all views of a light, each once or, for a cut-out with a coarse level of detail,
@@ -31,7 +35,8 @@ struct CountCasters {
 	uint32_t face_count = 0;
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;			   // words of EDGE_COUNT_EDGES_PER_WORD edges
-	uint32_t block_count = 0;			   // blocks of EDGE_COUNT_WORDS_PER_BLOCK words
+	double disc_radius = 0;				   // R, see CountSettings
+	float side_tolerance = 0;			   // see shader::CountFindPush
 	uint32_t collapsed_instance_count = 0; // instances collapsed to a line or a point
 	/// Upper bound of the linked-list nodes in the face lists of any view. UNBOUNDED if there are
 	/// too many faces to examine each, or if some are deformed.
@@ -47,8 +52,8 @@ struct CountCasters {
 };
 
 /// Collects the casters of all views, in the order of r_order, and uploads their meshes where
-/// needed. p_disc_radius: R, see CountSettings. Throws an Error if there are more than 10,000,000 faces or edges: face indices
-/// have 24 bits, edge indices 26.
+/// needed. p_disc_radius: R, see CountSettings. Throws an Error if there are more than 10,000,000
+/// faces or edges: face indices have 24 bits, edge indices 26.
 CountCasters build_count_casters(
 		const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, CasterOrder &r_order);
 

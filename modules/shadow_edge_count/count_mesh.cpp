@@ -1,10 +1,8 @@
 #include "modules/shadow_edge_count/count_mesh.h"
 
 #include "modules/core/files.h"
-#include "modules/core/text.h"
 #include "modules/shadow_edge_count/hilbert_curve.h"
 #include "modules/shadow_edge_count/source_parts.h"
-#include "modules/shadows/fetched_buffers.h"
 
 #include <algorithm>
 #include <utility>
@@ -74,31 +72,51 @@ CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_s
 	return mesh;
 }
 
-CountGpuMesh upload_count_mesh(
-		RenderingDevice &p_device, const std::shared_ptr<const Mesh> &p_mesh) {
-	const std::shared_ptr<const MeshTopology> topology = get_topology(p_mesh);
-	CountGpuMesh gpu;
-	gpu.face_count = topology->get_face_count();
-	if (gpu.face_count == 0) {
+CountMeshPools::CountMeshPools(RenderingDevice &p_device) :
+		faces(std::make_shared<ItemPool>(p_device, "faces", Format::RGBA32_UINT)),
+		edges(std::make_shared<ItemPool>(p_device, "edges", Format::RGBA32_UINT)),
+		points(std::make_shared<ItemPool>(p_device, "vertices", Format::RGBA32_SFLOAT)) {}
+
+const CountGpuMesh &CountMeshPools::get(
+		MeshStore &r_store, const std::shared_ptr<const Mesh> &p_mesh) {
+	return r_store.get_derived<CountGpuMesh>(p_mesh, [&] {
+		const std::shared_ptr<const Mesh> &rest = p_mesh->rest ? p_mesh->rest : p_mesh;
+		const std::shared_ptr<const MeshTopology> topology = get_topology(rest);
+		CountGpuMesh gpu;
+		if (topology->get_face_count() == 0) {
+			return gpu;
+		}
+		const CountMesh mesh = build_count_mesh(*topology, rest->source);
+		gpu.faces = faces->add(bytes_of(std::span(mesh.faces)));
+		gpu.edges = edges->add(bytes_of(std::span(mesh.edges)));
+		gpu.vertex_count = static_cast<uint32_t>(topology->welded_positions_node.size());
+		std::vector<glm::vec4> values;
+		values.reserve(gpu.vertex_count + mesh.source_parts.size());
+		for (const glm::vec3 &position : topology->welded_positions_node) {
+			values.emplace_back(position, 1.0f);
+		}
+		values.insert(values.end(), mesh.source_parts.begin(), mesh.source_parts.end());
+		gpu.points = points->add(bytes_of(std::span(std::as_const(values))));
 		return gpu;
+	});
+}
+
+std::shared_ptr<CountPosedMesh> CountMeshPools::get_posed(
+		MeshStore &r_store, const std::shared_ptr<const Mesh> &p_mesh) {
+	std::shared_ptr<CountPosedMesh> &entry = posed[p_mesh->id];
+	if (!entry) {
+		entry = std::make_shared<CountPosedMesh>();
+		entry->points = points->allocate(get(r_store, p_mesh).vertex_count);
+		entry->mesh = p_mesh;
 	}
-	const auto upload = [&](const char *p_what, const auto &p_values, Format p_format) {
-		const auto bytes = bytes_of(std::span(p_values));
-		BufferDesc desc = make_fetched_buffer_desc(
-				p_device, text(p_mesh->name, " ", p_what), bytes.size(), p_format);
-		desc.usage = desc.usage | BufferUsage::COPY_TARGET;
-		return OwnedBuffer(p_device, p_device.create_buffer_with_data(desc, bytes));
-	};
-	const CountMesh mesh = build_count_mesh(*topology, p_mesh->source);
-	gpu.edge_count = static_cast<uint32_t>(mesh.edges.size());
-	gpu.word_count = mesh.get_word_count();
-	gpu.block_count = mesh.get_block_count();
-	gpu.faces = upload("counted faces", mesh.faces, Format::RGBA32_UINT);
-	gpu.source_parts = upload("source parts", mesh.source_parts, Format::RGBA32_SFLOAT);
-	if (gpu.edge_count > 0) {
-		gpu.edges = upload("counted edges", mesh.edges, Format::RGBA32_UINT);
+	return entry;
+}
+
+void CountMeshPools::upload() {
+	std::erase_if(posed, [](const auto &p_entry) { return p_entry.second->mesh.expired(); });
+	for (const std::shared_ptr<ItemPool> &pool : { faces, edges, points }) {
+		pool->upload();
 	}
-	return gpu;
 }
 
 } // namespace gnomon

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "modules/mesh_tools/topology.h"
-#include "modules/rendering_device/rendering_device.h"
+#include "modules/shadow_edge_count/item_pool.h"
+#include "modules/shadows/mesh_store.h"
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
 #include <cstdint>
-#include <string>
+#include <map>
+#include <memory>
 #include <vector>
 
 namespace gnomon {
@@ -22,34 +24,56 @@ struct CountMesh {
 	/// All levels of detail have the same source parts, so they switch at the same distance. One
 	/// sphere of radius 0 if the mesh was not cut out.
 	std::vector<glm::vec4> source_parts;
-
-	/// Words with one bit per edge.
-	uint32_t get_word_count() const {
-		return (uint32_t(edges.size()) + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
-	}
-	/// Blocks of EDGE_COUNT_WORDS_PER_BLOCK such words (not the blocks of pixels).
-	uint32_t get_block_count() const {
-		return (get_word_count() + EDGE_COUNT_WORDS_PER_BLOCK - 1) / EDGE_COUNT_WORDS_PER_BLOCK;
-	}
 };
 
 /// Converts a mesh. Faces retain their order, edges are sorted. p_source: what the mesh was cut out
 /// of, see Mesh::source.
 CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_source = {});
 
-/// A mesh in GPU memory, in addition to its welded positions (GpuTopology).
+/// A mesh in the pools of CountMeshPools.
 struct CountGpuMesh {
-	OwnedBuffer faces;		  // shader::CountMeshFace
-	OwnedBuffer edges;		  // shader::CountMeshEdge
-	OwnedBuffer source_parts; // glm::vec4, see CountMesh::source_parts
-	uint32_t face_count = 0;
-	uint32_t edge_count = 0;
-	uint32_t word_count = 0;
-	uint32_t block_count = 0;
+	ItemPool::Range faces;	// shader::CountMeshFace
+	ItemPool::Range edges;	// shader::CountMeshEdge
+	ItemPool::Range points; // welded positions at rest, then CountMesh::source_parts
+	uint32_t vertex_count = 0;
+	uint32_t get_first_source_part() const { return points.get_first() + vertex_count; }
 };
 
-/// Uploads a mesh. If all its triangles are degenerate, the result has no faces and no buffers.
-CountGpuMesh upload_count_mesh(
-		RenderingDevice &p_device, const std::shared_ptr<const Mesh> &p_mesh);
+/// The welded vertices of a mesh in its current pose.
+struct CountPosedMesh {
+	ItemPool::Range points;
+	std::weak_ptr<const Mesh> mesh;
+	/// Hash of the pose that the points have, and the pool's buffer in which they have it: a light
+	/// may make the pool grow while the copies of another one are not yet recorded.
+	uint64_t pose_hash = 0;
+	BufferRID buffer;
+};
+
+/// The meshes of all casters in GPU memory, shared by all lights: a buffer each for faces, edges
+/// and points, so that one dispatch reads the meshes of all casters.
+class CountMeshPools {
+public:
+	explicit CountMeshPools(RenderingDevice &p_device);
+
+	/// Returns the mesh's ranges, and adds it on the first call; a deformed mesh has those of its
+	/// mesh at rest. If all its triangles are degenerate, its ranges are empty.
+	const CountGpuMesh &get(MeshStore &r_store, const std::shared_ptr<const Mesh> &p_mesh);
+	/// Returns the vertices of a deformed mesh, without content on the first call.
+	std::shared_ptr<CountPosedMesh> get_posed(
+			MeshStore &r_store, const std::shared_ptr<const Mesh> &p_mesh);
+	/// Copies what was added to the buffers; see ItemPool::upload. Drops deformed meshes that no
+	/// longer exist.
+	void upload();
+
+	const SharedBuffer &get_faces() const { return faces->get_buffer(); }
+	const SharedBuffer &get_edges() const { return edges->get_buffer(); }
+	const SharedBuffer &get_points() const { return points->get_buffer(); }
+
+private:
+	std::shared_ptr<ItemPool> faces;
+	std::shared_ptr<ItemPool> edges;
+	std::shared_ptr<ItemPool> points;
+	std::map<uint64_t, std::shared_ptr<CountPosedMesh>> posed; // by Mesh::id
+};
 
 } // namespace gnomon

@@ -1,7 +1,12 @@
 #include "modules/shadow_edge_count/find_passes.h"
 
+#include "modules/core/files.h"
 #include "modules/core/text.h"
+#include "modules/shadow_edge_count/work_groups.h"
 #include "modules/shadows/fetched_buffers.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace gnomon {
 
@@ -9,66 +14,127 @@ namespace {
 
 using Content = PassBuilder::Content;
 
-/// Adds a pass that runs a shader once per caster. p_items: number of invocations that a caster
-/// needs; 0: it is skipped. p_bind: returns the bindings of a caster.
-template <typename Items, typename Bind>
-void add_caster_pass(RenderingDevice &p_device, PassBuilder p_pass, const char *p_shader,
-		const CountFindPasses &p_passes, Items p_items, Bind p_bind) {
-	const PipelineRID pipeline = p_device.get_compute_pipeline(
-			{ p_shader, choose_fetching_shader(p_device, p_shader), /*constants=*/{} });
-	std::vector<CountCaster> casters;
-	for (const CountCaster &caster : p_passes.casters.casters) {
-		if (p_items(caster) > 0) {
-			casters.push_back(caster);
-		}
-	}
-	p_pass.execute([=, casters = std::move(casters)](PassContext &p_context) {
-		p_context.commands.bind_pipeline(pipeline);
-		for (const CountCaster &caster : casters) {
-			p_context.commands.bind_resources(p_bind(p_context, caster));
-			p_context.commands.push_constants(caster.push);
-			p_context.commands.dispatch_items({ p_items(caster), 1, 1 });
-		}
-	});
+// Every device allows this many work groups per dimension.
+constexpr uint32_t MAX_GROUPS_PER_ROW = 65535;
+
+/// The casters and meshes as the passes over casters read them.
+struct CasterBuffers {
+	RGBuffer casters;	  // shader::CountCasterRecord
+	RGBuffer work_groups; // shader::CountWorkGroup, those of all passes
+	RGBuffer mesh_faces;
+	RGBuffer mesh_edges;
+	RGBuffer points;
+};
+
+/// A range of work groups, and the number of all items.
+struct CasterWork {
+	uint32_t first_group = 0;
+	uint32_t group_count = 0;
+	uint32_t item_count = 0;
+};
+
+/// Adds a pass that copies bytes to a buffer in GPU memory: work groups of all passes read them.
+/// p_owned: buffers that must exist until the graph has run.
+RGBuffer add_upload_pass(RenderGraph &r_graph, const BufferDesc &p_desc, const auto &p_values,
+		std::vector<SharedBuffer> p_owned = {}) {
+	const RGBuffer target = r_graph.create_buffer(p_desc);
+	const RGBuffer source =
+			r_graph.upload(p_desc.name, BufferUsage::COPY_SOURCE, bytes_of(std::span(p_values)));
+	r_graph.add_pass("upload " + p_desc.name)
+			.reads(source, Access::COPY_READ)
+			.writes(target, Access::COPY_WRITE)
+			.execute([source, target, size_bytes = p_desc.size_bytes, owned = std::move(p_owned)](
+							 PassContext &p_context) {
+				p_context.commands.copy_buffer(
+						p_context.get(source), p_context.get(target), size_bytes);
+			});
+	return target;
 }
 
-void add_edge_passes(
-		RenderGraph &r_graph, RenderingDevice &p_device, const CountFindPasses &p_passes) {
+RGBuffer upload_casters(
+		RenderGraph &r_graph, const RenderingDevice &p_device, const CountCasters &p_casters) {
+	std::vector<shader::CountCasterRecord> records;
+	records.reserve(p_casters.casters.size());
+	for (const CountCaster &caster : p_casters.casters) {
+		records.push_back(caster.record);
+	}
+	BufferDesc desc = make_fetched_buffer_desc(p_device, "casters",
+			records.size() * sizeof(shader::CountCasterRecord), Format::RGBA32_UINT);
+	desc.usage = desc.usage | BufferUsage::COPY_TARGET;
+	return add_upload_pass(r_graph, desc, std::as_const(records));
+}
+
+/// Adds a pass that copies the vertices of deformed meshes to the pool of all meshes, if some have
+/// another pose than those in the pool.
+void add_pose_pass(RenderGraph &r_graph, const CountCasters &p_casters, BufferRID p_buffer) {
+	std::vector<CountCaster> posed;
+	for (const CountCaster &caster : p_casters.casters) {
+		if (caster.posed &&
+				(caster.posed->pose_hash != caster.pose_hash || caster.posed->buffer != p_buffer)) {
+			posed.push_back(caster);
+		}
+	}
+	if (posed.empty()) {
+		return;
+	}
+	const RGBuffer points = r_graph.import_buffer(p_buffer);
+	// The deform pass orders its writes before all copies of the frame, see DeformPass::run.
+	r_graph.add_pass("copy deformed casters")
+			.writes(points, Access::COPY_WRITE, Content::UPDATE)
+			.execute([points, posed = std::move(posed)](PassContext &p_context) {
+				const BufferRID target = p_context.get(points);
+				for (const CountCaster &caster : posed) {
+					const ItemPool::Range &range = caster.posed->points;
+					p_context.commands.copy_buffer(caster.posed_positions, target,
+							uint64_t(range.get_count()) * ItemPool::ITEM_BYTES,
+							/*p_source_offset_bytes=*/0,
+							uint64_t(range.get_first()) * ItemPool::ITEM_BYTES);
+					caster.posed->pose_hash = caster.pose_hash;
+					caster.posed->buffer = target;
+				}
+			});
+}
+
+/// Adds a pass over work groups of casters, in one dispatch.
+void add_caster_pass(RenderGraph &r_graph, RenderingDevice &p_device,
+		const CountFindPasses &p_passes, const CasterBuffers &p_buffers, const CasterWork &p_work,
+		const char *p_name, const std::string &p_shader, std::vector<PassBinding> p_bindings) {
+	if (p_work.group_count == 0) {
+		return;
+	}
+	p_bindings.push_back(PassBinding::read(FIND_BINDING_CASTERS, p_buffers.casters));
+	p_bindings.push_back(PassBinding::read(FIND_BINDING_GROUPS, p_buffers.work_groups));
+	const shader::CountFindPush push = { p_work.first_group, p_work.group_count, p_work.item_count,
+		p_passes.is_directional ? 1u : 0u, static_cast<float>(p_passes.casters.disc_radius),
+		p_passes.casters.side_tolerance, /*padding0=*/0, /*padding1=*/0 };
+	const uint32_t columns = std::min(p_work.group_count, MAX_GROUPS_PER_ROW);
+	const uint32_t rows = (p_work.group_count + columns - 1) / columns;
+	add_compute_pass(r_graph, p_name,
+			p_device.get_compute_pipeline(
+					{ p_name, choose_fetching_shader(p_device, p_shader), /*constants=*/{} }),
+			std::move(p_bindings), { columns * FIND_GROUP_SIZE, rows, 1 },
+			std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
+}
+
+void add_edge_passes(RenderGraph &r_graph, RenderingDevice &p_device,
+		const CountFindPasses &p_passes, const CasterBuffers &p_casters, const CasterWork &p_marked,
+		const CasterWork &p_listed) {
 	const CountFrameBuffers buffers = p_passes.buffers;
-	add_caster_pass(
-			p_device,
-			r_graph.add_pass("mark edges")
-					.reads(buffers.planes, Access::SHADER_READ_COMPUTE)
-					.writes(buffers.words, Access::SHADER_WRITE_COMPUTE, Content::UPDATE)
-					.writes(buffers.blocks, Access::SHADER_WRITE_COMPUTE, Content::UPDATE),
-			"shadow_edge_count/mark_edges.comp", p_passes,
-			[](const CountCaster &p_caster) {
-				return p_caster.is_moved ? p_caster.gpu->word_count : 0u;
-			},
-			[=](PassContext &p_context, const CountCaster &p_caster) {
-				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
-					{ FIND_BINDING_MESH_EDGES, p_caster.gpu->edges.get() },
-					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
-					{ FIND_BINDING_WORDS, p_context.get(buffers.words) },
-					{ FIND_BINDING_BLOCKS, p_context.get(buffers.blocks) } };
-			});
-	add_caster_pass(
-			p_device,
-			r_graph.add_pass("list edges")
-					.reads(buffers.words, Access::SHADER_READ_COMPUTE)
-					.reads(buffers.blocks, Access::SHADER_READ_COMPUTE)
-					.writes(buffers.edges, Access::SHADER_WRITE_COMPUTE, Content::UPDATE)
-					.writes(buffers.totals, Access::SHADER_WRITE_COMPUTE, Content::UPDATE),
-			"shadow_edge_count/list_edges.comp", p_passes,
-			[](const CountCaster &p_caster) { return p_caster.gpu->word_count; },
-			[=](PassContext &p_context, const CountCaster &p_caster) {
-				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
-					{ FIND_BINDING_MESH_EDGES, p_caster.gpu->edges.get() },
-					{ FIND_BINDING_WORDS, p_context.get(buffers.words) },
-					{ FIND_BINDING_BLOCKS, p_context.get(buffers.blocks) },
-					{ FIND_BINDING_EDGES, p_context.get(buffers.edges) },
-					{ FIND_BINDING_TOTALS, p_context.get(buffers.totals) } };
-			});
+	add_caster_pass(r_graph, p_device, p_passes, p_casters, p_marked, "mark edges",
+			"shadow_edge_count/mark_edges.comp",
+			{ PassBinding::read(FIND_BINDING_POINTS, p_casters.points),
+					PassBinding::read(FIND_BINDING_MESH_EDGES, p_casters.mesh_edges),
+					PassBinding::read(FIND_BINDING_PLANES, buffers.planes),
+					PassBinding::write(FIND_BINDING_WORDS, buffers.words, Content::UPDATE),
+					PassBinding::write(FIND_BINDING_BLOCKS, buffers.blocks, Content::UPDATE) });
+	add_caster_pass(r_graph, p_device, p_passes, p_casters, p_listed, "list edges",
+			"shadow_edge_count/list_edges.comp",
+			{ PassBinding::read(FIND_BINDING_POINTS, p_casters.points),
+					PassBinding::read(FIND_BINDING_MESH_EDGES, p_casters.mesh_edges),
+					PassBinding::read(FIND_BINDING_WORDS, buffers.words),
+					PassBinding::read(FIND_BINDING_BLOCKS, buffers.blocks),
+					PassBinding::write(FIND_BINDING_EDGES, buffers.edges, Content::UPDATE),
+					PassBinding::write(FIND_BINDING_TOTALS, buffers.totals, Content::UPDATE) });
 	add_compute_pass(r_graph, "bound edges",
 			p_device.get_compute_pipeline({ "bound edges",
 					choose_fetching_shader(p_device, "shadow_edge_count/bound_edges.comp"),
@@ -100,10 +166,10 @@ std::vector<FaceRange> find_seen_faces(const CountCasters &p_casters, uint32_t p
 			continue;
 		}
 		if (!ranges.empty() &&
-				ranges.back().first + ranges.back().count == caster.push.first_face) {
-			ranges.back().count += caster.push.face_count;
+				ranges.back().first + ranges.back().count == caster.record.first_face) {
+			ranges.back().count += caster.face_count;
 		} else {
-			ranges.push_back({ caster.push.first_face, caster.push.face_count });
+			ranges.push_back({ caster.record.first_face, caster.face_count });
 		}
 	}
 	return ranges;
@@ -130,24 +196,48 @@ void add_indirect_pass(RenderGraph &r_graph, const std::string &p_name, Pipeline
 void add_find_passes(
 		RenderGraph &r_graph, RenderingDevice &p_device, const CountFindPasses &p_passes) {
 	const CountFrameBuffers buffers = p_passes.buffers;
-	add_caster_pass(
-			p_device,
-			r_graph.add_pass("caster faces")
-					.writes(buffers.planes, Access::SHADER_WRITE_COMPUTE, Content::UPDATE)
-					.writes(buffers.faces, Access::SHADER_WRITE_COMPUTE, Content::UPDATE),
-			"shadow_edge_count/caster_faces.comp", p_passes,
-			[](const CountCaster &p_caster) {
-				return p_caster.is_moved ? p_caster.gpu->face_count : 0u;
-			},
-			[=](PassContext &p_context, const CountCaster &p_caster) {
-				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
-					{ FIND_BINDING_MESH_FACES, p_caster.gpu->faces.get() },
-					{ FIND_BINDING_SOURCE_PARTS, p_caster.gpu->source_parts.get() },
-					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
-					{ FIND_BINDING_FACES, p_context.get(buffers.faces) } };
-			});
+	const CountCasters &casters = p_passes.casters;
+	const CountMeshPools &meshes = p_passes.meshes;
+	std::vector<shader::CountWorkGroup> groups;
+	const auto add_work = [&](CasterItems p_items, bool p_is_moved_only) {
+		const std::vector<shader::CountWorkGroup> added =
+				build_work_groups(casters, p_items, p_is_moved_only);
+		const CasterWork work = { uint32_t(groups.size()), uint32_t(added.size()),
+			p_items == CasterItems::FACES ? casters.face_count : casters.word_count };
+		groups.insert(groups.end(), added.begin(), added.end());
+		return work;
+	};
+	const CasterWork face_work = add_work(CasterItems::FACES, /*p_is_moved_only=*/true);
+	CasterWork marked;
+	CasterWork listed;
 	if (p_passes.has_edges) {
-		add_edge_passes(r_graph, p_device, p_passes);
+		marked = add_work(CasterItems::WORDS, /*p_is_moved_only=*/true);
+		listed = add_work(CasterItems::WORDS, /*p_is_moved_only=*/false);
+	}
+	if (!groups.empty()) {
+		CasterBuffers inputs;
+		inputs.casters = upload_casters(r_graph, p_device, casters);
+		inputs.work_groups = add_upload_pass(r_graph,
+				{ .name = "caster work groups",
+						.size_bytes = groups.size() * sizeof(groups[0]),
+						.usage = BufferUsage::STORAGE | BufferUsage::COPY_TARGET },
+				std::as_const(groups),
+				{ meshes.get_faces(), meshes.get_edges(), meshes.get_points() });
+		inputs.mesh_faces = r_graph.import_buffer(meshes.get_faces().get());
+		inputs.points = r_graph.import_buffer(meshes.get_points().get());
+		add_pose_pass(r_graph, casters, meshes.get_points().get());
+		add_caster_pass(r_graph, p_device, p_passes, inputs, face_work, "caster faces",
+				"shadow_edge_count/caster_faces.comp",
+				{ PassBinding::read(FIND_BINDING_POINTS, inputs.points),
+						PassBinding::read(FIND_BINDING_MESH_FACES, inputs.mesh_faces),
+						PassBinding::write(FIND_BINDING_PLANES, buffers.planes, Content::UPDATE),
+						PassBinding::write(FIND_BINDING_FACES, buffers.faces, Content::UPDATE) });
+		if (listed.group_count > 0) {
+			inputs.mesh_edges = r_graph.import_buffer(meshes.get_edges().get());
+		}
+		if (p_passes.has_edges) {
+			add_edge_passes(r_graph, p_device, p_passes, inputs, marked, listed);
+		}
 	}
 	if (p_passes.capacities.cut_face_count > 0) {
 		add_compute_pass(r_graph, "list cut faces",

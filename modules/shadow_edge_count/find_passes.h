@@ -8,6 +8,7 @@ namespace gnomon {
 /// The inputs of the passes that find a light's faces and edges.
 struct CountFindPasses {
 	const CountCasters &casters;
+	const CountMeshPools &meshes; // after CountMeshPools::upload()
 	CountCapacities capacities;
 	CountFrameBuffers buffers;
 	RGBuffer constants; // CountLightConstants

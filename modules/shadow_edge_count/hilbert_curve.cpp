@@ -43,7 +43,8 @@ uint64_t find_curve_position(const glm::uvec3 &p_cell, uint32_t p_bits) {
 
 HilbertCurve::HilbertCurve(
 		const glm::dvec3 &p_minimum, const glm::dvec3 &p_maximum, uint32_t p_bits) :
-		minimum(p_minimum), bits(p_bits) {
+		minimum(p_minimum),
+		bits(p_bits) {
 	const glm::dvec3 size = p_maximum - p_minimum;
 	cells_per_unit = ((1u << bits) - 1) /
 			std::max({ size.x, size.y, size.z, std::numeric_limits<double>::min() });

@@ -104,6 +104,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		depth_map.reset();
 	}
 	if (!views.get_needed_views().empty()) {
+		p_inputs.meshes.get_shared<CountMeshPools>().upload();
 		cached.first_view = p_inputs.views[0];
 		cached.casters = std::move(casters);
 		plan_casters(r_plan);
@@ -173,7 +174,8 @@ void ShadowEdgeCount::at_light_view(
 				make_block_constants(
 						p_inputs, settings, buffers.get_capacities(), /*p_empty_views=*/0));
 	}
-	const CountFindPasses passes = { cached.casters, buffers.get_capacities(),
+	const CountFindPasses passes = { cached.casters,
+		p_inputs.meshes.get_shared<CountMeshPools>(), buffers.get_capacities(),
 		buffers.import(r_graph), constants, p_inputs.views.front().is_orthographic,
 		/*has_edges=*/settings.disc_radius > 0,
 		/*may_overflow=*/!do_face_lists_fit() || !p_inputs.may_skip };

@@ -1,7 +1,7 @@
 #include "modules/shadows/caster_pass.h"
 
+#include <algorithm>
 #include <numeric>
-#include <set>
 
 namespace gnomon {
 
@@ -53,12 +53,14 @@ void add_depth_pass(RenderGraph &r_graph, const std::string &p_name,
 
 std::vector<uint32_t> collect_casters(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_view_indices) {
-	std::set<uint32_t> instances;
+	std::vector<uint32_t> instances;
 	for (uint32_t view : p_view_indices) {
 		const std::vector<uint32_t> &listed = p_inputs.casters[view].instances;
-		instances.insert(listed.begin(), listed.end());
+		instances.insert(instances.end(), listed.begin(), listed.end());
 	}
-	return { instances.begin(), instances.end() };
+	std::sort(instances.begin(), instances.end());
+	instances.erase(std::unique(instances.begin(), instances.end()), instances.end());
+	return instances;
 }
 
 std::vector<LightView> build_listing_views(

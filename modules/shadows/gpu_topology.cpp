@@ -2,7 +2,6 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/shadows/fetched_buffers.h"
 
 namespace gnomon {
 
@@ -90,8 +89,7 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyBuffer p_buffers) {
 				p_device.create_buffer_with_data(
 						{ .name = text(named ? named->name : "mesh", " ", p_what),
 								.size_bytes = bytes.size(),
-								.usage = p_usage | BufferUsage::COPY_TARGET,
-								.texel_format = Format::RGBA32_SFLOAT }, // of the positions
+								.usage = p_usage | BufferUsage::COPY_TARGET },
 						bytes));
 		pose_hash = 0; // so that the deform pass also fills the new buffer
 	};
@@ -105,7 +103,7 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyBuffer p_buffers) {
 	const MeshTopology &source = *topology;
 	const BufferUsage vertices = BufferUsage::VERTEX | BufferUsage::STORAGE;
 	make(TopologyBuffer::POSITIONS, positions, "welded positions",
-			vertices | get_fetched_usage(p_device),
+			vertices | BufferUsage::COPY_SOURCE,
 			[&] { return widen(source.welded_positions_node, 1.0f); });
 	make(TopologyBuffer::NORMALS, normals, "welded normals", vertices,
 			[&] { return widen(source.normals_node, 0.0f); });

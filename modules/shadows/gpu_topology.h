@@ -33,7 +33,7 @@ constexpr TopologyBuffer operator~(TopologyBuffer p_buffers) {
 /// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them, in node
 /// space. A buffer exists once it was requested, see MeshStore::get_topology.
 struct GpuTopology {
-	OwnedBuffer positions;			// VERTEX | get_fetched_usage, vec4 per welded vertex, w = 1
+	OwnedBuffer positions;			// VERTEX | STORAGE | COPY_SOURCE, vec4 per welded vertex, w = 1
 	OwnedBuffer normals;			// VERTEX | STORAGE, vec4; zero where the face normals cancel
 	SharedBuffer edges;				// STORAGE, shader::TopologyEdge, see order_edges_by_face
 	SharedBuffer triangles;			// STORAGE, three welded vertices per face

@@ -54,6 +54,15 @@ public:
 		}
 		return *static_cast<const T *>(entry.value.get());
 	}
+	/// State that a technique shares among all lights, created from the device on the first call
+	/// and cached as long as the store.
+	template <typename T> T &get_shared() {
+		std::shared_ptr<void> &entry = shared[std::type_index(typeid(T))];
+		if (!entry) {
+			entry = std::make_shared<T>(device);
+		}
+		return *static_cast<T *>(entry.get());
+	}
 	/// Adds the pass that deforms meshes to the scene's poses. Call it before all passes that read
 	/// vertices; buffers that are requested later in the frame are deformed too. With p_may_reuse,
 	/// vertices whose pose did not change stay as they are. Returns the number of instances that
@@ -75,6 +84,7 @@ private:
 	};
 
 	RenderingDevice &device;
+	std::map<std::type_index, std::shared_ptr<void>> shared;
 	std::map<uint64_t, GpuMesh> meshes; // by Mesh::id
 	std::map<uint64_t, GpuTopology> topologies;
 	std::map<std::pair<uint64_t, std::type_index>, Derived> derived;

@@ -1,14 +1,13 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/caster_positions_inc.glsl"
+#include "shadow_edge_count/casters_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-// Computes the vertices and planes of one caster's faces in light space, and the distances of the parts of blocks that
+// Computes the vertices and planes of the casters' faces in light space, and the distances of the parts of blocks that
 // see them (see CountFaceRecord). One invocation per face.
-layout(local_size_x = 64) in;
-FETCHED_UVEC4S(FIND_BINDING_MESH_FACES, mesh_faces_buffer); // CountMeshFace
-FETCHED_VEC4S(FIND_BINDING_SOURCE_PARTS, source_parts_buffer); // centre and radius, see CountMesh::source_parts
+layout(local_size_x = FIND_GROUP_SIZE) in;
+FETCHED_UVEC4S(FIND_BINDING_MESH_FACES, mesh_faces_buffer); // of all meshes: CountMeshFace
 layout(std430, set = 0, binding = FIND_BINDING_PLANES) writeonly buffer Planes {
 	vec4 planes[];
 };
@@ -29,40 +28,41 @@ float find_switch_distance(vec4 p_source_part, float p_half_width) {
 	if (p_half_width <= 0.0) {
 		return -FAR;
 	}
-	if ((push.flags & EDGE_COUNT_CASTER_DIRECTIONAL) != 0u) {
+	if (push.is_directional != 0u) {
 		return reach < FAR ? directional_distance : FAR;
 	}
 	return reach < 1.0 ? point_light_distance : FAR;
 }
 
 /// The distances of the parts that see the face, see CountFaceRecord.
-vec2 find_distances(uint p_source_part) {
-	if ((push.flags & EDGE_COUNT_CASTER_LEVEL) == 0u) {
+vec2 find_distances(CountCasterRecord p_caster, uint p_source_part) {
+	if ((p_caster.flags & EDGE_COUNT_CASTER_LEVEL) == 0u) {
 		return vec2(-FAR, FAR);
 	}
-	const vec4 part_node = FETCH_VEC4(source_parts_buffer, p_source_part);
-	precise const vec3 center = (push.light_from_node * vec4(part_node.xyz, 1.0)).xyz;
-	precise const vec4 part = vec4(center, push.scale * part_node.w);
-	return vec2(find_switch_distance(part, push.first_half_width), find_switch_distance(part, push.end_half_width));
+	const vec4 part_node = FETCH_VEC4(points_buffer, p_caster.first_source_part + p_source_part);
+	precise const vec3 center = (p_caster.light_from_node * vec4(part_node.xyz, 1.0)).xyz;
+	precise const vec4 part = vec4(center, p_caster.scale * part_node.w);
+	return vec2(find_switch_distance(part, p_caster.first_half_width), find_switch_distance(part, p_caster.end_half_width));
 }
 
 void main() {
-	const uint index = gl_GlobalInvocationID.x;
-	if (index >= push.face_count) {
+	const CountWorkGroup group = find_work_group();
+	const uint index = group.index * uint(FIND_GROUP_SIZE) + gl_LocalInvocationID.x;
+	if (group.index == NO_GROUP || index >= push.item_count) {
 		return;
 	}
-	const uvec4 words = FETCH_UVEC4(mesh_faces_buffer, index);
+	const CountCasterRecord caster = load_caster(find_caster(group, /*p_is_word=*/false, index));
+	const uvec4 words = FETCH_UVEC4(mesh_faces_buffer, caster.first_mesh_face + (index - caster.first_face));
 	const CountMeshFace face = CountMeshFace(words.x, words.y, words.z, words.w);
-	const vec3 a = load_light_position(face.a);
-	const vec3 b = load_light_position(face.b);
-	const vec3 c = load_light_position(face.c);
+	const vec3 a = load_light_position(caster, face.a);
+	const vec3 b = load_light_position(caster, face.b);
+	const vec3 c = load_light_position(caster, face.c);
 	const vec4 plane = make_count_plane(a, b, c);
-	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
-	planes[push.first_face + index] = is_mirrored ? -plane : plane;
-	const vec2 distances = find_distances(face.kind & EDGE_COUNT_SOURCE_PART_MASK);
+	const bool is_mirrored = (caster.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
+	planes[index] = is_mirrored ? -plane : plane;
+	const vec2 distances = find_distances(caster, face.kind & EDGE_COUNT_SOURCE_PART_MASK);
 	// Mirroring inverts the winding, so two vertices are swapped to match the plane's front.
-	faces[push.first_face + index] =
-			CountFaceRecord(uvec4(floatBitsToUint(a), face.kind & ~EDGE_COUNT_SOURCE_PART_MASK),
-					floatBitsToUint(vec4(is_mirrored ? c : b, distances.x)),
-					floatBitsToUint(vec4(is_mirrored ? b : c, distances.y)));
+	faces[index] = CountFaceRecord(uvec4(floatBitsToUint(a), face.kind & ~EDGE_COUNT_SOURCE_PART_MASK),
+			floatBitsToUint(vec4(is_mirrored ? c : b, distances.x)),
+			floatBitsToUint(vec4(is_mirrored ? b : c, distances.y)));
 }

@@ -4,10 +4,9 @@
 #include "common/ordered_list_inc.glsl"
 #include "shadow_edge_count/caster_edges_inc.glsl"
 
-// Writes the marked edges of one caster to the light's list, after those of the preceding casters
-// and in mesh order, so that no sum depends on scheduling. One invocation per word. The last
-// caster's pass writes the total number of edges.
-layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
+// Writes the marked edges of all casters to the light's list, in the casters' order and in mesh order, so that no sum
+// depends on scheduling. One invocation per word. That of the last word writes the total number of edges.
+layout(local_size_x = FIND_GROUP_SIZE) in; // EDGE_COUNT_WORDS_PER_BLOCK
 FETCHED_UINTS(FIND_BINDING_WORDS, words_buffer);
 FETCHED_UINTS(FIND_BINDING_BLOCKS, block_counts_buffer);
 layout(std430, set = 0, binding = FIND_BINDING_EDGES) writeonly buffer Edges {
@@ -25,33 +24,33 @@ uint load_list_block(uint p_index) {
 	return FETCH_UINT(block_counts_buffer, p_index);
 }
 
-CountEdgeRecord make_record(CountMeshEdge p_edge) {
-	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
-	const vec3 a = load_light_position(is_mirrored ? p_edge.b : p_edge.a);
-	const vec3 b = load_light_position(is_mirrored ? p_edge.a : p_edge.b);
-	return CountEdgeRecord(uvec4(floatBitsToUint(a), p_edge.face0 + push.first_face),
+CountEdgeRecord make_record(CountCasterRecord p_caster, CountMeshEdge p_edge) {
+	const bool is_mirrored = (p_caster.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
+	const vec3 a = load_light_position(p_caster, is_mirrored ? p_edge.b : p_edge.a);
+	const vec3 b = load_light_position(p_caster, is_mirrored ? p_edge.a : p_edge.b);
+	return CountEdgeRecord(uvec4(floatBitsToUint(a), p_edge.face0 + p_caster.first_face),
 			uvec4(floatBitsToUint(b),
 					p_edge.face1 == EDGE_COUNT_NO_FACE ? EDGE_COUNT_NO_FACE
-													   : p_edge.face1 + push.first_face));
+													   : p_edge.face1 + p_caster.first_face));
 }
 
 void main() {
-	const uint word_index = gl_GlobalInvocationID.x;
-	const uint word_count = (push.edge_count + uint(EDGE_COUNT_EDGES_PER_WORD) - 1u) /
-			uint(EDGE_COUNT_EDGES_PER_WORD);
-	const uint first_word = gl_WorkGroupID.x * uint(EDGE_COUNT_WORDS_PER_BLOCK);
-	// Counts the edges of all preceding blocks, including those of other casters: there is one list for all.
-	uint index = find_list_index(uint(EDGE_COUNT_WORDS_PER_BLOCK), 0u, push.first_block + gl_WorkGroupID.x,
-			push.first_word + first_word, push.first_word + min(word_index, word_count));
-	if (word_index >= word_count) {
+	const CountWorkGroup group = find_work_group();
+	const uint block = group.index == NO_GROUP ? 0u : group.index;
+	const uint first_word = block * uint(EDGE_COUNT_WORDS_PER_BLOCK);
+	const uint word_index = min(first_word + gl_LocalInvocationID.x, push.item_count);
+	// Counts the edges of all preceding blocks: there is one list for all casters.
+	uint index = find_list_index(uint(FIND_GROUP_SIZE), 0u, block, first_word, word_index);
+	if (group.index == NO_GROUP || word_index >= push.item_count) {
 		return;
 	}
-	for (uint bits = load_list_word(push.first_word + word_index); bits != 0u; bits &= bits - 1u) {
-		edges[index] = make_record(
-				load_mesh_edge(word_index * uint(EDGE_COUNT_EDGES_PER_WORD) + uint(findLSB(bits))));
+	const CountCasterRecord caster = load_caster(find_caster(group, /*p_is_word=*/true, word_index));
+	const uint first_edge = (word_index - caster.first_word) * uint(EDGE_COUNT_EDGES_PER_WORD);
+	for (uint bits = load_list_word(word_index); bits != 0u; bits &= bits - 1u) {
+		edges[index] = make_record(caster, load_mesh_edge(caster, first_edge + uint(findLSB(bits))));
 		++index;
 	}
-	if ((push.flags & EDGE_COUNT_CASTER_LAST) != 0u && word_index + 1u == word_count) {
+	if (word_index + 1u == push.item_count) {
 		totals[EDGE_COUNT_TOTAL_EDGES] = index;
 	}
 }

@@ -56,13 +56,14 @@ SHARED_SIZE(CountEdgeBundle, 32);
 #define EDGE_COUNT_BUNDLES_PER_GROUP 32
 
 // mark_edges.comp sets one bit per edge, 32 per word, and counts the set bits per block of 64
-// words. From these counts list_edges.comp computes each edge's index, so that the list is in mesh
-// order.
+// words. From these counts list_edges.comp computes each edge's index, so that the list is in the
+// casters' order and in mesh order. A caster's edges begin with a new word, but not with a new
+// block.
 #define EDGE_COUNT_EDGES_PER_WORD 32
 #define EDGE_COUNT_WORDS_PER_BLOCK 64
 
 // Bindings of the passes that find faces and edges.
-#define FIND_BINDING_POSITIONS 0
+#define FIND_BINDING_POINTS 0
 #define FIND_BINDING_MESH_FACES 1
 #define FIND_BINDING_MESH_EDGES 2
 #define FIND_BINDING_PLANES 3
@@ -73,7 +74,8 @@ SHARED_SIZE(CountEdgeBundle, 32);
 #define FIND_BINDING_TOTALS 8
 #define FIND_BINDING_BUNDLES 9
 #define FIND_BINDING_LIGHT 10
-#define FIND_BINDING_SOURCE_PARTS 11
+#define FIND_BINDING_CASTERS 11
+#define FIND_BINDING_GROUPS 12
 
 /// An edge between welded vertices, from a to b in the winding order of its first face.
 struct SHARED_ALIGN CountMeshEdge {
@@ -94,18 +96,19 @@ struct SHARED_ALIGN CountMeshFace {
 };
 SHARED_SIZE(CountMeshFace, 16);
 
-/// Push constants of one caster. first_*: its first index in a buffer that all casters of the light
-/// share.
-struct SHARED_ALIGN CountCasterPush {
+/// One caster. Its first indices are in buffers that all casters of the light share
+/// (CountFaceRecord, and words of EDGE_COUNT_EDGES_PER_WORD edges) and in those that all meshes
+/// share. Fetched as EDGE_COUNT_CASTER_ITEMS x RGBA32_UINT.
+struct SHARED_ALIGN CountCasterRecord {
 	mat4 light_from_node;
-	uint face_count;
 	uint first_face;
-	uint edge_count;
 	uint first_word;
-	uint first_block;
-	uint flags;			  // EDGE_COUNT_CASTER_*
-	float disc_radius;	  // R in metres; directional: a tangent
-	float side_tolerance; // p_tolerance of count_find_light_side
+	uint edge_count;
+	uint flags; // EDGE_COUNT_CASTER_*
+	uint first_mesh_face;
+	uint first_mesh_edge;
+	uint first_vertex;
+	uint first_source_part;
 	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a source part (see CountMeshFace), in
 	// metres, from which receivers see this level of detail, and from which they see the next one.
 	float first_half_width;
@@ -113,12 +116,37 @@ struct SHARED_ALIGN CountCasterPush {
 	float scale; // largest stretch of a length by light_from_node
 	uint padding;
 };
-SHARED_SIZE(CountCasterPush, 112);
+SHARED_SIZE(CountCasterRecord, 112);
+#define EDGE_COUNT_CASTER_ITEMS 7
+
+// A work group of the passes over casters has this many consecutive faces or words of the light.
+#define FIND_GROUP_SIZE 64
+
+/// One work group: its index among those of all faces or words, and the first and last caster that
+/// may have some of them.
+struct SHARED_ALIGN CountWorkGroup {
+	uint index;
+	uint first_caster;
+	uint last_caster;
+	uint padding;
+};
+SHARED_SIZE(CountWorkGroup, 16);
+
+/// Push constants of the passes over casters.
+struct SHARED_ALIGN CountFindPush {
+	uint first_group; // of the dispatch, in the buffer of work groups
+	uint group_count;
+	uint item_count; // faces or words of all casters
+	uint is_directional;
+	float disc_radius;	  // R in metres; directional: a tangent
+	float side_tolerance; // p_tolerance of count_find_light_side
+	uint padding0;
+	uint padding1;
+};
+SHARED_SIZE(CountFindPush, 32);
 #define EDGE_COUNT_SOURCE_PART_MASK 0x00ffffffu
 #define EDGE_COUNT_CASTER_MIRRORED 1u // light_from_node has a negative determinant
-#define EDGE_COUNT_CASTER_LAST 2u	  // the last caster that has edges
-#define EDGE_COUNT_CASTER_DIRECTIONAL 4u
-#define EDGE_COUNT_CASTER_LEVEL 8u // one of two levels of detail of a cut-out caster
+#define EDGE_COUNT_CASTER_LEVEL 2u	  // one of two levels of detail of a cut-out caster
 
 #define EDGE_COUNT_MAX_VIEWS 6
 // Each block of 8 x 8 pixels has bounds of its receivers and lists of edges. list_blocks.comp

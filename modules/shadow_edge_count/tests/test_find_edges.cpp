@@ -4,6 +4,7 @@
 #include "modules/shadow_edge_count/count_mesh.h"
 #include "modules/shadow_edge_count/tests/count_records.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
+#include "modules/shadow_edge_count/work_groups.h"
 #include "modules/shadows/fetched_buffers.h"
 
 #include "tests/shaders/kernel_fixture.h"
@@ -19,16 +20,42 @@ using namespace gnomon;
 
 namespace {
 
-/// One mesh in light space, and the buffers that the passes read.
+/// One mesh in light space.
 struct Caster {
 	std::shared_ptr<const MeshTopology> topology;
 	glm::dmat4 light_from_node;
 	CountMesh mesh;
-	shader::CountCasterPush push;
-	OwnedBuffer positions;
-	OwnedBuffer faces;
-	OwnedBuffer edges;
-	OwnedBuffer source_parts;
+};
+
+/// The casters and their meshes as the passes read them.
+struct FindInputs {
+	CountCasters casters;
+	std::vector<shader::CountCasterRecord> records;
+	std::vector<shader::CountMeshFace> faces;
+	std::vector<shader::CountMeshEdge> edges;
+	std::vector<glm::vec4> points;
+
+	void add(const Caster &p_caster) {
+		const bool is_mirrored = glm::determinant(glm::dmat3(p_caster.light_from_node)) < 0;
+		CountCaster caster;
+		caster.face_count = uint32_t(p_caster.mesh.faces.size());
+		const uint32_t edge_count = uint32_t(p_caster.mesh.edges.size());
+		caster.word_count =
+				(edge_count + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
+		caster.record = { glm::mat4(p_caster.light_from_node), casters.face_count,
+			casters.word_count, edge_count, is_mirrored ? EDGE_COUNT_CASTER_MIRRORED : 0u,
+			uint32_t(faces.size()), uint32_t(edges.size()), uint32_t(points.size()) };
+		casters.face_count += caster.face_count;
+		casters.edge_count += edge_count;
+		casters.word_count += caster.word_count;
+		faces.insert(faces.end(), p_caster.mesh.faces.begin(), p_caster.mesh.faces.end());
+		edges.insert(edges.end(), p_caster.mesh.edges.begin(), p_caster.mesh.edges.end());
+		for (const glm::vec3 &position : p_caster.topology->welded_positions_node) {
+			points.emplace_back(position, 1.0f);
+		}
+		records.push_back(caster.record);
+		casters.casters.push_back(caster);
+	}
 };
 
 /// Results of the passes, in light space.
@@ -42,39 +69,31 @@ struct Found {
 Found find_edges(
 		KernelFixture &r_fixture, std::vector<Caster> &r_casters, const CountSpace &p_space) {
 	const BufferUsage fetched = get_fetched_usage(*r_fixture.device);
-	uint32_t face_count = 0;
-	uint32_t word_count = 0;
-	uint32_t block_count = 0;
-	uint32_t edge_count = 0;
+	FindInputs inputs;
 	for (Caster &caster : r_casters) {
 		caster.mesh = build_count_mesh(*caster.topology);
-		const bool is_mirrored = glm::determinant(glm::dmat3(caster.light_from_node)) < 0;
-		const bool is_last = &caster == &r_casters.back();
-		caster.push = { glm::mat4(caster.light_from_node), uint32_t(caster.mesh.faces.size()),
-			face_count, uint32_t(caster.mesh.edges.size()), word_count, block_count,
-			(is_mirrored ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
-					(is_last ? EDGE_COUNT_CASTER_LAST : 0u) |
-					(p_space.is_directional ? EDGE_COUNT_CASTER_DIRECTIONAL : 0u),
-			float(p_space.disc_radius),
-			// SIDE_TOLERANCE_COSINE and SIDE_TOLERANCE_SIZES of count_casters.cpp.
-			p_space.is_directional ? 1e-6f : float(2.5e-7 * p_space.scene_size_m) };
-		std::vector<glm::vec4> positions;
-		for (const glm::vec3 &position : caster.topology->welded_positions_node) {
-			positions.emplace_back(position, 1.0f);
-		}
-		caster.positions =
-				r_fixture.make_buffer("positions", positions, fetched, Format::RGBA32_SFLOAT);
-		caster.faces = r_fixture.make_buffer(
-				"mesh faces", caster.mesh.faces, fetched, Format::RGBA32_UINT);
-		caster.edges =
-				r_fixture.make_buffer("edges", caster.mesh.edges, fetched, Format::RGBA32_UINT);
-		caster.source_parts = r_fixture.make_buffer(
-				"source parts", caster.mesh.source_parts, fetched, Format::RGBA32_SFLOAT);
-		face_count += caster.push.face_count;
-		edge_count += caster.push.edge_count;
-		word_count += caster.mesh.get_word_count();
-		block_count += caster.mesh.get_block_count();
+		inputs.add(caster);
 	}
+	const uint32_t face_count = inputs.casters.face_count;
+	const uint32_t word_count = inputs.casters.word_count;
+	const uint32_t edge_count = inputs.casters.edge_count;
+	const std::vector<shader::CountWorkGroup> face_groups =
+			build_work_groups(inputs.casters, CasterItems::FACES, /*p_is_moved_only=*/false);
+	const std::vector<shader::CountWorkGroup> word_groups =
+			build_work_groups(inputs.casters, CasterItems::WORDS, /*p_is_moved_only=*/false);
+	const uint32_t block_count = uint32_t(word_groups.size());
+	const OwnedBuffer casters =
+			r_fixture.make_buffer("casters", inputs.records, fetched, Format::RGBA32_UINT);
+	const OwnedBuffer points =
+			r_fixture.make_buffer("points", inputs.points, fetched, Format::RGBA32_SFLOAT);
+	const OwnedBuffer mesh_faces =
+			r_fixture.make_buffer("mesh faces", inputs.faces, fetched, Format::RGBA32_UINT);
+	const OwnedBuffer mesh_edges =
+			r_fixture.make_buffer("mesh edges", inputs.edges, fetched, Format::RGBA32_UINT);
+	const OwnedBuffer face_work =
+			r_fixture.make_buffer("face groups", face_groups, BufferUsage::STORAGE);
+	const OwnedBuffer word_work =
+			r_fixture.make_buffer("word groups", word_groups, BufferUsage::STORAGE);
 	const OwnedBuffer planes = r_fixture.make_buffer("planes", std::vector<glm::vec4>(face_count),
 			fetched | BufferUsage::COPY_SOURCE, Format::RGBA32_SFLOAT);
 	const OwnedBuffer faces =
@@ -107,42 +126,40 @@ Found find_edges(
 		};
 		commands.barriers({ &barrier, 1 });
 	};
-	const auto run = [&](const char *p_shader, uint32_t p_items(const Caster &), auto p_bind) {
+	const auto run = [&](const char *p_shader, uint32_t p_group_count, uint32_t p_item_count,
+							 std::vector<Binding> p_bindings) {
 		const std::string shader = choose_fetching_shader(*r_fixture.device, p_shader);
 		commands.bind_pipeline(
 				r_fixture.device->get_compute_pipeline({ .name = shader, .shader = shader }));
-		for (const Caster &caster : r_casters) {
-			p_bind(caster);
-			commands.push_constants(caster.push);
-			commands.dispatch_items({ p_items(caster), 1, 1 });
-		}
+		p_bindings.push_back({ FIND_BINDING_CASTERS, casters.get() });
+		p_bindings.push_back({ FIND_BINDING_POINTS, points.get() });
+		commands.bind_resources(p_bindings);
+		// SIDE_TOLERANCE_COSINE and SIDE_TOLERANCE_SIZES of count_casters.cpp.
+		const float side_tolerance =
+				p_space.is_directional ? 1e-6f : float(2.5e-7 * p_space.scene_size_m);
+		commands.push_constants(shader::CountFindPush{ /*first_group=*/0, p_group_count,
+				p_item_count, p_space.is_directional ? 1u : 0u, float(p_space.disc_radius),
+				side_tolerance });
+		// More work groups than needed, in two rows: the others do nothing.
+		commands.dispatch({ p_group_count / 2 + 1, 2, 1 });
 	};
-	const auto count_words = [](const Caster &p_caster) { return p_caster.mesh.get_word_count(); };
-	run(
-			"shadow_edge_count/caster_faces.comp",
-			[](const Caster &p_caster) { return p_caster.push.face_count; },
-			[&](const Caster &p_caster) {
-				commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
-						{ FIND_BINDING_MESH_FACES, p_caster.faces.get() },
-						{ FIND_BINDING_SOURCE_PARTS, p_caster.source_parts.get() },
-						{ FIND_BINDING_PLANES, planes.get() },
-						{ FIND_BINDING_FACES, faces.get() } });
-			});
+	run("shadow_edge_count/caster_faces.comp", uint32_t(face_groups.size()), face_count,
+			{ { FIND_BINDING_GROUPS, face_work.get() },
+					{ FIND_BINDING_MESH_FACES, mesh_faces.get() },
+					{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_FACES, faces.get() } });
 	wait(planes, Access::SHADER_READ_COMPUTE);
-	run("shadow_edge_count/mark_edges.comp", count_words, [&](const Caster &p_caster) {
-		commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
-				{ FIND_BINDING_MESH_EDGES, p_caster.edges.get() },
-				{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_WORDS, words.get() },
-				{ FIND_BINDING_BLOCKS, blocks.get() } });
-	});
+	run("shadow_edge_count/mark_edges.comp", block_count, word_count,
+			{ { FIND_BINDING_GROUPS, word_work.get() },
+					{ FIND_BINDING_MESH_EDGES, mesh_edges.get() },
+					{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_WORDS, words.get() },
+					{ FIND_BINDING_BLOCKS, blocks.get() } });
 	wait(words, Access::SHADER_READ_COMPUTE);
 	wait(blocks, Access::SHADER_READ_COMPUTE);
-	run("shadow_edge_count/list_edges.comp", count_words, [&](const Caster &p_caster) {
-		commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
-				{ FIND_BINDING_MESH_EDGES, p_caster.edges.get() },
-				{ FIND_BINDING_WORDS, words.get() }, { FIND_BINDING_BLOCKS, blocks.get() },
-				{ FIND_BINDING_EDGES, list.get() }, { FIND_BINDING_TOTALS, totals.get() } });
-	});
+	run("shadow_edge_count/list_edges.comp", block_count, word_count,
+			{ { FIND_BINDING_GROUPS, word_work.get() },
+					{ FIND_BINDING_MESH_EDGES, mesh_edges.get() },
+					{ FIND_BINDING_WORDS, words.get() }, { FIND_BINDING_BLOCKS, blocks.get() },
+					{ FIND_BINDING_EDGES, list.get() }, { FIND_BINDING_TOTALS, totals.get() } });
 	wait(faces, Access::COPY_READ);
 	commands.copy_buffer(
 			faces.get(), faces_readback.get(), face_count * sizeof(shader::CountFaceRecord));
