@@ -62,7 +62,8 @@ std::vector<SpecializationConstant> make_pipeline_constants(
 		const ShadowTechnique::Inputs &p_inputs) {
 	return { { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(p_inputs.views.size()) },
 		{ EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, p_inputs.device.get_features().subgroup_size },
-		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_inputs.views.front().is_orthographic ? 1u : 0u } };
+		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_inputs.views.front().is_orthographic ? 1u : 0u },
+		{ EDGE_COUNT_CONSTANT_GROUP_SIZE, get_count_subgroup_size(p_inputs.device) } };
 }
 
 /// Adds an indirect dispatch over the blocks of one kind.
@@ -71,7 +72,7 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		uint32_t p_kind, std::vector<PassBinding> p_bindings) {
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	const shader::CountBlockPush push = { p_kind, p_kind * p_blocks.block_count,
-		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, /*padding=*/0 };
+		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, /*round=*/0 };
 	std::vector<SpecializationConstant> constants = make_pipeline_constants(inputs);
 	const bool has_no_list =
 			p_kind == EDGE_COUNT_BLOCKS_UNLISTED || p_kind == EDGE_COUNT_BLOCKS_FILTERED;
@@ -88,6 +89,23 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		p_context.commands.dispatch_indirect(
 				p_context.get(dispatches), 3 * p_kind * sizeof(uint32_t));
 	});
+}
+
+/// Adds the rounds that count what subgroups without iterations left have not counted.
+void add_rounds(RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks,
+		RGTexture p_mask) {
+	std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes.inputs);
+	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, 1u });
+	const bool is_fine = p_passes.settings.get_sample_set_count() > 1;
+	const std::string shader = choose_fetching_shader(p_passes.inputs.device,
+			is_fine ? "shadow_edge_count/resolve_unfinished_fine.comp"
+					: "shadow_edge_count/resolve_unfinished.comp");
+	std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_blocks);
+	bindings.push_back(
+			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
+	add_round_passes(r_graph, p_blocks.rounds,
+			p_passes.inputs.device.get_compute_pipeline({ shader, shader, std::move(constants) }),
+			bindings);
 }
 
 /// Adds a pass that filters blocks with more edges than the budget (percentage-closer soft
@@ -134,6 +152,10 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 	constants.max_cut_face_count = p_capacities.cut_face_count;
 	constants.interpolation = p_settings.interpolation;
 	constants.max_bundle_count = p_capacities.get_bundle_count();
+	const CountRoundLimits limits = choose_round_limits(p_inputs.size_px, constants.view_count,
+			p_capacities.edge_count, get_count_subgroup_size(p_inputs.device));
+	constants.unfinished_slot_count = limits.slot_count;
+	constants.unfinished_round_count = limits.round_count;
 	constants.max_edge_count = p_settings.disc_radius > 0 ? p_capacities.edge_count : 0;
 	return constants;
 }
@@ -160,6 +182,8 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1) * sizeof(uint32_t),
 			Format::R32_UINT));
 	blocks.block_count = static_cast<uint32_t>(block_count);
+	blocks.rounds = add_rounds_buffers(
+			r_graph, inputs.device, constants, p_passes.settings.get_sample_set_count());
 	blocks.blocks = make_words("blocks by kind", EDGE_COUNT_BLOCK_KINDS * block_count);
 	blocks.dispatches = r_graph.create_buffer(
 			{ "block dispatches", EDGE_COUNT_DISPATCH_WORDS * sizeof(uint32_t),
@@ -244,8 +268,12 @@ RGTexture add_count_passes(
 		bindings = make_count_bindings(p_passes, p_blocks);
 		bindings.push_back(
 				PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
+		if (kind != EDGE_COUNT_BLOCKS_SMOOTH) {
+			p_blocks.rounds.bind_queue(bindings);
+		}
 		add_kind_pass(r_graph, p_passes, p_blocks, name, choose(shader), kind, std::move(bindings));
 	}
+	add_rounds(r_graph, p_passes, p_blocks, mask);
 	if (p_passes.depth_map) {
 		add_filter_pass(r_graph, p_passes, p_blocks, mask);
 	}

@@ -2,6 +2,7 @@
 
 #include "modules/render_graph/compute_pass.h"
 #include "modules/shadow_edge_count/count_buffers.h"
+#include "modules/shadow_edge_count/count_rounds.h"
 
 namespace gnomon {
 
@@ -28,6 +29,7 @@ struct CountBlocks {
 	RGBuffer blocks;					// a list of blocks for each kind, EDGE_COUNT_BLOCKS_*
 	RGBuffer dispatches;				// indirect dispatch arguments for each kind
 	RGBuffer status;					// EDGE_COUNT_STATUS_*, see count_status.h
+	CountRounds rounds;					// for subgroups with very many edges
 	uint32_t block_count = 0;
 };
 

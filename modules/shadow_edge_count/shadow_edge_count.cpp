@@ -284,7 +284,8 @@ std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
 				 "bound_edges.comp", "list_cut_faces.comp", "list_faces.comp", "list_blocks.comp",
 				 "resolve_plain.comp", "resolve_smooth.comp", "resolve_smooth_fine.comp",
-				 "resolve.comp", "resolve_fine.comp", "debug.comp" }) {
+				 "resolve.comp", "resolve_fine.comp", "resolve_unfinished.comp",
+				 "resolve_unfinished_fine.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 		files.push_back(get_storage_variant(files.back()));
 	}

@@ -8,7 +8,9 @@
 #ifndef COUNT_GROUP_SIZE // invocations per work group, if it is not one per pixel
 #define COUNT_GROUP_SIZE (EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX)
 #endif
-#ifndef MAP_RESOLVE_INC_GLSL // which sets the size to 8 x 8
+#ifdef COUNT_GROUP_IS_SUBGROUP
+layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
+#elif !defined(MAP_RESOLVE_INC_GLSL) // which sets the size to 8 x 8
 // In one dimension: with two, llvmpipe fills subgroups only up to the size in x.
 layout(local_size_x = COUNT_GROUP_SIZE) in;
 #endif

@@ -3,15 +3,18 @@
 #define COUNT_MASK_INC_GLSL
 
 #include "shadow_edge_count/count_resolve_inc.glsl"
+#include "shadow_edge_count/count_unfinished_inc.glsl"
 
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
 	load_count_constants();
+	iteration_limit = light.unfinished_round_count > 0u ? uint(EDGE_COUNT_MAX_ITERATIONS) : NO_ITERATION_LIMIT;
 	const CountPixel pixel = count_pixel();
 	if (is_in_image(pixel.pixel)) {
 		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));
 	}
+	add_unfinished(find_block(), pixel.is_unfinished);
 }
 
 #endif

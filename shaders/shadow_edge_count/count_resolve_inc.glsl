@@ -25,6 +25,16 @@ uvec4 load_count_masks(uint p_index, uint p_pair) {
 	return texelFetch(masks_buffer, int(p_index * uint((COUNT_SAMPLE_SET_COUNT + 1) / 2) + p_pair));
 }
 
+// The work of a subgroup is bounded, see EDGE_COUNT_MAX_ITERATIONS: it stops after the slice of edges at which
+// iteration_count reaches iteration_limit. What it has not counted then, a pass of resolve_unfinished.comp counts.
+const uint NO_ITERATION_LIMIT = 0xffffffffu;
+uint iteration_limit = NO_ITERATION_LIMIT;
+uint iteration_count = 0u; // of loops over edges; an upper bound
+
+bool has_iterations_left() {
+	return iteration_count < iteration_limit;
+}
+
 // List entries (see COUNT_EDGE_MASK) of the edges that some receiver of a subgroup may have to count. Each subgroup has
 // its own slice. There is a slice for every four invocations, the smallest size of a subgroup.
 const uint SLICE_SIZE = 64u;
@@ -36,6 +46,7 @@ struct CountPixel {
 	uint edge_count; // edges that its receiver counted
 	float visibility; // 0 without a receiver
 	int solid_count; // between the receiver and the light's centre
+	bool is_unfinished; // some edges were not counted: no iterations were left
 };
 
 /// State of collecting the edges that a box's receivers may need.
@@ -62,8 +73,8 @@ bool has_choice_room(CountChoice p_choice, uint p_more) {
 	return p_choice.count + p_more <= SLICE_SIZE;
 }
 
-/// Collects edges from the part's list, which has p_end entries, from p_first on. Ends when the slice may be full.
-/// r_chunk: the chunk of the next entry.
+/// Collects edges from the part's list, which has p_end entries, from p_first on. Ends when the slice may be full,
+/// or no iterations are left. r_chunk: the chunk of the next entry.
 CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, CountBox p_box) {
 	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
 	CountChoice choice = CountChoice(p_first, 0u);
@@ -80,7 +91,8 @@ CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, Count
 		r_chunk = choice.next % size == 0u
 				? FETCH_UINT(lists_buffer, light.chunk_capacity * size + min(r_chunk, light.chunk_capacity - 1u))
 				: r_chunk;
-	} while (choice.next < p_end && has_choice_room(choice, SUBGROUP_SIZE));
+		++iteration_count;
+	} while (choice.next < p_end && has_choice_room(choice, SUBGROUP_SIZE) && has_iterations_left());
 	return choice;
 }
 
@@ -94,7 +106,7 @@ void choose_edge_of_bundle(CountBox p_box, uint p_bundle, uint p_index, uint p_e
 }
 
 /// Collects edges from all bundles of the light, from edge p_first on, which starts a bundle. Ends when the slice may
-/// be full. p_end: number of edges of the light.
+/// be full, or no iterations are left. p_end: number of edges of the light.
 CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle_count = find_bundle_count(p_end);
@@ -124,11 +136,14 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 					choose_edge_of_bundle(p_box, first_bundle + lane, i + SUBGROUP_SIZE, end, choice);
 				}
 				i += 2u * SUBGROUP_SIZE;
+				++iteration_count;
 			} while (2u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
 			note_fault(i - gl_SubgroupInvocationID < size, EDGE_COUNT_FAULT_LOOP);
+			++iteration_count;
 		} while (subgroupBallotBitCount(needed) != 0u);
 		note_fault(subgroupBallotBitCount(needed) != 0u, EDGE_COUNT_FAULT_LOOP);
-	} while (choice.next < p_end && has_choice_room(choice, size));
+		++iteration_count;
+	} while (choice.next < p_end && has_choice_room(choice, size) && has_iterations_left());
 	return choice;
 }
 
@@ -273,9 +288,10 @@ uint find_loaded_count(uint p_batch, uint p_count) {
 	return min(p_count - min(p_count, p_batch * BATCH_SIZE), BATCH_SIZE);
 }
 
-// Edges that one iteration tests. Larger numbers need fewer iterations: llvmpipe ends every loop after an invocation
-// has made 65535 iterations in all its loops together.
+// Edges that one iteration tests. Larger numbers need fewer iterations, see EDGE_COUNT_MAX_ITERATIONS.
 const uint EDGES_PER_ITERATION = BATCH_SIZE < 8u ? 4u : 8u;
+/// Maximum number of iterations of test_round: two loops over the batches, with a loop over each batch's edges.
+const uint TEST_ITERATIONS = 2u * (ROUND_SIZE / BATCH_SIZE) * (1u + BATCH_SIZE / EDGES_PER_ITERATION);
 
 /// Loads a round of p_count edges of the slice, from p_first on, and finds those that the receiver
 /// has to count. Batches of r_loaded without edges of this round are unchanged, and have no bits in
@@ -374,6 +390,7 @@ void count_round(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks 
 			count_two(p_loaded, p_receiver, p_edge_masks, left, r_state);
 		}
 		i += HAS_NO_LIST ? 4u : 2u;
+		++iteration_count;
 	} while (i < max_count);
 	note_fault(i < max_count, EDGE_COUNT_FAULT_LOOP);
 }
@@ -389,29 +406,43 @@ CountBounds find_receiver_bounds(vec3 p_warped, bool p_is_selected) {
 	return find_subgroup_bounds(bounds);
 }
 
-/// Each invocation counts the edges of one pixel and computes its visibility. The pixel is at position p_pixel in the
-/// block. p_parts: the block's word EDGE_COUNT_RECEIVERS_PARTS. p_sorted_part: the receiver's part, if the block is
-/// sorted.
-CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
+/// A pixel, its receiver, and the part of the block to which that belongs.
+struct CountSubject {
+	ivec2 pixel;
+	bool is_receiver;
+	bool is_counted; // some caster may hide the receiver
+	uint part;
+	CountPoint point; // meaningless if there is no receiver
+	CountReceiver receiver;
+};
+
+/// The pixel is at position p_pixel in the block. p_parts: the block's word EDGE_COUNT_RECEIVERS_PARTS. p_sorted_part:
+/// the receiver's part, if the block is sorted.
+CountSubject load_subject(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
 	const bool is_sorted = (p_parts & EDGE_COUNT_IS_SORTED) != 0u;
-	CountPixel result;
-	result.pixel = ivec2(find_block_corner(p_block) + p_pixel);
-	result.edge_count = 0u;
-	const bool is_receiver = is_in_image(result.pixel) && is_receiver_pixel(result.pixel);
-	// Replaced if there is a receiver, else not counted.
-	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0));
-	if (is_receiver) {
-		point = load_count_point(result.pixel);
+	CountSubject subject;
+	subject.pixel = ivec2(find_block_corner(p_block) + p_pixel);
+	subject.is_receiver = is_in_image(subject.pixel) && is_receiver_pixel(subject.pixel);
+	subject.point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0));
+	if (subject.is_receiver) {
+		subject.point = load_count_point(subject.pixel);
 	}
-	const bool is_counted = is_receiver && may_count_at(point);
-	const uint own_part = is_sorted ? p_sorted_part : point.view;
-	const float distance = is_counted ? load_part_distance(p_block, p_parts, own_part) : 0.0;
-	const CountReceiver receiver = make_count_receiver(light, point.position, distance);
+	subject.is_counted = subject.is_receiver && may_count_at(subject.point);
+	subject.part = is_sorted ? p_sorted_part : subject.point.view;
+	const float distance = subject.is_counted ? load_part_distance(p_block, p_parts, subject.part) : 0.0;
+	subject.receiver = make_count_receiver(light, subject.point.position, distance);
+	return subject;
+}
+
+/// Counts the solids before the light's centre, and the lines along which faces cut the disc.
+CountState count_at_center(CountSubject p_subject) {
+	const CountReceiver receiver = p_subject.receiver;
 	CountCrossings crossings = CountCrossings(0, 0, 0);
-	if (is_counted) {
-		crossings = count_crossings(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver);
+	if (p_subject.is_counted) {
+		crossings = count_crossings(
+				light, VIEW_COUNT == 1u ? 0u : p_subject.point.view, p_subject.point.warped.xy, receiver);
 	}
-	const uint cut_face_count = is_counted ? find_cut_face_count() : 0u;
+	const uint cut_face_count = p_subject.is_counted ? find_cut_face_count() : 0u;
 	for (uint i = 0u; i < cut_face_count; ++i) {
 		const uint face = load_cut_face(i);
 		const vec4 plane = load_count_plane(face);
@@ -426,18 +457,30 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		count_add_cut(receiver, load_count_face(face), load_count_plane(face),
 				crossings.back_facing >= crossings.light_facing, state);
 	}
-	bool waits = is_counted;
+	return state;
+}
+
+/// How far a subgroup has counted its receivers' edges.
+struct CountProgress {
+	bool waits; // edges of the invocation's receiver remain to be counted
+	uint next;	// of the part that is being counted: index in the list, or without lists index of the edge
+};
+
+/// Counts edges until all are counted, or no iterations are left. r_edge_count: is increased by the number of edges that
+/// the receiver counted.
+void count_edges(uint p_block, uint p_parts, CountSubject p_subject, inout CountState r_state,
+		inout CountProgress r_progress, inout uint r_edge_count) {
 	do {
 		// Process the receivers of one part at a time: a box around several parts needs many more edges.
-		const uvec4 waiting = subgroup_ballot(waits);
+		const uvec4 waiting = subgroup_ballot(r_progress.waits);
 		const bool is_any = subgroupBallotBitCount(waiting) > 0u;
 		const uint leader = is_any ? subgroupBallotFindLSB(waiting) : 0u;
-		const uint part = subgroupShuffle(own_part, leader);
+		const uint part = subgroupShuffle(p_subject.part, leader);
 		const uint view = find_part_view(p_parts, part);
-		const bool is_selected = waits && own_part == part;
+		const bool is_selected = r_progress.waits && p_subject.part == part;
 		CountBox box = make_count_box(light, load_count_view(view),
-				find_receiver_bounds(point.warped, is_selected));
-		box.distances = vec2(subgroupShuffle(distance, leader));
+				find_receiver_bounds(p_subject.point.warped, is_selected));
+		box.distances = vec2(subgroupShuffle(p_subject.receiver.part_distance, leader));
 		uint end = is_any ? find_edge_count() : 0u;
 		uint chunk = 0u;
 		if (!HAS_NO_LIST) {
@@ -451,7 +494,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 			end = min(end, edge_count);
 			chunk = has_chain ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
 		}
-		uint next = 0u; // in the list
+		uint next = r_progress.next;
 		const LoadedEdge none = LoadedEdge(COUNT_ADDS_NOTHING << COUNT_PACKED_WEIGHT_SHIFT, vec3(0.0), vec3(0.0));
 		LoadedRound loaded = LoadedRound(none, none, none, none);
 		do {
@@ -466,23 +509,41 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 			uint first = 0u;
 			do {
 				const uint count = min(choice.count - first, ROUND_SIZE);
-				CountEdgeMasks edge_masks = test_round(first, count, receiver, loaded);
+				CountEdgeMasks edge_masks = test_round(first, count, p_subject.receiver, loaded);
 				edge_masks.own = is_selected ? edge_masks.own : 0u;
-				count_round(loaded, receiver, edge_masks, state);
-				result.edge_count += uint(bitCount(edge_masks.own));
+				count_round(loaded, p_subject.receiver, edge_masks, r_state);
+				r_edge_count += uint(bitCount(edge_masks.own));
 				first += ROUND_SIZE;
+				iteration_count += TEST_ITERATIONS + 1u;
 			} while (first < choice.count);
 			note_fault(first < choice.count, EDGE_COUNT_FAULT_LOOP);
 			sync_subgroup_memory();
-		} while (next < end);
-		note_fault(next < end, EDGE_COUNT_FAULT_LOOP);
-		waits = waits && !is_selected;
-	} while (subgroup_any(waits));
-	note_fault(waits, EDGE_COUNT_FAULT_LOOP);
+			++iteration_count;
+		} while (next < end && has_iterations_left());
+		const bool is_done = next >= end;
+		note_fault(!is_done && has_iterations_left(), EDGE_COUNT_FAULT_LOOP);
+		r_progress.waits = r_progress.waits && !(is_selected && is_done);
+		r_progress.next = is_done ? 0u : next;
+		++iteration_count;
+	} while (subgroup_any(r_progress.waits) && has_iterations_left());
+	note_fault(r_progress.waits && has_iterations_left(), EDGE_COUNT_FAULT_LOOP);
+}
+
+CountPixel make_count_pixel(CountSubject p_subject, CountState p_state, CountProgress p_progress, uint p_edge_count) {
+	return CountPixel(p_subject.pixel, p_edge_count,
+			p_subject.is_counted ? count_resolve(p_state) : (p_subject.is_receiver ? 1.0 : 0.0), p_state.solid_count,
+			p_progress.waits);
+}
+
+/// Each invocation counts the edges of one pixel and computes its visibility. For the parameters see load_subject.
+CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
+	const CountSubject subject = load_subject(p_block, p_parts, p_pixel, p_sorted_part);
+	CountState state = count_at_center(subject);
+	CountProgress progress = CountProgress(subject.is_counted, 0u);
+	uint edge_count = 0u;
+	count_edges(p_block, p_parts, subject, state, progress, edge_count);
 	report_faults();
-	result.solid_count = state.solid_count;
-	result.visibility = is_counted ? count_resolve(state) : (is_receiver ? 1.0 : 0.0);
-	return result;
+	return make_count_pixel(subject, state, progress, edge_count);
 }
 
 /// Each invocation computes one pixel of the work group's block.

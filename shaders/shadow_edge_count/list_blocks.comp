@@ -56,6 +56,8 @@ const uint NO_BLOCK = 0xffffffffu;
 // need more than this limit gets no lists. The margin covers the iterations between two checks.
 const uint MAX_ITERATIONS = 40000u;
 uint iteration_count = 0u;
+// Smooth blocks cannot continue in a further pass (EDGE_COUNT_MAX_ITERATIONS): with more edges, a block is not smooth.
+const uint MAX_SMOOTH_EDGES = uint(EDGE_COUNT_MAX_ITERATIONS) / 2u; // an edge needs less than 1.5 iterations
 
 /// The tile's receivers in one view, divided into two boxes by w. If count is 1, both boxes are the same.
 struct BoxPair {
@@ -542,7 +544,8 @@ void main() {
 			const uint edge_count = block_edge_counts[i];
 			const uint solids = block_solids[i];
 			const bool is_tested = iteration_count < MAX_ITERATIONS; // all edges of the tile
-			uint kind = uint(blocks_are_smooth[i] != 0u ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
+			const bool is_smooth = blocks_are_smooth[i] != 0u && edge_count <= MAX_SMOOTH_EDGES;
+			uint kind = uint(is_smooth ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
 			kind = is_tested && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);
 			kind = edge_count > light.budget ? uint(EDGE_COUNT_BLOCKS_FILTERED) : kind;
 			// At most one of SOME_ARE_LIT and SOME_ARE_DARK, and not MAY_VARY.

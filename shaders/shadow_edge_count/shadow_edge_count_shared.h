@@ -159,6 +159,8 @@ SHARED_SIZE(CountFindPush, 32);
 	1 // views of the light; with one view, shaders need not search the receiver's
 #define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2	 // the blocks of the pass read all edges of the light
 #define EDGE_COUNT_CONSTANT_IS_DIRECTIONAL 3 // the light is directional
+#define EDGE_COUNT_CONSTANT_GROUP_SIZE                                                             \
+	4 // invocations of a work group that is one subgroup, at most EDGE_COUNT_MAX_SUBGROUP
 // The edge list of one part of a block is a chain of chunks. After all chunks, the buffer has each
 // chunk's next chunk.
 #define EDGE_COUNT_CHUNK_SIZE 64
@@ -206,8 +208,8 @@ struct SHARED_ALIGN CountLightConstants {
 							 // moves between receivers of a block of EDGE_COUNT_BLOCKS_SMOOTH, in R
 	uint max_cut_face_count; // capacity of the list of faces that may cut the light's disc
 	uint max_bundle_count;	 // capacity of bundles; the groups of bundles start at this index
-	uint padding0;
-	uint padding1;
+	uint unfinished_slot_count;	 // see EDGE_COUNT_MAX_ITERATIONS
+	uint unfinished_round_count; // 0: no subgroup has more iterations
 };
 SHARED_SIZE(CountLightConstants, 464);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);
@@ -278,6 +280,12 @@ SHARED_SIZE(CountBlockBox, 48);
 #define COUNT_BINDING_BLOCK_RECEIVERS (MAP_RESOLVE_FIRST_FREE_BINDING + 16)
 #define COUNT_BINDING_CUT_FACES (MAP_RESOLVE_FIRST_FREE_BINDING + 17)
 #define COUNT_BINDING_STATUS (MAP_RESOLVE_FIRST_FREE_BINDING + 18)
+#define COUNT_BINDING_UNFINISHED_COUNTS (MAP_RESOLVE_FIRST_FREE_BINDING + 19)
+#define COUNT_BINDING_UNFINISHED_ITEMS (MAP_RESOLVE_FIRST_FREE_BINDING + 20)
+#define COUNT_BINDING_UNFINISHED_STATES (MAP_RESOLVE_FIRST_FREE_BINDING + 21)
+#define COUNT_BINDING_ROUND (MAP_RESOLVE_FIRST_FREE_BINDING + 22)
+#define COUNT_BINDING_NEXT_ROUND (MAP_RESOLVE_FIRST_FREE_BINDING + 23)
+#define COUNT_BINDING_NEXT_DISPATCH (MAP_RESOLVE_FIRST_FREE_BINDING + 24)
 
 // Words of the status buffer, which is cleared in each frame and read back after it. The first has
 // one bit per kind of fault and pass, EDGE_COUNT_FAULT_* << pass; a pass is a kind of blocks that
@@ -309,6 +317,30 @@ SHARED_SIZE(CountBlockBox, 48);
 #define EDGE_COUNT_DISPATCH_CHUNKS 18 // index: 3 arguments for each of 6 kinds precede it
 #define EDGE_COUNT_DISPATCH_WORDS 19
 
+// A subgroup that counts edges stops after about this many iterations. The edges that remain are
+// counted in rounds, each a dispatch of its own: a slot has the state of one unfinished subgroup
+// between two rounds. If there are more unfinished subgroups than slots, the others wait until a slot
+// is free. The last round has no limit.
+//
+// Without the limit, a dispatch takes as long as the longest list of edges demands, and GPUs whose
+// dispatches take seconds are reset. The number is that of a CPU driver: llvmpipe ends every loop
+// after an invocation has made 65,535 iterations in all its loops together. The margin is for the
+// walk through a list of faces, and for what follows until the next test of the limit.
+#define EDGE_COUNT_MAX_ITERATIONS 48000
+// Words of the buffer of counts: subgroups that were added, and those of them that were taken out
+// after the first round.
+#define EDGE_COUNT_UNFINISHED_ADDED 0
+#define EDGE_COUNT_UNFINISHED_TAKEN 1
+#define EDGE_COUNT_UNFINISHED_COUNTS 2
+// An item is a block times 2^EDGE_COUNT_SUBGROUP_BITS, plus the subgroup's index in the block.
+#define EDGE_COUNT_SUBGROUP_BITS 4
+#define EDGE_COUNT_UNFINISHED_IS_NEW 0x80000000u // flag of an item: nothing is counted yet
+// Words of the state of one receiver: those of CountProgress, and of CountState without and with
+// its counters, which have 18 words for each 64 points.
+#define EDGE_COUNT_STATE_WORDS(sample_set_count) (5 + 18 * (sample_set_count))
+// The largest subgroup that is used: a block's number of pixels.
+#define EDGE_COUNT_MAX_SUBGROUP 64
+
 // Layers of the debug image.
 #define EDGE_COUNT_DEBUG_EDGES 0
 #define EDGE_COUNT_DEBUG_SOLIDS 1 // in front of the light's centre, see sum_crossings
@@ -324,7 +356,7 @@ struct SHARED_ALIGN CountBlockPush {
 	uint first_block; // start of that kind's list in the buffer of blocks
 	float nearest_w;  // EDGE_COUNT_BLOCKS_FILTERED: upper bound of the casters' w, see
 					  // LightViewConstants
-	uint padding;
+	uint round;		  // of the passes that count unfinished subgroups
 };
 SHARED_SIZE(CountBlockPush, 16);
 

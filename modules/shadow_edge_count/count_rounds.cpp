@@ -1,0 +1,115 @@
+#include "modules/shadow_edge_count/count_rounds.h"
+
+#include "modules/core/text.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+constexpr uint32_t BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
+// Receivers whose subgroups have a slot: at most 20 MB for 256 points.
+constexpr uint32_t MAX_SLOT_RECEIVERS = 65536;
+// Rounds that find no unfinished subgroup take a few microseconds each.
+constexpr uint64_t MAX_ROUNDS = 24;
+
+} // namespace
+
+uint32_t get_count_subgroup_size(const RenderingDevice &p_device) {
+	return std::min<uint32_t>(p_device.get_features().subgroup_size, EDGE_COUNT_MAX_SUBGROUP);
+}
+
+CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_view_count,
+		uint32_t p_edge_count, uint32_t p_subgroup_size) {
+	// An edge needs at most 1.5 iterations for each part of a block's receivers.
+	const uint64_t iterations = uint64_t(p_edge_count) * EDGE_COUNT_PARTS(p_view_count) * 3 / 2;
+	if (iterations <= EDGE_COUNT_MAX_ITERATIONS) {
+		return {};
+	}
+	const glm::uvec2 blocks =
+			(p_size_px + (EDGE_COUNT_BLOCK_PX - 1u)) / uint32_t(EDGE_COUNT_BLOCK_PX);
+	const uint32_t receivers = blocks.x * blocks.y * BLOCK_PIXELS;
+	const uint32_t slot_receivers = std::min(receivers, MAX_SLOT_RECEIVERS);
+	const uint64_t rounds = (iterations / EDGE_COUNT_MAX_ITERATIONS + 1) *
+			((receivers + slot_receivers - 1) / slot_receivers);
+	return { slot_receivers / p_subgroup_size,
+		static_cast<uint32_t>(std::min(rounds, MAX_ROUNDS)) };
+}
+
+void CountRounds::bind_queue(std::vector<PassBinding> &r_bindings) const {
+	const auto update = PassBuilder::Content::UPDATE;
+	r_bindings.push_back(PassBinding::write(COUNT_BINDING_UNFINISHED_COUNTS, counts, update));
+	r_bindings.push_back(PassBinding::write(COUNT_BINDING_UNFINISHED_ITEMS, items, update));
+	r_bindings.push_back(
+			PassBinding::write(COUNT_BINDING_NEXT_DISPATCH, dispatches.front(), update));
+}
+
+CountRounds add_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p_device,
+		const shader::CountLightConstants &p_light, uint32_t p_sample_set_count) {
+	const auto make_words = [&](const std::string &p_name, uint64_t p_count,
+									BufferUsage p_usage = BufferUsage::STORAGE) {
+		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t), p_usage });
+	};
+	const uint32_t subgroup_size = get_count_subgroup_size(p_device);
+	const uint64_t slot_count = p_light.unfinished_slot_count;
+	CountRounds rounds;
+	rounds.counts = make_words("unfinished counts", EDGE_COUNT_UNFINISHED_COUNTS,
+			BufferUsage::STORAGE | BufferUsage::COPY_TARGET);
+	// Without rounds nothing is added, but the passes need buffers.
+	const uint64_t subgroup_count = uint64_t(p_light.block_count.x) * p_light.block_count.y *
+			(BLOCK_PIXELS / subgroup_size);
+	rounds.items = make_words("unfinished subgroups", slot_count == 0 ? 1 : subgroup_count);
+	for (uint32_t round = 0; round <= p_light.unfinished_round_count; ++round) {
+		rounds.dispatches.push_back(make_words(text("dispatch of round ", round), 3,
+				BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::COPY_TARGET));
+	}
+	if (slot_count > 0) {
+		rounds.states = make_words("states of subgroups",
+				slot_count * subgroup_size * EDGE_COUNT_STATE_WORDS(p_sample_set_count));
+		for (RGBuffer &slots : rounds.slots) {
+			slots = make_words("slots of a round", 2 * slot_count);
+		}
+	}
+	std::vector<RGBuffer> cleared = rounds.dispatches;
+	cleared.push_back(rounds.counts);
+	PassBuilder pass = r_graph.add_pass("clear rounds");
+	for (const RGBuffer &buffer : cleared) {
+		pass.writes(buffer, Access::COPY_WRITE);
+	}
+	pass.execute([cleared](PassContext &p_context) {
+		for (const RGBuffer &buffer : cleared) {
+			p_context.commands.clear_buffer(p_context.get(buffer));
+		}
+	});
+	return rounds;
+}
+
+void add_round_passes(RenderGraph &r_graph, const CountRounds &p_rounds, PipelineRID p_pipeline,
+		const std::vector<PassBinding> &p_bindings) {
+	const auto update = PassBuilder::Content::UPDATE;
+	for (uint32_t round = 0; round + 1 < p_rounds.dispatches.size(); ++round) {
+		std::vector<PassBinding> bindings = p_bindings;
+		p_rounds.bind_queue(bindings);
+		bindings.back().buffer = p_rounds.dispatches[round + 1];
+		bindings.push_back(
+				PassBinding::write(COUNT_BINDING_UNFINISHED_STATES, p_rounds.states, update));
+		bindings.push_back(
+				PassBinding::write(COUNT_BINDING_ROUND, p_rounds.slots[round % 2], update));
+		bindings.push_back(PassBinding::write(
+				COUNT_BINDING_NEXT_ROUND, p_rounds.slots[(round + 1) % 2], update));
+		const shader::CountBlockPush push = { EDGE_COUNT_BLOCKS_UNLISTED, /*first_block=*/0,
+			/*nearest_w=*/0.0f, round };
+		PassBuilder pass = r_graph.add_pass(text("resolve unfinished round ", round));
+		declare_bindings(pass, bindings);
+		pass.reads(p_rounds.dispatches[round], Access::INDIRECT_READ);
+		pass.execute([p_pipeline, push, bindings = std::move(bindings),
+							 dispatch = p_rounds.dispatches[round]](PassContext &p_context) {
+			bind_compute(p_context, p_pipeline, bindings,
+					std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
+			p_context.commands.dispatch_indirect(p_context.get(dispatch), 0);
+		});
+	}
+}
+
+} // namespace gnomon
