@@ -23,7 +23,8 @@ void main() {
 	const uint group_size = uint(EDGE_COUNT_BUNDLES_PER_GROUP);
 	const uint bundle_size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint group = gl_GlobalInvocationID.x;
-	const uint bundle_count = (totals[EDGE_COUNT_TOTAL_EDGES] + bundle_size - 1u) / bundle_size;
+	const uint bundle_count =
+			min((totals[EDGE_COUNT_TOTAL_EDGES] + bundle_size - 1u) / bundle_size, light.max_bundle_count);
 	if (group * group_size >= bundle_count) {
 		return;
 	}

@@ -23,7 +23,7 @@ void main() {
 	const float CENTER_ROUNDING = 1e-6;
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle = gl_GlobalInvocationID.x;
-	const uint edge_count = totals[EDGE_COUNT_TOTAL_EDGES];
+	const uint edge_count = min(totals[EDGE_COUNT_TOTAL_EDGES], uint(bundles.length()) * size);
 	if (bundle * size >= edge_count) {
 		return;
 	}
