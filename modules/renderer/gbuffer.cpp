@@ -24,9 +24,11 @@ public:
 		}
 		return r_pipeline;
 	}
-	PipelineRID get_textured(bool p_is_mirrored, bool p_is_double_sided,
+	PipelineRID get_textured(bool p_is_mirrored, const Material &p_material,
 			const std::array<VertexStream, 4> &p_streams) {
-		RasterPipelineDesc desc = make_desc(p_is_mirrored, p_is_double_sided, ".textured");
+		RasterPipelineDesc desc = make_desc(p_is_mirrored, p_material.is_double_sided, ".textured");
+		desc.constants = { { GBUFFER_CONSTANT_HAS_NORMAL_MAP,
+				p_material.normal_texture.image ? 1u : 0u } };
 		const uint32_t component_counts[] = { 2, 2, 4, 4 }; // two uv sets, tangent, colour
 		for (uint32_t stream = 0; stream < p_streams.size(); ++stream) {
 			// Locations and buffers 0 and 1 are position and normal.
@@ -156,14 +158,14 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 		GBufferDraw &draw = draws.emplace_back();
 		draw.mesh = &r_meshes.get(instance.mesh);
 		draw.push = make_push(p_scene, instance);
-		const bool is_double_sided = instance.material->is_double_sided;
 		if (needs_gpu_material(*instance.mesh, *instance.material)) {
 			draw.material = &r_materials.get(instance.material);
 			draw.streams = r_materials.get_streams(r_meshes, instance.mesh, *instance.material);
-			draw.pipeline =
-					pipelines.get_textured(instance.is_mirrored(), is_double_sided, draw.streams);
+			draw.pipeline = pipelines.get_textured(
+					instance.is_mirrored(), *instance.material, draw.streams);
 		} else {
-			draw.pipeline = pipelines.get_untextured(instance.is_mirrored(), is_double_sided);
+			draw.pipeline = pipelines.get_untextured(
+					instance.is_mirrored(), instance.material->is_double_sided);
 		}
 	}
 	r_drawn_count = static_cast<uint32_t>(draws.size());

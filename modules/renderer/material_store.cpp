@@ -93,7 +93,7 @@ shader::TextureTransform make_texture_transform(const Texture &p_texture) {
 	const glm::mat3x2 &transform = p_texture.transform;
 	return { glm::vec4(transform[0].x, transform[1].x, transform[2].x,
 					 p_texture.uv_set == 1 ? 1.0f : 0.0f),
-		glm::vec4(transform[0].y, transform[1].y, transform[2].y, p_texture.image ? 1.0f : 0.0f) };
+		glm::vec4(transform[0].y, transform[1].y, transform[2].y, 0.0f) };
 }
 
 shader::MaterialConstants make_constants(const Material &p_material) {

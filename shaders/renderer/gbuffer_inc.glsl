@@ -32,6 +32,9 @@ layout(set = 0,
 layout(set = 0, binding = GBUFFER_BINDING_NORMAL) uniform sampler2D normal_texture;
 layout(set = 0, binding = GBUFFER_BINDING_OCCLUSION) uniform sampler2D occlusion_texture;
 layout(set = 0, binding = GBUFFER_BINDING_EMISSIVE) uniform sampler2D emissive_texture;
+// A constant and no branch on the material: lavapipe 22.3 clones and compiles a shader whose branches depend on uniforms
+// alone at each draw that changes a uniform, and frees the clones with the pipeline only.
+layout(constant_id = GBUFFER_CONSTANT_HAS_NORMAL_MAP) const uint HAS_NORMAL_MAP = 0u;
 layout(location = 1) in vec4 in_uvs;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec4 in_color;
@@ -43,7 +46,7 @@ vec2 transform_uv(TextureTransform p_transform) {
 
 /// Applies the normal map. p_normal: the result of make_shading_normal. p_is_mirrored: InstancePush::is_mirrored.
 vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
-	if (material.normal.row_v.a < 0.5) {
+	if (HAS_NORMAL_MAP == 0u) {
 		return p_normal;
 	}
 	vec3 map = texture(normal_texture, transform_uv(material.normal)).xyz * 2.0 - 1.0;

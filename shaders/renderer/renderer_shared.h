@@ -31,6 +31,7 @@
 #define GBUFFER_BINDING_NORMAL 6
 #define GBUFFER_BINDING_OCCLUSION 7
 #define GBUFFER_BINDING_EMISSIVE 8
+#define GBUFFER_CONSTANT_HAS_NORMAL_MAP 0 // 1: the normal texture is a normal map
 
 /// Push constants of gbuffer.vert, gbuffer.frag and gbuffer_without_faces.frag.
 struct SHARED_ALIGN InstancePush {
@@ -48,7 +49,7 @@ SHARED_SIZE(InstancePush, 112);
 /// the coordinates in the image.
 struct SHARED_ALIGN TextureTransform {
 	vec4 row_u; // a: 1 = use the second texture coordinates of the mesh
-	vec4 row_v; // a: 1 = there is a texture
+	vec4 row_v; // a: unused
 };
 SHARED_SIZE(TextureTransform, 32);
 

@@ -3,6 +3,8 @@
 #include "modules/core/png.h"
 #include "modules/gltf_scene/image_decoder.h"
 #include "modules/gltf_scene/tests/gltf_test_files.h"
+#include "modules/scene/cut_levels.h"
+#include "modules/scene/scene_snapshot.h"
 
 #include <doctest/doctest.h>
 #include <png.h>
@@ -504,5 +506,31 @@ TEST_CASE("[GltfTextures] damaged images are decoded or rejected, without a cras
 			bytes.resize(round % 3 == 0 ? random() % bytes.size() : bytes.size());
 			get_decode_error(bytes);
 		}
+	}
+}
+
+TEST_CASE("[glTF] nodes that share a mesh share its triangles, material, image and cut mesh") {
+	const GltfTestFolder folder;
+	Json json = make_textured(folder);
+	json["materials"][0]["alphaMode"] = "MASK";
+	json["nodes"] = Json::parse(R"([{"mesh": 0}, {"mesh": 0, "scale": [-1, 1, 1]},
+			{"mesh": 0, "scale": [1, 3, 0.5], "translation": [4, 0, 0]},
+			{"mesh": 0, "scale": [20, 20, 20], "rotation": [0, 0.6, 0, 0.8]}])");
+	json["scenes"] = Json::parse(R"([{"nodes": [0, 1, 2, 3]}])");
+	json["scene"] = 0;
+	const auto scene = folder.load(json);
+	const auto snapshot = build_snapshot(*scene, Camera3D());
+	REQUIRE(snapshot->instances.size() == 4);
+	const InstanceSnapshot &first = snapshot->instances[0];
+	CHECK(first.caster_mesh != first.mesh);
+	REQUIRE(first.caster_levels);
+	for (const InstanceSnapshot &instance : snapshot->instances) {
+		CHECK(instance.mesh == first.mesh);
+		CHECK(instance.material == first.material);
+		CHECK(instance.material->base_color_texture.image ==
+				first.material->base_color_texture.image);
+		CHECK(instance.caster_mesh == first.caster_mesh);
+		CHECK(instance.caster_levels == first.caster_levels);
+		CHECK(instance.caster_levels->get_mesh(0) == first.caster_levels->get_mesh(0));
 	}
 }

@@ -8,8 +8,10 @@
 
 #include <doctest/doctest.h>
 #include <glm/gtc/packing.hpp>
+#include <unistd.h>
 
 #include <cmath>
+#include <fstream>
 
 using namespace gnomon;
 
@@ -452,4 +454,54 @@ TEST_CASE("[GPU][Textures] textures of images that no longer exist are freed") {
 	image.reset();
 	store.collect_garbage();
 	CHECK(store.get_texture_count() == 0);
+}
+
+namespace {
+
+/// Returns the host memory that this process occupies, driver included.
+uint64_t measure_host_bytes() {
+	std::ifstream file("/proc/self/statm");
+	uint64_t size_pages = 0;
+	uint64_t resident_pages = 0;
+	file >> size_pages >> resident_pages;
+	return resident_pages * uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+} // namespace
+
+TEST_CASE(
+		"[GPU][Textures] drawing copies of textured meshes needs no more host memory each frame") {
+	RenderFixture fixture;
+	SmallScene scene;
+	auto plain = std::make_shared<Material>();
+	plain->base_color_texture.image = make_noise({ 16, 16 });
+	auto cut_out = std::make_shared<Material>(*plain);
+	cut_out->alpha_mode = AlphaMode::MASK;
+	auto bumpy = std::make_shared<Material>(*plain);
+	bumpy->normal_texture.image = make_noise({ 16, 16 }, 2);
+	const std::shared_ptr<const Material> materials[] = { plain, cut_out, bumpy };
+	const auto box = make_box_mesh("box", glm::vec3(0.05f));
+	MeshAttributes attributes;
+	attributes.uvs[0].resize(box->positions_node.size());
+	for (size_t vertex = 0; vertex < attributes.uvs[0].size(); ++vertex) {
+		attributes.uvs[0][vertex] = glm::vec2(vertex % 2, vertex / 2 % 2);
+	}
+	const auto textured =
+			make_mesh("textured", box->positions_node, box->normals_node, box->indices, attributes);
+	const int COPY_COUNT = 48;
+	for (int copy = 0; copy < COPY_COUNT; ++copy) {
+		MeshInstance3D &node = add_mesh(
+				scene.scene, "Copy", textured, { 0.2 * (copy % 8) - 0.7, 0.2 * (copy / 8), 0.3 });
+		node.surfaces[0].material = materials[copy % 3];
+	}
+	const auto render_frames = [&](int p_count) {
+		for (int frame = 0; frame < p_count; ++frame) {
+			REQUIRE(fixture.render_image(scene).commands.draws > COPY_COUNT);
+		}
+		fixture.device->wait_idle();
+		return measure_host_bytes();
+	};
+	const uint64_t before = render_frames(8);
+	const uint64_t after = render_frames(16);
+	CHECK(after < before + (uint64_t(16) << 20)); // a leak of 20 kB for each draw would be seen
 }
