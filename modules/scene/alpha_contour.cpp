@@ -10,6 +10,7 @@ namespace gnomon {
 namespace {
 
 const int32_t UNITS = CONTOUR_UNITS_PER_TEXEL;
+const double MIN_BULGE = 4; // units from a segment: 1/64 texel, where a point is worth it
 const double FULL_ALPHA_SUM = 4 * 255.0; // sum over four texels whose alpha is 1
 
 /// The grid nodes along one axis, where alpha is sampled: the tile's two borders, the texel centres
@@ -54,6 +55,8 @@ private:
 	struct Link {
 		uint64_t to = 0;				  // edge of the grid where the segment ends
 		glm::ivec2 point = glm::ivec2(0); // where the segment begins
+		/// A point of the contour between its ends, which bulges from the segment.
+		std::optional<glm::ivec2> middle = std::nullopt;
 	};
 
 	/// Returns four times the alpha at a node, the sum over the texels around it: 0..1020; below 0
@@ -66,6 +69,12 @@ private:
 	/// Returns the index, in the whole grid, of a side of the cell whose first node is (p_x, p_y).
 	uint64_t get_edge(int64_t p_x, int64_t p_y, int p_side) const;
 	glm::ivec2 compute_crossing(int64_t p_x, int64_t p_y, int p_side, const int p_alphas[4]) const;
+	/// Finds the contour's point on the perpendicular bisector of a segment: interpolated alpha has
+	/// hyperbolas as contours. Returns nullopt if it is nearer than MIN_BULGE. p_saddle: where the
+	/// asymptotes cross, 0..1 within the cell, if both branches of the hyperbola are in it.
+	std::optional<glm::ivec2> find_middle(int64_t p_x, int64_t p_y, const int p_alphas[4],
+			const glm::ivec2 &p_begin, const glm::ivec2 &p_end,
+			const std::optional<glm::dvec2> &p_saddle) const;
 	std::vector<PolygonLoop> link_loops();
 
 	const Image &image;
@@ -131,16 +140,59 @@ glm::ivec2 ContourFinder::compute_crossing(
 	return b.x > a.x ? glm::ivec2(a.x + offset, a.y) : glm::ivec2(a.x, a.y + offset);
 }
 
+std::optional<glm::ivec2> ContourFinder::find_middle(int64_t p_x, int64_t p_y,
+		const int p_alphas[4], const glm::ivec2 &p_begin, const glm::ivec2 &p_end,
+		const std::optional<glm::dvec2> &p_saddle) const {
+	const glm::ivec2 low(columns.get_position(p_x), rows.get_position(p_y));
+	const glm::ivec2 high(columns.get_position(p_x + 1), rows.get_position(p_y + 1));
+	if (std::min({ p_alphas[0], p_alphas[1], p_alphas[2], p_alphas[3] }) < 0 ||
+			glm::any(glm::lessThanEqual(high - low, glm::ivec2(2)))) {
+		return std::nullopt; // beyond a border
+	}
+	const glm::dvec2 chord(p_end - p_begin);
+	const glm::dvec2 middle = glm::dvec2(p_begin + p_end) * 0.5;
+	const glm::dvec2 across = glm::dvec2(-chord.y, chord.x) / std::max(glm::length(chord), 1.0);
+	const auto compute_alpha = [&](const glm::dvec2 &p_point) {
+		const glm::dvec2 at = (p_point - glm::dvec2(low)) / glm::dvec2(high - low);
+		return glm::mix(glm::mix(double(p_alphas[0]), double(p_alphas[1]), at.x),
+				glm::mix(double(p_alphas[3]), double(p_alphas[2]), at.x), at.y);
+	};
+	const int MAX_STEPS = 4; // Newton's method, with the slope of a step of one unit
+	double offset = 0;
+	for (int step = 0; step < MAX_STEPS; ++step) {
+		const double alpha = compute_alpha(middle + across * offset);
+		const double slope = compute_alpha(middle + across * (offset + 1)) - alpha;
+		offset += std::abs(slope) > 0.01 ? (threshold - alpha) / slope : 0;
+	}
+	glm::dvec2 position = middle + across * offset;
+	if (p_saddle) { // the hyperbola's two branches must not meet when they are rounded
+		const glm::dvec2 saddle = glm::mix(glm::dvec2(low), glm::dvec2(high), *p_saddle);
+		const glm::dvec2 side = glm::sign(middle - saddle);
+		position = saddle + side * glm::max((position - saddle) * side, glm::dvec2(2));
+	}
+	const glm::ivec2 point(glm::round(position));
+	const bool is_inside_cell =
+			glm::all(glm::greaterThan(point, low)) && glm::all(glm::lessThan(point, high));
+	return is_inside_cell && std::abs(offset) >= MIN_BULGE ? std::optional(point) : std::nullopt;
+}
+
 void ContourFinder::add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]) {
 	bool inside[4];
-	int sum = 0;
 	for (int corner = 0; corner < 4; ++corner) {
 		inside[corner] = is_inside(p_alphas[corner]);
-		sum += p_alphas[corner];
 	}
 	const bool is_saddle =
 			inside[0] == inside[2] && inside[1] == inside[3] && inside[0] != inside[1];
-	const bool is_joined = is_saddle && sum >= 4 * threshold; // the corners' mean decides
+	// The alpha where the hyperbola's asymptotes cross decides (Nielson and Hamann 1991).
+	std::optional<glm::dvec2> saddle;
+	bool is_joined = false;
+	if (is_saddle) {
+		const double bend = double(p_alphas[0]) + p_alphas[2] - p_alphas[1] - p_alphas[3];
+		saddle = glm::dvec2(p_alphas[0] - p_alphas[3], p_alphas[0] - p_alphas[1]) / bend;
+		const double alpha =
+				(double(p_alphas[0]) * p_alphas[2] - double(p_alphas[1]) * p_alphas[3]) / bend;
+		is_joined = alpha >= threshold;
+	}
 	for (int side = 0; side < 4; ++side) {
 		if (!inside[side] || inside[(side + 1) % 4]) {
 			continue;
@@ -151,8 +203,11 @@ void ContourFinder::add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]) {
 		do {
 			end = (end + (is_joined ? 1 : 3)) % 4;
 		} while (inside[end] || !inside[(end + 1) % 4]);
-		links[get_edge(p_x, p_y, side)] = { get_edge(p_x, p_y, end),
-			compute_crossing(p_x, p_y, side, p_alphas) };
+		Link &link = links[get_edge(p_x, p_y, side)];
+		link.to = get_edge(p_x, p_y, end);
+		link.point = compute_crossing(p_x, p_y, side, p_alphas);
+		link.middle = find_middle(
+				p_x, p_y, p_alphas, link.point, compute_crossing(p_x, p_y, end, p_alphas), saddle);
 	}
 }
 
@@ -191,6 +246,9 @@ std::vector<PolygonLoop> ContourFinder::link_loops() {
 		for (auto found = links.find(at); found != links.end(); found = links.find(at)) {
 			if (loop.empty() || loop.back() != found->second.point) {
 				loop.push_back(found->second.point);
+			}
+			if (found->second.middle) {
+				loop.push_back(*found->second.middle);
 			}
 			at = found->second.to;
 			links.erase(found);

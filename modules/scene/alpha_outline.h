@@ -29,7 +29,7 @@ struct AlphaOutline {
 };
 
 /// Finds the contour by marching squares through the texel centres: crossings are interpolated, a
-/// saddle is resolved by the mean of its four texels. The contour is simplified without
+/// saddle is resolved by the alpha where its asymptotes cross. The contour is simplified without
 /// self-intersection with a tolerance of p_tolerance_px texels (simplify_loops). At the tile's
 /// border it is closed, at the same points on opposite sides if the texture repeats. For a nearest
 /// sampler the contour follows the texels' squares, simplified only if the tolerance is at least

@@ -237,3 +237,37 @@ TEST_CASE("[AlphaOutline] outlines of tiles that repeat match at the tile border
 	CHECK(on_x[0] == on_x[outline.size.x]);
 	CHECK(on_y[0] == on_y[outline.size.y]);
 }
+
+TEST_CASE("[AlphaOutline] texels that touch at corners are outlined with the area of their alpha") {
+	const uint32_t SIZE = 12;
+	const uint32_t SAMPLES = 32; // per texel and axis
+	for (const uint32_t seed : { 1u, 2u, 3u, 4u }) {
+		CAPTURE(seed);
+		std::minstd_rand random(seed);
+		std::vector<uint8_t> texels;
+		for (uint32_t texel = 0; texel < SIZE * SIZE; ++texel) { // four in nine are opaque
+			texels.insert(texels.end(), { 0, 0, 0, uint8_t(random() % 9 < 4 ? 255 : 0) });
+		}
+		const auto image = make_image("corners", glm::uvec2(SIZE), std::move(texels));
+		AlphaTest test;
+		test.image = image.get();
+		const AlphaOutline outline = make_alpha_outline(test, 4096, 1.0 / 32);
+		REQUIRE(outline.block_size_px == 0);
+		int64_t twice_area = 0;
+		for (size_t i = 0; i < outline.triangles.size(); i += 3) {
+			twice_area += compute_twice_signed_area(outline.points[outline.triangles[i]],
+					outline.points[outline.triangles[i + 1]],
+					outline.points[outline.triangles[i + 2]]);
+		}
+		uint32_t passed = 0;
+		for (uint32_t y = 0; y < SIZE * SAMPLES; ++y) {
+			for (uint32_t x = 0; x < SIZE * SAMPLES; ++x) {
+				const glm::dvec2 uv = (glm::dvec2(x, y) + 0.5) / double(SIZE * SAMPLES);
+				passed += sample_alpha(test, uv) >= test.cutoff ? 1 : 0;
+			}
+		}
+		const double units = double(AlphaOutline::UNITS_PER_TEXEL);
+		CHECK(double(twice_area) / 2 / (units * units) ==
+				doctest::Approx(double(passed) / (SAMPLES * SAMPLES)).epsilon(0.02));
+	}
+}
