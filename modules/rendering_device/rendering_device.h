@@ -74,6 +74,8 @@ struct DeviceFeatures {
 	bool timestamps = false;
 	uint64_t max_storage_buffer_bytes = 0;
 	uint32_t max_texture_size_px = 0;
+	/// Of compute shaders with subgroup operations. If the work group's size is a multiple of it,
+	/// all subgroups are full.
 	uint32_t subgroup_size = 0;
 	/// Vote, arithmetic, ballot and shuffle in compute shaders, with subgroups of at least
 	/// MIN_SUBGROUP_SIZE invocations.

@@ -36,6 +36,7 @@ public:
 					return p_left.binding < p_right.binding;
 				});
 		shader.local_size = compute_local_size();
+		shader.uses_subgroups = uses_subgroups;
 		for (const uint32_t id : booleans) {
 			shader.boolean_constants.push_back(find_decoration(id, spv::DecorationSpecId).value());
 		}
@@ -75,6 +76,11 @@ private:
 	void read_declaration(Instruction p_in) {
 		const uint32_t op = get_op(p_in);
 		switch (op) {
+			case spv::OpCapability:
+				uses_subgroups = uses_subgroups ||
+						(p_in[1] >= spv::CapabilityGroupNonUniform &&
+								p_in[1] <= spv::CapabilityGroupNonUniformQuad);
+				break;
 			case spv::OpEntryPoint:
 				stage = get_stage(p_in[1]);
 				break;
@@ -309,6 +315,7 @@ private:
 	std::string_view name;
 	std::span<const SpecializationConstant> constants;
 	ShaderStage stage = ShaderStage::NONE;
+	bool uses_subgroups = false;
 	glm::uvec3 local_size = glm::uvec3(1);
 	std::optional<glm::uvec3> local_size_ids;
 	std::map<std::pair<uint32_t, uint32_t>, uint32_t> decorations;	// id, decoration -> operand

@@ -44,6 +44,7 @@ struct ReflectedShader {
 	uint32_t push_constant_bytes = 0;		 // to the end of the last member; 0 = no block
 	glm::uvec3 local_size = glm::uvec3(1);	 // for compute, with specialization applied
 	std::vector<uint32_t> boolean_constants; // constant_ids of booleans: Godot needs the type
+	bool uses_subgroups = false;			 // it has subgroup operations or built-ins
 };
 
 /// Reads the interface of a SPIR-V module with one entry point `main`. A construct that the device

@@ -3,6 +3,7 @@
 #include "modules/rendering_device_vulkan/vulkan_device.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gnomon {
 
@@ -12,8 +13,17 @@ namespace {
 // (see fetch_inc.glsl). Desktop GPUs have at least this many.
 const uint32_t MIN_TEXEL_BUFFER_ELEMENTS = 1u << 26;
 
+/// Extensions whose features Gnomon enables.
+struct OptionalExtensions {
+	bool conditional_rendering = false;
+	bool uniform_control_flow = false;
+};
+
 /// The feature structures that Gnomon enables, chained.
 struct FeatureChain {
+	VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR uniform_control_flow = {
+		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR
+	};
 	VkPhysicalDeviceConditionalRenderingFeaturesEXT conditional = {
 		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT
 	};
@@ -25,13 +35,23 @@ struct FeatureChain {
 	};
 	VkPhysicalDeviceFeatures2 v10 = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2 };
 
-	explicit FeatureChain(bool p_has_conditional_rendering) {
+	explicit FeatureChain(const OptionalExtensions &p_extensions) {
 		v10.pNext = &v12;
 		v12.pNext = &v13;
-		v13.pNext = p_has_conditional_rendering ? &conditional : nullptr;
+		if (p_extensions.conditional_rendering) {
+			append(conditional);
+		}
+		if (p_extensions.uniform_control_flow) {
+			append(uniform_control_flow);
+		}
 	}
 	FeatureChain(const FeatureChain &) = delete;
 	FeatureChain &operator=(const FeatureChain &) = delete;
+
+private:
+	template <typename Structure> void append(Structure &r_structure) {
+		r_structure.pNext = std::exchange(v13.pNext, &r_structure);
+	}
 };
 
 /// Enables the features of a fixed list that the device has. All others stay disabled, so that the
@@ -60,8 +80,12 @@ void choose_features(
 	r_enabled.v13.dynamicRendering = VK_TRUE;
 	r_enabled.v13.synchronization2 = VK_TRUE;
 	r_enabled.v13.maintenance4 = VK_TRUE;
+	r_enabled.v13.subgroupSizeControl = p_present.v13.subgroupSizeControl;
+	r_enabled.v13.computeFullSubgroups = p_present.v13.computeFullSubgroups;
 	r_enabled.v13.shaderDemoteToHelperInvocation = p_present.v13.shaderDemoteToHelperInvocation;
 	r_enabled.conditional.conditionalRendering = p_features.conditional_rendering;
+	r_enabled.uniform_control_flow.shaderSubgroupUniformControlFlow =
+			p_present.uniform_control_flow.shaderSubgroupUniformControlFlow;
 }
 
 uint64_t find_timestamp_mask(const PhysicalDevice &p_device) {
@@ -108,12 +132,15 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 		}
 		return is_present;
 	};
-	const bool has_conditional = enable_if_present(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
+	const OptionalExtensions optional = { .conditional_rendering = enable_if_present(
+												  VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME),
+		.uniform_control_flow =
+				enable_if_present(VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME) };
 	const bool has_budget = enable_if_present(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
 	if (p_options.needs_surface) {
 		enable_if_present(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 	}
-	FeatureChain present(has_conditional);
+	FeatureChain present(optional);
 	vkGetPhysicalDeviceFeatures2(physical.handle, &present.v10);
 	const VkPhysicalDeviceFeatures &present_v10 = present.v10.features;
 	features.geometry_shader = present_v10.geometryShader;
@@ -127,17 +154,19 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	features.timestamps = timestamp_mask != 0;
 	features.max_storage_buffer_bytes = limits.maxStorageBufferRange;
 	features.max_texture_size_px = limits.maxImageDimension2D;
-	features.subgroup_size = subgroup.subgroupSize;
+	subgroup_sizes = find_subgroup_sizes(physical.handle);
+	has_uniform_control_flow = present.uniform_control_flow.shaderSubgroupUniformControlFlow;
+	features.subgroup_size = choose_subgroup_size(subgroup_sizes);
 	const VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT |
 			VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
 			VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-	features.subgroup_operations = subgroup.subgroupSize >= MIN_SUBGROUP_SIZE &&
+	features.subgroup_operations = features.subgroup_size >= MIN_SUBGROUP_SIZE &&
 			(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
 			(subgroup.supportedOperations & operations) == operations;
 	for (bool DeviceFeatures::*const denied : options.denied_features) {
 		features.*denied = false;
 	}
-	FeatureChain enabled(has_conditional);
+	FeatureChain enabled(optional);
 	choose_features(present, features, enabled);
 
 	const float priority = 1.0f;

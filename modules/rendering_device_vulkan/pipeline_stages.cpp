@@ -8,7 +8,7 @@ namespace gnomon {
 PipelineStages::PipelineStages(
 		VulkanDevice &r_device, const std::vector<SpecializationConstant> &p_constants) :
 		device(r_device),
-		constants(p_constants) {
+		constants(p_constants), subgroup_request(r_device.subgroup_sizes) {
 	for (const SpecializationConstant &constant : p_constants) {
 		entries.push_back({ constant.constant_id,
 				static_cast<uint32_t>(values.size() * sizeof(uint32_t)), sizeof(uint32_t) });
@@ -25,11 +25,16 @@ PipelineStages::~PipelineStages() {
 }
 
 void PipelineStages::add(const std::string &p_shader, VkShaderStageFlagBits p_expected_stage) {
-	const std::span<const uint32_t> words = find_embedded_shader(p_shader);
+	std::span<const uint32_t> words = find_embedded_shader(p_shader);
 	reflected.push_back(reflect_spirv(p_shader, words, constants));
 	const auto stage = static_cast<VkShaderStageFlagBits>(reflected.back().stage);
 	GNOMON_ASSERT(stage == p_expected_stage, "shader ", p_shader, " is of stage ", stage,
 			", expected ", p_expected_stage);
+	std::vector<uint32_t> declared_words;
+	if (device.has_uniform_control_flow && reflected.back().uses_subgroups) {
+		declared_words = declare_uniform_control_flow(words);
+		words = declared_words;
+	}
 	const VkShaderModuleCreateInfo module_info = {
 		.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
 		.codeSize = words.size_bytes(),
@@ -44,6 +49,7 @@ void PipelineStages::add(const std::string &p_shader, VkShaderStageFlagBits p_ex
 			.module = module,
 			.pName = "main",
 			.pSpecializationInfo = &specialization });
+	subgroup_request.add_to(infos.back(), reflected.back());
 }
 
 } // namespace gnomon

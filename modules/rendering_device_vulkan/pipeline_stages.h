@@ -13,6 +13,7 @@ public:
 	PipelineStages(const PipelineStages &) = delete;
 	PipelineStages &operator=(const PipelineStages &) = delete;
 
+	/// A compute shader with subgroup operations requests subgroups of the size in DeviceFeatures.
 	/// An unknown shader is an Error; a shader of another stage is a programming error.
 	void add(const std::string &p_shader, VkShaderStageFlagBits p_expected_stage);
 	const std::vector<ReflectedShader> &get_reflected() const { return reflected; }
@@ -25,6 +26,7 @@ private:
 	std::vector<VkSpecializationMapEntry> entries;
 	std::vector<uint32_t> values;
 	VkSpecializationInfo specialization = {};
+	SubgroupRequest subgroup_request; // the infos point to it
 	std::vector<ReflectedShader> reflected;
 	std::vector<VkPipelineShaderStageCreateInfo> infos;
 };

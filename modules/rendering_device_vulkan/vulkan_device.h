@@ -6,6 +6,7 @@
 #include "modules/rendering_device_vulkan/injected_fault.h"
 #include "modules/rendering_device_vulkan/memory_pattern.h"
 #include "modules/rendering_device_vulkan/memory_allocator.h"
+#include "modules/rendering_device_vulkan/subgroups.h"
 #include "modules/rendering_device_vulkan/vulkan_command_list.h"
 #include "modules/rendering_device_vulkan/vulkan_handles.h"
 #include "modules/rendering_device_vulkan/vulkan_instance.h"
@@ -193,6 +194,8 @@ public:
 	uint64_t max_buffer_bytes = 0;
 	uint64_t timestamp_mask = 0; // the valid bits of a timestamp; 0: no timestamps
 	DeviceFeatures features;
+	SubgroupSizes subgroup_sizes;
+	bool has_uniform_control_flow = false; // see declare_uniform_control_flow
 	VkDevice device = VK_NULL_HANDLE;
 	VkQueue queue = VK_NULL_HANDLE;
 	MemoryAllocator allocator;
