@@ -1,5 +1,8 @@
 #include "modules/core/error.h"
+#include "modules/core/log.h"
 #include "modules/rendering_device_vulkan/vulkan_device.h"
+
+#include <algorithm>
 
 namespace gnomon {
 
@@ -67,23 +70,42 @@ void VulkanCommandList::end_span() {
 	}
 }
 
+std::vector<uint64_t> VulkanDevice::read_timestamps(VkQueryPool p_pool, uint32_t p_count) {
+	std::vector<uint64_t> times(p_count);
+	// Without waiting: the submission has ended, so that all times are available. A wait for one
+	// that never becomes available would stop the program without a message.
+	const VkResult result =
+			vkGetQueryPoolResults(device, p_pool, 0, p_count, times.size() * sizeof(uint64_t),
+					times.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+	check(result, "vkGetQueryPoolResults");
+	if (result == VK_NOT_READY) {
+		log_warning("Device \"", physical.info.name,
+				"\" has no times of a frame that has ended; they are reported as 0 ms. Update the "
+				"driver.");
+		return std::vector<uint64_t>(p_count, 0);
+	}
+	return times;
+}
+
 void VulkanDevice::read_spans(SubmissionSlot &r_slot) {
 	r_slot.has_unread_spans = false;
 	gpu_spans.clear();
-	for (uint32_t index = 0; index < r_slot.span_names.size(); ++index) {
-		GpuSpan span{ r_slot.span_names[index], 0.0 };
-		uint64_t times[2] = {};
-		if (timestamp_mask != 0) {
-			check(vkGetQueryPoolResults(device, r_slot.query_pools[index / SPANS_PER_QUERY_POOL],
-						  2 * (index % SPANS_PER_QUERY_POOL), 2, sizeof(times), times,
-						  sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-					"vkGetQueryPoolResults");
-			// The mask keeps the difference correct if timestamps of less than 64 bits overflow.
-			const uint64_t ticks = (times[1] - times[0]) & timestamp_mask;
-			// timestampPeriod: nanoseconds per tick.
-			span.gpu_ms = static_cast<double>(ticks) * limits.timestampPeriod * 1e-6;
-		}
-		gpu_spans.push_back(std::move(span));
+	const auto span_count = static_cast<uint32_t>(r_slot.span_names.size());
+	std::vector<uint64_t> times; // two for each span
+	for (uint32_t first = 0; timestamp_mask != 0 && first < span_count;
+			first += SPANS_PER_QUERY_POOL) {
+		const std::vector<uint64_t> pool_times =
+				read_timestamps(r_slot.query_pools[first / SPANS_PER_QUERY_POOL],
+						2 * std::min(SPANS_PER_QUERY_POOL, span_count - first));
+		times.insert(times.end(), pool_times.begin(), pool_times.end());
+	}
+	times.resize(2 * size_t(span_count));
+	for (size_t index = 0; index < span_count; ++index) {
+		// The mask keeps the difference correct if timestamps of less than 64 bits overflow.
+		const uint64_t ticks = (times[2 * index + 1] - times[2 * index]) & timestamp_mask;
+		// timestampPeriod: nanoseconds per tick.
+		const double gpu_ms = static_cast<double>(ticks) * limits.timestampPeriod * 1e-6;
+		gpu_spans.push_back({ r_slot.span_names[index], gpu_ms });
 	}
 }
 

@@ -16,16 +16,18 @@ InjectedFault parse_injected_fault(const std::string &p_written) {
 		{ "device_lost", Fault::DEVICE_LOST },
 		{ "out_of_memory", Fault::OUT_OF_MEMORY },
 		{ "hang", Fault::HANG },
+		{ "slow_compilation", Fault::SLOW_COMPILATION },
 	};
 	static const std::regex PATTERN("([a-z_]+)(?:@pass:(.+)|@file:(.+))?");
 	std::smatch matches;
 	if (std::regex_match(p_written, matches, PATTERN) && KINDS.contains(matches[1])) {
 		return { KINDS.at(matches[1]), matches[2], matches[3].str() };
 	}
-	fail("GNOMON_INJECT_FAULT is \"", p_written, "\", must be device_lost, out_of_memory or hang, ",
-			"alone (the first submission) or with @pass:NAME (the first one with a pass whose "
-			"name contains NAME) or @file:PATH (the first one after that file exists). It is for "
-			"tests: unset it.");
+	fail("GNOMON_INJECT_FAULT is \"", p_written,
+			"\", must be device_lost, out_of_memory, hang or slow_compilation, alone (the first "
+			"submission, or the first pipeline of slow_compilation) or with @pass:NAME (the first "
+			"one with a pass, or a pipeline, whose name contains NAME) or @file:PATH (the first "
+			"one after that file exists). It is for tests: unset it.");
 }
 
 std::optional<std::string> InjectedFault::find_pass(

@@ -7,10 +7,11 @@
 
 namespace gnomon {
 
-enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
+enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG, SLOW_COMPILATION };
 
 /// A fault for tests. It is injected once, into the first submission that meets all conditions that
-/// are set.
+/// are set. SLOW_COMPILATION is injected into the first pipeline instead, whose name takes the
+/// place of the pass.
 struct InjectedFault {
 	Fault fault = Fault::NONE;
 	std::string pass;			// substring of the name of one of its passes

@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/compilation_watch.h"
 #include "modules/rendering_device_vulkan/pipeline_stages.h"
 
 namespace gnomon {
@@ -66,6 +67,17 @@ const PipelineResource &VulkanDevice::get_pipeline(PipelineRID p_pipeline) const
 	return pipelines[p_pipeline.id - 1];
 }
 
+void VulkanDevice::compile(const std::string &p_pipeline, const char *p_call,
+		const std::function<VkResult()> &p_compile) {
+	CompilationWatch watch(p_pipeline, wait_limit_s);
+	if (injected_fault.fault == Fault::SLOW_COMPILATION &&
+			injected_fault.find_pass({ p_pipeline })) {
+		injected_fault = {};
+		watch.wait_for_warning();
+	}
+	check(p_compile(), text(p_call, " of '", p_pipeline, "'").c_str());
+}
+
 PipelineResource VulkanDevice::make_pipeline(const ComputePipelineDesc &p_desc) {
 	PipelineStages stages(*this, p_desc.constants);
 	stages.add(p_desc.shader, VK_SHADER_STAGE_COMPUTE_BIT);
@@ -81,9 +93,10 @@ PipelineResource VulkanDevice::make_pipeline(const ComputePipelineDesc &p_desc) 
 			.stage = stages.get_infos()[0],
 			.layout = pipeline.layout
 		};
-		check(vkCreateComputePipelines(
-					  device, pipeline_cache, 1, &info, nullptr, &pipeline.pipeline),
-				("vkCreateComputePipelines of '" + pipeline.name + "'").c_str());
+		compile(pipeline.name, "vkCreateComputePipelines", [&] {
+			return vkCreateComputePipelines(
+					device, pipeline_cache, 1, &info, nullptr, &pipeline.pipeline);
+		});
 	} catch (...) {
 		destroy(pipeline);
 		throw;

@@ -186,8 +186,9 @@ VkPipeline VulkanDevice::create_raster_pipeline(const RasterPipelineDesc &p_desc
 		.layout = p_layout
 	};
 	VkPipeline pipeline = VK_NULL_HANDLE;
-	check(vkCreateGraphicsPipelines(device, pipeline_cache, 1, &info, nullptr, &pipeline),
-			("vkCreateGraphicsPipelines of '" + p_desc.name + "'").c_str());
+	compile(p_desc.name, "vkCreateGraphicsPipelines", [&] {
+		return vkCreateGraphicsPipelines(device, pipeline_cache, 1, &info, nullptr, &pipeline);
+	});
 	return pipeline;
 }
 

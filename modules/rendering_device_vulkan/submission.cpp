@@ -171,6 +171,9 @@ void VulkanDevice::submit_commands(SubmitMode p_mode) {
 }
 
 bool VulkanDevice::apply_injected_fault(const SubmissionSlot &p_slot) {
+	if (injected_fault.fault == Fault::SLOW_COMPILATION) {
+		return false;
+	}
 	const std::optional<std::string> pass = injected_fault.find_pass(p_slot.span_names);
 	if (!pass) {
 		return false;

@@ -227,7 +227,7 @@ public:
 	std::optional<MemoryPattern> memory_pattern; // of new buffers
 	uint32_t random_memory = 1;					 // state of MemoryPattern::RANDOM
 	VkSemaphore hang_semaphore = VK_NULL_HANDLE; // not signalled; an injected hang waits for it
-	double wait_limit_s = 0;					 // 0: none
+	double wait_limit_s = 0;					 // of waits and compilations; 0: none
 	bool is_hung = false;  // lost because of a timeout; the GPU may still use everything
 	std::string lost_text; // empty while the device works
 
@@ -323,10 +323,16 @@ public:
 
 	// gpu_spans.cpp
 	void read_spans(SubmissionSlot &r_slot);
+	/// Reads the first p_count timestamps of the pool, of a submission that has ended.
+	std::vector<uint64_t> read_timestamps(VkQueryPool p_pool, uint32_t p_count);
 
 	// pipelines.cpp, raster_pipelines.cpp, pipeline_cache_file.cpp
 	const PipelineResource &get_pipeline(PipelineRID p_pipeline) const;
 	PipelineRID add_pipeline(PipelineResource &&p_pipeline);
+	/// Calls p_compile, and warns if it takes longer than wait_limit_s. p_call: its name, for
+	/// check.
+	void compile(const std::string &p_pipeline, const char *p_call,
+			const std::function<VkResult()> &p_compile);
 	void check_raster_features(const RasterPipelineDesc &p_desc) const;
 	VkPipeline create_raster_pipeline(const RasterPipelineDesc &p_desc, VkPipelineLayout p_layout,
 			std::span<const VkPipelineShaderStageCreateInfo> p_stages);

@@ -1,4 +1,4 @@
-#include "modules/rendering_device/tests/device_fixture.h"
+#include "modules/rendering_device/tests/triangle_fixture.h"
 
 #include <doctest/doctest.h>
 
@@ -128,6 +128,37 @@ TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its
 	target.reset();
 	fixture.device.reset();
 	CHECK_FALSE(has_device_hung());
+}
+
+TEST_CASE("[GPU][RenderingDevice] a pipeline whose compilation exceeds the timeout is named while "
+		  "it compiles") {
+	// The injected fault ends when the warning has been logged, however long that takes.
+	DeviceFixture fixture({ .wait_limit_s = 0.01 });
+	RenderingDevice &device = *fixture.device;
+	CaughtLog log;
+	inject_fault(device, "slow_compilation@pass:resolve");
+	SUBCASE("a compute pipeline") {
+		device.get_compute_pipeline({ .name = "Lamp: resolve", .shader = "tests/scale.comp" });
+		CHECK(log.count("compiling pipeline 'Lamp: resolve' for 0.01 s") == 1);
+	}
+	SUBCASE("a raster pipeline") {
+		RasterPipelineDesc desc = make_triangle_desc();
+		desc.name = "resolve layers";
+		device.get_raster_pipeline(desc);
+		CHECK(log.count("compiling pipeline 'resolve layers' for 0.01 s") == 1);
+	}
+	CHECK(log.count("GNOMON_DEVICE_TIMEOUT_S") >= 1);
+}
+
+TEST_CASE("[GPU][RenderingDevice] pipelines that compile within the timeout are not named") {
+	DeviceFixture fixture({ .wait_limit_s = 3600 });
+	CaughtLog log;
+	fixture.device->get_compute_pipeline({ .name = "scale", .shader = "tests/scale.comp" });
+	CHECK(log.lines.empty());
+	DeviceFixture endless({ .wait_limit_s = 0 });
+	inject_fault(*endless.device, "slow_compilation"); // without a timeout there is no warning
+	endless.device->get_compute_pipeline({ .name = "scale", .shader = "tests/scale.comp" });
+	CHECK(log.lines.empty());
 }
 
 TEST_CASE("[GPU][RenderingDevice] running out of memory in a submission is reported once, then the "
