@@ -30,8 +30,8 @@ struct TracedReference {
 	MaskImage mask;
 	std::vector<uint8_t>
 			sees_whole_light; // per pixel, see is_light_disc_above_horizon; 0 without a receiver
-	std::vector<glm::vec3> positions; // per pixel, camera-relative, metres
-	std::vector<glm::vec3> normals;	  // per pixel, geometric; 0 without a surface
+	/// Per pixel, where visibility is tested, camera-relative; see SurfacePoint.
+	std::vector<glm::vec3> receiver_positions;
 	bool is_double = false;	   // traced in double precision, because float32 was too inaccurate
 	double standard_error = 0; // of visibility, from the finite number of rays
 	double wall_ms = 0;		   // time to trace the mask or to load it from the cache

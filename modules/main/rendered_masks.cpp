@@ -96,8 +96,7 @@ TracedReference RenderedMaskSource::trace_reference(
 	traced.sees_whole_light = find_pixels_seeing_whole_light(p_task, result);
 	traced.mask = { p_task.size_px, std::move(result.visibility), std::move(result.receiver) };
 	for (const SurfacePoint &point : result.surfaces) {
-		traced.positions.push_back(point.position);
-		traced.normals.push_back(point.geometric_normal);
+		traced.receiver_positions.push_back(point.compute_receiver_position());
 	}
 	traced.standard_error = result.standard_error;
 	for (const PassTiming &timing : result.timings) {

@@ -7,6 +7,8 @@
 
 #include "shadow_planar/shadow_planar_shared.h"
 
+#include <cmath>
+
 namespace gnomon {
 
 namespace {
@@ -26,9 +28,15 @@ void read_gbuffer(PassBuilder &r_pass, const ShadowTechnique::Inputs &p_inputs) 
 			.reads(p_inputs.receivers, Access::SHADER_READ_FRAGMENT);
 }
 
-/// Moves the plane towards the light by the receivers' offset.
+/// Moves the plane towards the light by the offset of the nearest receiver that it may have, right
+/// before the camera. Farther receivers have larger offsets, but by less than RECEIVER_OFFSET_PX of
+/// a pixel.
 glm::dvec4 move_plane(const ShadowTechnique::Inputs &p_inputs, const glm::dvec4 &p_plane) {
-	return p_plane - glm::dvec4(0, 0, 0, RECEIVER_OFFSET * p_inputs.scene.scene_size_m);
+	const double camera_distance_m = std::abs(p_plane.w);
+	const float offset_m =
+			compute_receiver_offset_m(compute_frame_constants(p_inputs.scene, p_inputs.size_px),
+					static_cast<float>(camera_distance_m));
+	return p_plane - glm::dvec4(0, 0, 0, offset_m);
 }
 
 struct PlanarDraw {

@@ -10,7 +10,7 @@ namespace gnomon {
 /// Surfaces that are not declared planar receive no shadow.
 ///
 /// The projection is composed in double precision, camera-relative, and ends in the camera's clip
-/// space. Planes are moved by RECEIVER_OFFSET * S (scene size) towards the light, as receivers are.
+/// space. Planes are moved towards the light, as receivers are.
 class ShadowPlanar : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;

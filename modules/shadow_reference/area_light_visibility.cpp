@@ -4,8 +4,6 @@
 #include "modules/shadow_reference/spread_visibility.h"
 #include "modules/shadows/mask.h"
 
-#include "shared/light_shared.h"
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -45,10 +43,6 @@ void check_options(const VisibilityOptions &p_options) {
 	if (p_options.sample_count < 1 || p_options.sample_count > MAX_SAMPLE_COUNT) {
 		fail("Reference: sample count is ", p_options.sample_count, ", must be 1..",
 				MAX_SAMPLE_COUNT, ". Set reference_samples.");
-	}
-	if (!(p_options.scene_size_m >= 0.0f && std::isfinite(p_options.scene_size_m))) {
-		fail("Reference: scene size is ", p_options.scene_size_m,
-				" m, must be finite and not negative. Set the scene's extras.scene_size.");
 	}
 }
 
@@ -133,10 +127,10 @@ float compute_half_error(const glm::dvec3 &p_first_sum, double p_first_count,
 /// Stores the mean visibility of the surface around the receiver, where light enters that leaves at
 /// the receiver. Returns the number of rays that count. 0: none started where the light can reach
 /// the body, because the body is far smaller than the spread radius; nothing is stored.
-uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint64_t p_hash) {
+uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, uint64_t p_hash) {
 	const ReceiverPoint &point = r_job.points[p_pixel];
 	const SpreadMean mean = r_job.options.spread->compute(
-			r_job.scene, r_job.light, point, p_offset_m, r_job.spread_sample_count, p_hash);
+			r_job.scene, r_job.light, point, r_job.spread_sample_count, p_hash);
 	const double count = mean.counts[0] + mean.counts[1];
 	if (count > 0) {
 		store_visibility(r_job, p_pixel, mean.compute_mean());
@@ -167,18 +161,17 @@ uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
 	if (!point.is_receiver) {
 		return 0;
 	}
-	const float offset_m = RECEIVER_OFFSET * r_job.options.scene_size_m;
 	const uint64_t hash = mix_bits(mix_bits(r_job.options.seed) ^ p_pixel);
 	DiscView view;
 	float constant_visibility = 0.0f;
-	if (!find_disc_view(r_job.light, point.position, point.geometric_normal, offset_m, view,
+	if (!find_disc_view(r_job.light, point.position, point.geometric_normal, point.offset_m, view,
 				constant_visibility)) {
 		store_visibility(r_job, p_pixel, glm::dvec3(constant_visibility));
 		return 0;
 	}
 	uint64_t ray_count = 0;
 	if (point.spread_radius_m > 0.0f && r_job.options.spread != nullptr) {
-		ray_count = trace_spread_pixel(r_job, p_pixel, offset_m, hash);
+		ray_count = trace_spread_pixel(r_job, p_pixel, hash);
 	}
 	return ray_count > 0 ? ray_count : trace_plain_pixel(r_job, p_pixel, view, hash);
 }

@@ -25,11 +25,11 @@ struct ReceiverPoint {
 	/// Above 0: light that leaves here entered the surface around here (subsurface scattering). The
 	/// result of SurfaceSpread::compute_radius_m; see VisibilityOptions::spread.
 	float spread_radius_m = 0.0f;
+	float offset_m = 0.0f; // rays start this far off the surface, see frame_shared.h
 };
 
 /// Parameters of CasterScene::compute (caster_scene.h).
 struct VisibilityOptions {
-	float scene_size_m = 1.0f;	  // S; rays start RECEIVER_OFFSET (5e-5) S off the surface
 	uint32_t sample_count = 1024; // rays per pixel, 1..65536
 	uint64_t seed = 0;
 	uint32_t thread_count = 0; // 0 = one per core; the result does not depend on it

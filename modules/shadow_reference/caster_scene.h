@@ -33,12 +33,12 @@ public:
 			std::span<const CutOutTriangles> p_cut_out = {});
 
 	/// Computes the reference (area-light visibility by ray tracing, float32). By definition, the
-	/// visibility v of a point P is the mean transmittance of rays from P, moved by 5e-5 S along
-	/// its geometric normal, to stratified points of the light's disc. The transmittance of a ray
-	/// is 0 if an opaque triangle blocks it (holes of cut-out ones do not), else the product of
-	/// those of the translucent bodies that it meets, or 1. Triangles are double-sided. For spot
-	/// and omni lights, those at or behind the disc do not occlude; rays to a directional light do
-	/// not end. For receivers with a spread radius see VisibilityOptions::spread.
+	/// visibility v of a point P is the mean transmittance of rays from P, moved along its
+	/// geometric normal by its offset, to stratified points of the light's disc. The transmittance
+	/// of a ray is 0 if an opaque triangle blocks it (holes of cut-out ones do not), else the
+	/// product of those of the translucent bodies that it meets, or 1. Triangles are double-sided.
+	/// For spot and omni lights, those at or behind the disc do not occlude; rays to a directional
+	/// light do not end. For receivers with a spread radius see VisibilityOptions::spread.
 	///
 	/// Returns one v per point. p_points: the rows of an image of p_size_px. Throws an Error when
 	/// the light or an option is out of range. A point that is no receiver or not finite, or whose

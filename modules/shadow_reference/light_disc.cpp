@@ -55,10 +55,10 @@ bool AreaLight::reaches(const glm::vec3 &p_position, const glm::vec3 &p_normal) 
 bool find_disc_view(const AreaLight &p_light, const glm::vec3 &p_position,
 		const glm::vec3 &p_normal, float p_offset_m, DiscView &r_view, float &r_visibility) {
 	r_visibility = 0.0f;
-	if (!is_finite(p_position) || !is_finite(p_normal)) {
+	r_view.origin = p_position + p_normal * p_offset_m;
+	if (!is_finite(r_view.origin)) {
 		return false;
 	}
-	r_view.origin = p_position + p_normal * p_offset_m;
 	r_view.end = RAY_END;
 	glm::vec3 axis;
 	if (p_light.is_directional) {

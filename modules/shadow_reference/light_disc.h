@@ -37,8 +37,8 @@ struct DiscView {
 };
 
 /// Computes the view of the light's disc from a point moved by p_offset_m along its normal. Returns
-/// false when no rays are needed: r_visibility is then 0 if the point, its normal or the vector to
-/// the light is not finite, and 1 if the point is exactly on the light.
+/// false when no rays are needed: r_visibility is then 0 if the moved point or the vector to the
+/// light is not finite, and 1 if the moved point is exactly on the light.
 bool find_disc_view(const AreaLight &p_light, const glm::vec3 &p_position,
 		const glm::vec3 &p_normal, float p_offset_m, DiscView &r_view, float &r_visibility);
 

@@ -47,7 +47,8 @@ std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_
 			points[pixel] = { surface.position, surface.geometric_normal, /*is_receiver=*/true,
 				p_spread != nullptr
 						? p_spread->compute_radius_m(surface.material, surface.pixel_size_m)
-						: 0.0f };
+						: 0.0f,
+				surface.receiver_offset_m };
 		}
 	}
 	return points;

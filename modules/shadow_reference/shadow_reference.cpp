@@ -18,7 +18,7 @@ namespace {
 
 // Increase it when the definition of the reference or the tracer changes, so that older cache
 // entries are not found.
-constexpr uint64_t REFERENCE_VERSION = 1;
+constexpr uint64_t REFERENCE_VERSION = 2;
 
 template <typename T> uint64_t add_to_hash(std::span<const T> p_values, uint64_t p_hash) {
 	return compute_hash(bytes_of(p_values), p_hash);
@@ -62,7 +62,8 @@ struct ShadowReference::Job {
 		std::vector<glm::vec3> points;
 		for (const ReceiverPoint &point : p_points) {
 			points.push_back(point.is_receiver ? point.position : glm::vec3(0.0f));
-			points.push_back(point.is_receiver ? point.geometric_normal : glm::vec3(0.0f));
+			points.push_back(
+					point.is_receiver ? point.offset_m * point.geometric_normal : glm::vec3(0.0f));
 		}
 		key = add_to_hash(std::span<const glm::vec3>(points), key);
 		if (!spread_bodies.empty()) {
@@ -78,8 +79,7 @@ struct ShadowReference::Job {
 		}
 		const float numbers[] = { light.is_directional ? 1.0f : 0.0f, light.position.x,
 			light.position.y, light.position.z, light.direction.x, light.direction.y,
-			light.direction.z, light.disc_radius, options.scene_size_m,
-			static_cast<float>(options.sample_count) };
+			light.direction.z, light.disc_radius, static_cast<float>(options.sample_count) };
 		return add_to_hash(std::span<const float>(numbers), key);
 	}
 };
@@ -155,7 +155,6 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->light_name = p_inputs.light.name;
 	job->may_reuse = p_inputs.may_reuse;
 	job->light = make_area_light(p_inputs.scene, p_inputs.light);
-	job->options.scene_size_m = static_cast<float>(p_inputs.scene.scene_size_m);
 	job->options.sample_count =
 			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("reference_samples")));
 	job->triangles = collect_triangles(p_inputs.scene);

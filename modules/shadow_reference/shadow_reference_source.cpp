@@ -24,7 +24,6 @@ ReferenceResult ShadowReferenceSource::trace(uint32_t p_sample_count,
 		}
 	}
 	VisibilityOptions options;
-	options.scene_size_m = static_cast<float>(request.scene->scene_size_m);
 	options.sample_count = p_sample_count;
 	options.is_cancelled = &p_is_cancelled;
 	options.progress = p_progress;

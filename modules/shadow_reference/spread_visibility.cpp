@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 constexpr float TWO_PI = 6.283185307f;
-// Maximum distance of a receiver from its body, as a multiple of p_offset_m.
+// Maximum distance of a receiver from its body, as a multiple of its offset.
 constexpr float BODY_REACH = 20.0f;
 
 /// A low-discrepancy sequence in the four-dimensional unit cube, even for every count: Roberts' R
@@ -65,28 +65,28 @@ const EmbreeScene *SpreadVisibility::find_body(
 	return nearest;
 }
 
-std::optional<SpreadVisibility::Point> SpreadVisibility::find_point(const EmbreeScene &p_body,
-		const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m) {
+std::optional<SpreadVisibility::Point> SpreadVisibility::find_point(
+		const EmbreeScene &p_body, const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane) {
 	// Both rays start slightly on the other side of the plane, so that a flat body is not missed.
 	const glm::vec3 up = p_receiver.geometric_normal;
-	const float reach_m = p_receiver.spread_radius_m + p_offset_m;
-	const SurfaceHit below = p_body.find_nearest(p_on_plane + p_offset_m * up, -up, reach_m);
+	const float offset_m = p_receiver.offset_m;
+	const float reach_m = p_receiver.spread_radius_m + offset_m;
+	const SurfaceHit below = p_body.find_nearest(p_on_plane + offset_m * up, -up, reach_m);
 	const SurfaceHit above = p_body.find_nearest(
-			p_on_plane - p_offset_m * up, up, below.is_hit ? below.distance : reach_m);
+			p_on_plane - offset_m * up, up, below.is_hit ? below.distance : reach_m);
 	const SurfaceHit &hit = above.is_hit ? above : below;
 	const float facing = glm::dot(hit.normal, up);
 	if (!hit.is_hit || facing == 0.0f) {
 		return std::nullopt;
 	}
-	const float height_m = (hit.distance - p_offset_m) * (above.is_hit ? 1.0f : -1.0f);
+	const float height_m = (hit.distance - offset_m) * (above.is_hit ? 1.0f : -1.0f);
 	return Point{ p_on_plane + height_m * up, facing > 0.0f ? hit.normal : -hit.normal };
 }
 
 SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLight &p_light,
-		const ReceiverPoint &p_receiver, float p_offset_m, uint32_t p_sample_count,
-		uint64_t p_hash) const {
+		const ReceiverPoint &p_receiver, uint32_t p_sample_count, uint64_t p_hash) const {
 	SpreadMean mean;
-	const EmbreeScene *body = find_body(p_receiver, BODY_REACH * p_offset_m);
+	const EmbreeScene *body = find_body(p_receiver, BODY_REACH * p_receiver.offset_m);
 	glm::vec3 axis_x;
 	glm::vec3 axis_y;
 	find_basis(p_receiver.geometric_normal, axis_x, axis_y);
@@ -102,7 +102,7 @@ SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLig
 			// Without a body the point stays on the plane.
 			std::optional<Point> point = Point{ on_plane, p_receiver.geometric_normal };
 			if (body != nullptr) {
-				point = find_point(*body, p_receiver, on_plane, p_offset_m);
+				point = find_point(*body, p_receiver, on_plane);
 			}
 			if (!point || !p_light.reaches(point->position, point->normal)) {
 				continue;
@@ -111,7 +111,7 @@ SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLig
 			DiscView view;
 			float constant_visibility = 0.0f;
 			glm::vec3 visibility(0.0f);
-			if (find_disc_view(p_light, point->position, point->normal, p_offset_m, view,
+			if (find_disc_view(p_light, point->position, point->normal, p_receiver.offset_m, view,
 						constant_visibility)) {
 				const float radius = std::sqrt(points.get(2));
 				const float disc_angle_rad = TWO_PI * points.get(3);

@@ -35,12 +35,11 @@ public:
 	/// p_spread must outlive it.
 	SpreadVisibility(std::span<const Triangles> p_bodies, const SurfaceSpread &p_spread);
 
-	/// p_receiver: with a unit normal and a spread radius above 0. p_offset_m: how far off the
-	/// surface rays start. p_sample_count: samples of both halves together, including those that do
+	/// p_receiver: with a unit normal and a spread radius above 0. All rays start as far off the
+	/// surface as its own. p_sample_count: samples of both halves together, including those that do
 	/// not count. p_hash: seed of the samples. May be called from several threads.
 	SpreadMean compute(const CasterScene &p_casters, const AreaLight &p_light,
-			const ReceiverPoint &p_receiver, float p_offset_m, uint32_t p_sample_count,
-			uint64_t p_hash) const;
+			const ReceiverPoint &p_receiver, uint32_t p_sample_count, uint64_t p_hash) const;
 
 private:
 	struct Point {
@@ -51,7 +50,7 @@ private:
 	/// Moves a point of the receiver's tangent plane along its normal to the body's surface.
 	/// Returns nothing when that is farther than the spread radius.
 	static std::optional<Point> find_point(const EmbreeScene &p_body,
-			const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m);
+			const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane);
 
 	std::vector<EmbreeScene> bodies;
 	const SurfaceSpread &spread;

@@ -14,7 +14,7 @@ namespace gnomon {
 ///
 /// Spaces: silhouettes in node space, float32 (on the CPU in double); volumes in the camera's clip
 /// space; depths reversed, float32, compared with the receiver moved off its surface (by about
-/// RECEIVER_OFFSET = 5e-5 times the scene size S, see receivers.frag).
+/// its offset, see receivers.frag).
 class ShadowVolume : public ShadowTechnique {
 public:
 	enum class Silhouettes { GPU, CPU };

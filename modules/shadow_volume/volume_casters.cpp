@@ -5,11 +5,11 @@
 #include "modules/shadows/mesh_store.h"
 
 #include "shadow_volume/shadow_volume_shared.h"
-#include "shared/light_shared.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 
@@ -100,10 +100,19 @@ uint32_t estimate_layers(const MeshTopology &p_topology) {
 	return std::clamp(layers, 1u, MAX_LAYERS);
 }
 
+float compute_volume_camera_move_m(const ShadowTechnique::Inputs &p_inputs) {
+	double nearest_m = std::numeric_limits<float>::max();
+	for (const VisibleReceiver &receiver : p_inputs.lit_receivers) {
+		nearest_m = std::min(nearest_m,
+				receiver.bounds_world.compute_distance(p_inputs.scene.camera.position_world));
+	}
+	return compute_receiver_offset_m(compute_frame_constants(p_inputs.scene, p_inputs.size_px),
+			static_cast<float>(nearest_m));
+}
+
 LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs) {
 	CameraSnapshot camera = p_inputs.scene.camera;
-	camera.position_world[VOLUMES_OFFSET_AXIS] +=
-			double(RECEIVER_OFFSET) * p_inputs.scene.scene_size_m;
+	camera.position_world[VOLUMES_OFFSET_AXIS] += compute_volume_camera_move_m(p_inputs);
 	return make_camera_view(camera, p_inputs.size_px);
 }
 

@@ -34,8 +34,11 @@ struct VolumeCasters {
 	uint32_t offscreen_count = 0;	 // with a shadow outside the image
 };
 
-/// Returns the camera for which volumes are drawn: the scene's camera, moved by the receiver offset
-/// as VOLUMES_OFFSET_AXIS describes.
+/// Returns how far the camera for which volumes are drawn is moved, see VOLUMES_OFFSET_AXIS: the
+/// offset of a receiver as near to the camera as the lit receivers' bounds.
+float compute_volume_camera_move_m(const ShadowTechnique::Inputs &p_inputs);
+
+/// Returns the camera for which volumes are drawn: the scene's camera, moved.
 LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs);
 
 /// Decides for every caster of p_instances (ascending) how its volume is drawn. Faces of mesh parts

@@ -213,6 +213,8 @@ VolumeTargets add_volume_receivers_pass(
 	const RGTexture depth = p_inputs.depth;
 	const RGTexture normal = p_inputs.geometric_normal;
 	const RGTexture receivers = p_inputs.receivers;
+	shader::VolumeReceiversPush push = {};
+	push.camera_move_m = compute_volume_camera_move_m(p_inputs);
 	r_graph.add_pass("receivers' depth")
 			.reads(frame, Access::UNIFORM_READ)
 			.reads(light, Access::UNIFORM_READ)
@@ -229,6 +231,7 @@ VolumeTargets add_volume_receivers_pass(
 						{ RECEIVERS_BINDING_DEPTH, p_context.get(depth) },
 						{ RECEIVERS_BINDING_NORMAL, p_context.get(normal) },
 						{ RECEIVERS_BINDING_RECEIVERS, p_context.get(receivers) } });
+				commands.push_constants(push);
 				commands.draw(3);
 			});
 	return targets;

@@ -1,5 +1,6 @@
 #include "modules/shadows/camera_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
@@ -39,6 +40,14 @@ shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm
 	frame.size_px = p_size_px;
 	frame.near_m = camera.near_m;
 	frame.scene_size_m = static_cast<float>(p_scene.scene_size_m);
+	const double pixel_size_per_m = 2.0 * view.half_extent.y / p_size_px.y;
+	const double extent_m =
+			std::max(p_scene.scene_size_m, p_scene.compute_caster_bounds().get_diagonal());
+	frame.pixel_size_per_m = static_cast<float>(pixel_size_per_m);
+	frame.receiver_offset_m = static_cast<float>(RECEIVER_OFFSET_ROUNDING * extent_m);
+	frame.receiver_offset_per_m =
+			static_cast<float>(RECEIVER_OFFSET_ROUNDING + RECEIVER_OFFSET_PX * pixel_size_per_m);
+	frame.max_receiver_offset_m = static_cast<float>(MAX_RECEIVER_OFFSET * p_scene.scene_size_m);
 	return frame;
 }
 

@@ -14,6 +14,19 @@ LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px)
 /// to be the distance along the view, as a perspective projection makes it.
 glm::dmat4 compute_shift(const CameraSnapshot &p_camera);
 
+// Receivers are moved off their surfaces (compute_receiver_offset_m in frame_shared.h), so that
+// rounding does not put them inside their own surface.
+
+/// Share of a pixel's width at the receiver. The rasteriser snaps vertices to 1/256 of a pixel, and
+/// surfaces move by as much.
+constexpr double RECEIVER_OFFSET_PX = 1.0 / 16.0;
+/// For float32, as a fraction of the lengths of which positions are made: the distance from the
+/// camera, plus the larger one of the scene size S and the extent of all casters. 16 rounding
+/// errors.
+constexpr double RECEIVER_OFFSET_ROUNDING = 1e-6;
+/// Maximum, as a fraction of S. The whole image has it if S is a few metres.
+constexpr double MAX_RECEIVER_OFFSET = 5e-5;
+
 /// Fills the camera constants that the shaders read. p_size_px: size of the image.
 shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 

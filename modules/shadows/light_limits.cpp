@@ -3,8 +3,7 @@
 #include "modules/core/files.h"
 #include "modules/core/text.h"
 #include "modules/mesh_tools/triangle_distance.h"
-
-#include "shared/light_shared.h"
+#include "modules/shadows/camera_view.h"
 
 #include <algorithm>
 
@@ -13,8 +12,8 @@ namespace gnomon {
 namespace {
 
 // Maximum of S divided by the diagonal of the bounds of all casters but the largest. At this ratio
-// receivers are moved off their surfaces by 1 % of that diagonal.
-const double MAX_SIZE_PER_CASTERS = 200;
+// even receivers right before the camera are moved off their surfaces by 1 % of that diagonal.
+const double MAX_SIZE_PER_CASTERS = 0.01 / RECEIVER_OFFSET_ROUNDING;
 // Maximum of the diagonal of the bounds of all casters divided by S. Above it, rounding causes
 // visible false shadows.
 const double MAX_CASTERS_PER_SIZE = 5e3;
@@ -129,7 +128,7 @@ std::string describe_scene_size_problem(const SceneSnapshot &p_scene) {
 	if (others_m > 0 && size_m > MAX_SIZE_PER_CASTERS * others_m) {
 		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
 				largest->node_name, "\" are within ", format_number(others_m),
-				" m: their shadows begin ", format_number(double(RECEIVER_OFFSET) * size_m),
+				" m: their shadows begin ", format_number(RECEIVER_OFFSET_ROUNDING * size_m),
 				" m away from them. Set scene_size, in the scene's extras, to about ",
 				format_number(others_m), ".");
 	}

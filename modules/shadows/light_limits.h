@@ -43,7 +43,7 @@ private:
 };
 
 /// Returns why the scene size S is too large or too small for its casters, and what to do. Empty
-/// when S fits. It matters because receivers are moved off their surfaces by RECEIVER_OFFSET * S.
+/// when S fits. It matters because the offset of receivers from their surfaces depends on S.
 std::string describe_scene_size_problem(const SceneSnapshot &p_scene);
 
 } // namespace gnomon

@@ -9,7 +9,6 @@ namespace gnomon {
 
 std::vector<SurfacePoint> read_surfaces(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
 		const SurfaceTexels &p_texels) {
-	const float tangent = glm::length(glm::vec3(p_frame.up_tangent));
 	std::vector<SurfacePoint> surfaces(size_t(p_size_px.x) * p_size_px.y);
 	for (size_t index = 0; index < surfaces.size(); ++index) {
 		float depth = 0;
@@ -23,11 +22,12 @@ std::vector<SurfacePoint> read_surfaces(const shader::FrameConstants &p_frame, g
 		}
 		if (depth > 0.0f) {
 			const glm::uvec2 pixel(index % p_size_px.x, index / p_size_px.x);
-			// The last value is the pixel size; near / depth is the distance along the view.
+			const float distance_m = p_frame.near_m / depth; // along the view
 			surfaces[index] = { /*is_valid=*/true,
 				compute_position(p_frame, p_size_px, pixel, depth), unpack_normal(packed_normal),
 				{ glm::unpackHalf1x16(material[0]), glm::unpackHalf1x16(material[1]) },
-				2.0f * p_frame.near_m / depth * tangent / static_cast<float>(p_size_px.y) };
+				p_frame.pixel_size_per_m * distance_m,
+				compute_receiver_offset_m(p_frame, distance_m) };
 		}
 	}
 	return surfaces;

@@ -15,7 +15,13 @@ struct SurfacePoint {
 	glm::vec3 position = glm::vec3(0.0f);		  // camera-relative, world axes, metres
 	glm::vec3 geometric_normal = glm::vec3(0.0f); // unit, towards the viewer
 	SurfaceMaterial material;
-	float pixel_size_m = 0; // width of a pixel at that distance, across the view
+	float pixel_size_m = 0;		 // width of a pixel at that distance, across the view
+	float receiver_offset_m = 0; // how far the receiver is moved off the surface
+
+	/// Where visibility is tested, camera-relative.
+	glm::vec3 compute_receiver_position() const {
+		return position + receiver_offset_m * geometric_normal;
+	}
 };
 
 /// CPU copies of the texels of a host's textures, see HostSurfaces; rows from the top.

@@ -1,5 +1,7 @@
 #include "modules/shadows/visible_receivers.h"
 
+#include "modules/shadows/camera_view.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,9 +14,9 @@ namespace {
 // ROUNDING bounds the error of float32 positions (about 1e-7 relative) as a fraction of the lengths
 // that they are computed from: the distances of the instance's origin and bounds from the camera,
 // plus the bounds' diagonal. It also widens the light's range (relative) and cone (rad). Receivers
-// are moved off their surfaces by 5e-5 S (receiver_inc.glsl); twice that is allowed for.
+// are moved off their surfaces by at most MAX_RECEIVER_OFFSET; twice that is allowed for.
 constexpr double ROUNDING = 1e-5;
-constexpr double OFFSET_PER_SCENE_SIZE = 1e-4;
+constexpr double OFFSET_PER_SCENE_SIZE = 2 * MAX_RECEIVER_OFFSET;
 // The shader compares cosines in float32 (rounding error 6e-8). Near a cosine of 1 this margin is
 // an angle of 1.4e-3 rad.
 constexpr double COSINE_MARGIN = 1e-6;

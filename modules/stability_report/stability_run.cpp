@@ -62,9 +62,9 @@ std::vector<ConditionPoint> find_worst_points(
 		const TracedReference &p_reference, const MaskImage &p_mask) {
 	std::vector<ConditionPoint> points;
 	for (size_t index = 0; index < p_mask.visibility.size(); ++index) {
-		if (p_reference.mask.is_receiver(index) && index < p_reference.positions.size()) {
+		if (p_reference.mask.is_receiver(index) && index < p_reference.receiver_positions.size()) {
 			const double reference = p_reference.mask.visibility[index];
-			points.push_back({ p_reference.positions[index], p_reference.normals[index], reference,
+			points.push_back({ p_reference.receiver_positions[index], reference,
 					std::abs(double(p_mask.visibility[index]) - reference) });
 		}
 	}
@@ -92,7 +92,7 @@ void correct_reference(
 			receivers.push_back(index);
 		}
 	}
-	if (receivers.empty() || r_reference.positions.size() != mask.visibility.size()) {
+	if (receivers.empty() || r_reference.receiver_positions.size() != mask.visibility.size()) {
 		return;
 	}
 	for (const InstanceSnapshot &instance : p_task.scene->instances) {
@@ -102,9 +102,8 @@ void correct_reference(
 	}
 	const DoubleVisibility exact(*p_task.scene, get_light(*p_task.scene, p_task.light));
 	const auto compute = [&](size_t p_index) {
-		return exact.compute(
-				p_task.scene->camera.position_world + glm::dvec3(r_reference.positions[p_index]),
-				r_reference.normals[p_index]);
+		return exact.compute(p_task.scene->camera.position_world +
+				glm::dvec3(r_reference.receiver_positions[p_index]));
 	};
 	// Missing shadows show in a check of all receivers. Blurred ones show only in penumbras, which
 	// may have few pixels, so these are checked separately.

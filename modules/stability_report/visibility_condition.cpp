@@ -1,7 +1,5 @@
 #include "modules/stability_report/visibility_condition.h"
 
-#include "shared/light_shared.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -42,13 +40,10 @@ double DoubleVisibility::get_distance_m(const glm::dvec3 &p_position_world) cons
 			: glm::length(light.position_world - p_position_world);
 }
 
-double DoubleVisibility::compute(
-		const glm::dvec3 &p_position_world, const glm::dvec3 &p_normal) const {
-	const glm::dvec3 origin =
-			p_position_world + double(RECEIVER_OFFSET) * scene.scene_size_m * p_normal;
+double DoubleVisibility::compute(const glm::dvec3 &p_position_world) const {
 	const bool is_directional = light.type == LightType::DIRECTIONAL;
 	const glm::dvec3 direction =
-			is_directional ? -light.get_direction_world() : light.position_world - origin;
+			is_directional ? -light.get_direction_world() : light.position_world - p_position_world;
 	const glm::dvec3 axis = glm::normalize(direction);
 	const glm::dvec3 other_axis =
 			std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -61,7 +56,7 @@ double DoubleVisibility::compute(
 		const double radius = light.get_disc_radius() * std::sqrt((sample + 0.5) / SAMPLE_COUNT);
 		const double angle = sample * GOLDEN_ANGLE_RAD;
 		const glm::dvec3 ray = direction + radius * (std::cos(angle) * u + std::sin(angle) * v);
-		seen_count += is_blocked(origin, ray, is_directional) ? 0 : 1;
+		seen_count += is_blocked(p_position_world, ray, is_directional) ? 0 : 1;
 	}
 	return double(seen_count) / SAMPLE_COUNT;
 }
@@ -93,7 +88,7 @@ VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 	const double weight = 1.0 / double(p_points.size());
 	for (const ConditionPoint &point : p_points) {
 		const glm::dvec3 position = p_scene.camera.position_world + glm::dvec3(point.position);
-		const double visibility = tracer.compute(position, point.normal);
+		const double visibility = tracer.compute(position);
 		const double distance = tracer.get_distance_m(position);
 		double number = 0;
 		double rounding = 0;
@@ -102,8 +97,7 @@ VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 			for (int direction = 0; direction < 6; ++direction) {
 				glm::dvec3 moved = position;
 				moved[direction / 2] += (direction % 2 == 0 ? move : -move) * distance;
-				change = std::max(
-						change, std::abs(tracer.compute(moved, point.normal) - visibility));
+				change = std::max(change, std::abs(tracer.compute(moved) - visibility));
 			}
 			number = std::max(number, change / move);
 			rounding = move == ROUNDING_MOVE ? change : rounding;

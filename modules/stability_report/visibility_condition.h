@@ -15,9 +15,8 @@ namespace gnomon {
 /// Computes the visibility of one light in double precision on the CPU, with 256 rays per point. It
 /// is slow: meant for telling rounding errors from errors of a method at few points, and for
 /// references that float32 makes too inaccurate. As in the reference technique, the light is a disc
-/// of its radius that faces the point, and the ray origin is offset along the normal by
-/// RECEIVER_OFFSET times S. Unlike there, translucent casters count as opaque. Scene and light must
-/// outlive this object.
+/// of its radius that faces the point. Unlike there, translucent casters count as opaque. Scene and
+/// light must outlive this object.
 class DoubleVisibility {
 public:
 	static constexpr int SAMPLE_COUNT = 256; // rays per point
@@ -26,8 +25,9 @@ public:
 
 	/// Returns the distance to the light's centre in metres; for a directional light S.
 	double get_distance_m(const glm::dvec3 &p_position_world) const;
-	/// Returns the visible fraction of the light, 0..1, at a surface point with that unit normal.
-	double compute(const glm::dvec3 &p_position_world, const glm::dvec3 &p_normal) const;
+	/// Returns the visible fraction of the light, 0..1, at a receiver's position, which is off its
+	/// surface.
+	double compute(const glm::dvec3 &p_position_world) const;
 
 private:
 	struct Body {
@@ -45,8 +45,7 @@ private:
 
 /// A receiver point at which a technique has a large error.
 struct ConditionPoint {
-	glm::vec3 position = glm::vec3(0.0f); // camera-relative, metres
-	glm::vec3 normal = glm::vec3(0.0f);	  // of the face, unit
+	glm::vec3 position = glm::vec3(0.0f); // camera-relative, metres, off its surface
 	double reference = 0;				  // visibility of the reference technique (float32)
 	double error = 0;					  // |visibility of the technique - reference|
 };

@@ -1,10 +1,11 @@
-// Loads the receivers of pixels, and the views of one light. Uses the bindings that make_map_resolve_bindings of
-// modules/shadows/mask.h sets.
+// Loads the receivers of pixels, and the views of one light. Uses the bindings that
+// make_map_resolve_bindings of modules/shadows/mask.h sets.
 #ifndef RECEIVER_PIXELS_INC_GLSL
 #define RECEIVER_PIXELS_INC_GLSL
 
+#include "common/depth_inc.glsl"
 #include "common/light_view_inc.glsl"
-#include "common/receiver_inc.glsl"
+#include "common/normal_inc.glsl"
 #include "shared/map_resolve_shared.h"
 
 layout(std140, set = 0, binding = MAP_RESOLVE_BINDING_FRAME) restrict readonly buffer Frame {
@@ -27,15 +28,19 @@ bool is_receiver_pixel(ivec2 p_pixel) {
 }
 
 struct ReceiverPixel {
-	vec3 position; // camera-relative, moved off the surface
-	vec3 normal;   // unit, of the face, towards the viewer
+	vec3 position;	// camera-relative, moved off the surface
+	vec3 normal;	// unit, of the face, towards the viewer
+	float offset_m; // how far it was moved
 };
 
-/// Loads a pixel's receiver. Call it only where is_receiver_pixel is true. p_frame: `frame`, or a copy of it.
+/// Loads a pixel's receiver. Call it only where is_receiver_pixel is true. p_frame: `frame`, or a
+/// copy of it.
 ReceiverPixel load_receiver(FrameConstants p_frame, ivec2 p_pixel) {
 	const vec3 normal = unpack_normal(texelFetch(normal_texture, p_pixel, 0).r);
+	const float depth = texelFetch(depth_texture, p_pixel, 0).r;
+	const float offset_m = compute_receiver_offset_m(p_frame, distance_from_depth(p_frame, depth));
 	return ReceiverPixel(
-			receiver_position(p_frame, p_pixel, texelFetch(depth_texture, p_pixel, 0).r, normal), normal);
+			position_from_depth(p_frame, p_pixel, depth) + offset_m * normal, normal, offset_m);
 }
 
 ReceiverPixel load_receiver(ivec2 p_pixel) {

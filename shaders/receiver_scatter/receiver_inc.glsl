@@ -11,7 +11,8 @@ layout(std140, set = 0, binding = SCATTER_BINDING_FRAME) restrict readonly buffe
 };
 layout(set = 0, binding = SCATTER_BINDING_MATERIAL) uniform texture2D material_texture;
 layout(set = 0, binding = SCATTER_BINDING_MASK) uniform texture2D mask_texture;
-layout(set = 0, binding = SCATTER_BINDING_PIXELS) uniform utexture2D pixels_texture; // result of pack.comp
+layout(set = 0,
+		binding = SCATTER_BINDING_PIXELS) uniform utexture2D pixels_texture; // result of pack.comp
 // Has the mask's format.
 layout(set = 0, binding = SCATTER_BINDING_RESULT) uniform writeonly image2D result_image;
 layout(push_constant) uniform Push {
@@ -30,12 +31,14 @@ float get_depth(uvec4 p_packed) {
 	return uintBitsToFloat(p_packed.x);
 }
 
-/// The light that arrives: the mask, or 0 where the surface faces away from the light or is outside its cone or range.
+/// The light that arrives: the mask, or 0 where the surface faces away from the light or is outside
+/// its cone or range.
 vec3 get_light(uvec4 p_packed) {
 	return vec3(unpackHalf2x16(p_packed.w), unpackHalf2x16(p_packed.z).x);
 }
 
-/// Key of the material (see pack.comp); 0 where the material does not scatter or the light cannot reach.
+/// Key of the material (see pack.comp); 0 where the material does not scatter or the light cannot
+/// reach.
 uint get_material_key(uvec4 p_packed) {
 	return p_packed.z >> 16u;
 }
@@ -64,9 +67,7 @@ bool load_receiver(ivec2 p_pixel, out Receiver r_receiver) {
 	r_receiver.normal = unpack_normal(packed.y);
 	r_receiver.scatter = min(material.r, 1.0);
 	r_receiver.scatter_distance_m = material.g;
-	// The image is 2 |up_tangent| high at a distance of 1; near_m / depth is the receiver's.
-	r_receiver.pixel_size_m =
-			2.0 * frame.near_m / depth * length(frame.up_tangent.xyz) / float(frame.size_px.y);
+	r_receiver.pixel_size_m = frame.pixel_size_per_m * distance_from_depth(frame, depth);
 	const float distance_m =
 			material.g > 0.0 ? material.g : SCATTER_RADIUS_PX * r_receiver.pixel_size_m;
 	r_receiver.radius_m = min(r_receiver.scatter * distance_m, 1e6 * frame.scene_size_m);
@@ -85,7 +86,8 @@ int find_block_width(Receiver p_receiver) {
 	return radius_px < SCATTER_RADIUS_OF_2_PX ? 1 : radius_px < SCATTER_RADIUS_OF_4_PX ? 2 : 4;
 }
 
-/// Index of the set from which a pixel takes its samples. The sets of blocks of width 1, 2 and 4 follow one another.
+/// Index of the set from which a pixel takes its samples. The sets of blocks of width 1, 2 and 4
+/// follow one another.
 uint find_set(ivec2 p_pixel, int p_block_width) {
 	const uvec2 offset = uvec2(p_pixel) % uint(p_block_width);
 	const uint first = p_block_width == 1 ? 0u : p_block_width == 2 ? 1u : 5u;
@@ -98,8 +100,8 @@ bool refuses_others(Receiver p_receiver) {
 			(push.refusal == SCATTER_REFUSAL_AUTO && is_metric(p_receiver));
 }
 
-/// True when the light can reach the pixel, and the pixel has the receiver's material, faces the same side and is no
-/// farther from p_expected than p_tolerance_m.
+/// True when the light can reach the pixel, and the pixel has the receiver's material, faces the
+/// same side and is no farther from p_expected than p_tolerance_m.
 bool is_same_surface(
 		Receiver p_receiver, ivec2 p_pixel, uvec4 p_packed, vec3 p_expected, float p_tolerance_m) {
 	if (get_material_key(p_packed) != p_receiver.material_key) {

@@ -9,10 +9,19 @@
 #define RECEIVERS_BINDING_RECEIVERS 3
 #define RECEIVERS_BINDING_LIGHT 4
 
-// Volumes are drawn for a camera that is moved by the receiver offset along this axis of the world,
-// Y. The depth test is then exact for receivers with that normal, such as floors, and as accurate
-// as without the move for all others.
+// Volumes are drawn for a camera that is moved along this axis of the world, Y, by the offset of
+// the nearest receiver. The depth test is then exact for receivers with that offset and that
+// normal, such as floors, and at least as accurate as without the move for all others.
 #define VOLUMES_OFFSET_AXIS 1
+
+/// Push constants of receivers.frag
+struct SHARED_ALIGN VolumeReceiversPush {
+	float camera_move_m; // of the volumes' camera along VOLUMES_OFFSET_AXIS
+	float padding0;
+	float padding1;
+	float padding2;
+};
+SHARED_SIZE(VolumeReceiversPush, 16);
 
 // volumes.geom, sides.vert, caps.vert
 #define VOLUMES_BINDING_FACE_FLAGS 0

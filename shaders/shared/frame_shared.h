@@ -12,11 +12,24 @@ struct SHARED_ALIGN FrameConstants {
 	vec4 forward;
 	uvec2 size_px;
 	float near_m;
-	float scene_size_m; // S
+	float scene_size_m;		 // S
+	float pixel_size_per_m;	 // width of a pixel, in metres, per metre of distance along the view
+	float receiver_offset_m; // see compute_receiver_offset_m
+	float receiver_offset_per_m; // of distance along the view
+	float max_receiver_offset_m;
 };
-SHARED_SIZE(FrameConstants, 128);
+SHARED_SIZE(FrameConstants, 144);
 SHARED_OFFSET(FrameConstants, right_tangent, 64);
 SHARED_OFFSET(FrameConstants, size_px, 112);
+
+/// How far a receiver is moved along its normal before its visibility is tested, in metres. The
+/// reference and all techniques do this, so that all results refer to the same point. Exceptions:
+/// planar moves the plane, and the shadow volumes the depth along the view ray. p_distance_m: of
+/// the receiver from the camera, along its view. See RECEIVER_OFFSET_PX in camera_view.h.
+SHARED_FUNCTION float compute_receiver_offset_m(FrameConstants p_frame, float p_distance_m) {
+	return min(p_frame.receiver_offset_m + p_frame.receiver_offset_per_m * p_distance_m,
+			p_frame.max_receiver_offset_m);
+}
 
 #include "shared/shared_end.h"
 #endif

@@ -5,11 +5,6 @@
 #define LIGHT_TYPE_OMNI 0u
 #define LIGHT_TYPE_SPOT 1u
 #define LIGHT_TYPE_DIRECTIONAL 2u
-/// Receivers are moved along their normals by this fraction of the scene size S before their
-/// visibility is tested, by the reference and by the techniques, so that all results refer to the
-/// same point. Exceptions: planar moves the plane, and the shadow volumes the depth along the view
-/// ray.
-#define RECEIVER_OFFSET 5e-5f
 /// Minimum cosine of the angle between a surface's normal and the direction to the light for the
 /// surface to face the light. For light that is more grazing, rounding would decide.
 #define LIGHT_MIN_COSINE 1e-5f

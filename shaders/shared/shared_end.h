@@ -4,5 +4,6 @@
 } // namespace gnomon
 #endif
 #undef SHARED_ALIGN
+#undef SHARED_FUNCTION
 #undef SHARED_SIZE
 #undef SHARED_OFFSET

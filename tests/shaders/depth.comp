@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/depth_inc.glsl"
 
-// Input: xy pixel, z stored depth. Output: xyz camera-relative position in metres.
+// Input: xy pixel, z stored depth. Output: xyz camera-relative position, w offset of its receiver,
+// in metres.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 pixels[];
@@ -20,5 +21,6 @@ void main() {
 		return;
 	}
 	const vec4 pixel = pixels[item];
-	results[item] = vec4(position_from_depth(frame, ivec2(pixel.xy), pixel.z), 1.0);
+	results[item] = vec4(position_from_depth(frame, ivec2(pixel.xy), pixel.z),
+			compute_receiver_offset_m(frame, distance_from_depth(frame, pixel.z)));
 }

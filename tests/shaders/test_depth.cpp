@@ -6,11 +6,12 @@
 
 using namespace gnomon;
 
-TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn") {
+TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn, and the "
+		  "receiver's offset of C++") {
 	KernelFixture fixture;
 	const glm::uvec2 size_px(640, 360);
 	SceneSnapshot scene;
-	scene.scene_size_m = 4;
+	scene.scene_size_m = 400;
 	CameraSnapshot &camera = scene.camera;
 	camera.position_world = { 1e5, -300, 7e4 }; // must not matter: all is relative to the camera
 	camera.vertical_fov_rad = 0.7f;
@@ -41,8 +42,12 @@ TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn"
 	double largest_error = 0; // relative to the distance
 	double largest_miss_px = 0;
 	double largest_depth_error = 0;
+	double largest_offset_error = 0;
 	for (size_t index = 0; index < pixels.size(); ++index) {
 		const glm::dvec3 found(results[index]);
+		const float offset_m = compute_receiver_offset_m(frame, camera.near_m / pixels[index].z);
+		largest_offset_error =
+				std::max(largest_offset_error, std::abs(double(results[index].w) / offset_m - 1));
 		largest_error = std::max(largest_error,
 				glm::distance(found, positions[index]) / glm::length(positions[index]));
 		// The rasteriser's matrix must project it back to the same pixel and depth.
@@ -58,4 +63,5 @@ TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn"
 	CHECK(largest_error < 1e-6); // several roundings of float32, 6e-8 each
 	CHECK(largest_miss_px < 2e-3);
 	CHECK(largest_depth_error < 1e-6);
+	CHECK(largest_offset_error < 1e-6);
 }

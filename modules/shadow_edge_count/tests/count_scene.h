@@ -41,7 +41,7 @@ inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p
 	return make_mesh("sphere", std::move(positions), {}, std::move(indices));
 }
 
-/// How far receivers are moved off their surfaces, in S; as RECEIVER_OFFSET in light_shared.h.
+/// How far receivers are moved off their surfaces, in S: as far as in images of small scenes.
 constexpr double RECEIVER_OFFSET_SIZES = 5e-5;
 
 /// Meshes and a light. Computes the visibility of a point by counting and by tracing rays.

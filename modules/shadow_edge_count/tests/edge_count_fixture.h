@@ -48,8 +48,7 @@ inline MeshInstance3D &add_globe(
 class CountedLight {
 public:
 	CountedLight(const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
-			camera_position_world(p_scene.camera.position_world),
-			scene_size_m(p_scene.scene_size_m) {
+			camera_position_world(p_scene.camera.position_world) {
 		const PropertyValues properties = resolve_light_properties(
 				p_light, ShadowRegistry::get_light_properties("edge_count"));
 		const CountSettings settings = read_count_settings(p_light, p_scene, properties);
@@ -57,9 +56,9 @@ public:
 		ShadowEdgeCount().get_light_views(p_light, p_scene, properties, views);
 		light_from_world = views[0].view_from_world;
 		const shader::CountLightConstants constants =
-				make_count_light_constants(views, settings.disc_radius, scene_size_m);
+				make_count_light_constants(views, settings.disc_radius, p_scene.scene_size_m);
 		space = { views[0].is_orthographic, settings.disc_radius, constants.nearer_tolerance,
-			scene_size_m };
+			p_scene.scene_size_m };
 		// All casters, also those that the renderer culls.
 		for (const InstanceSnapshot &instance : p_scene.instances) {
 			if (instance.casts_shadow) {
@@ -76,7 +75,7 @@ public:
 	double compute(const SurfacePoint &p_surface) const {
 		const glm::dvec3 normal = glm::normalize(glm::dvec3(p_surface.geometric_normal));
 		const glm::dvec3 position_world = camera_position_world + glm::dvec3(p_surface.position) +
-				normal * (RECEIVER_OFFSET_SIZES * scene_size_m);
+				normal * double(p_surface.receiver_offset_m);
 		return compute_count_visibility(space,
 				glm::dvec3(light_from_world * glm::dvec4(position_world, 1.0)), casters.edges,
 				casters.faces, masks);
@@ -84,7 +83,6 @@ public:
 
 private:
 	glm::dvec3 camera_position_world;
-	double scene_size_m;
 	glm::dmat4 light_from_world = glm::dmat4(1.0);
 	CountSpace space;
 	CountedCasters casters;

@@ -1,6 +1,7 @@
 // Solids that touch or intersect one another, and outlines exactly on the borders of texels.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+#include "modules/shadows/tests/wide_world.h"
 
 #include <doctest/doctest.h>
 
@@ -104,5 +105,27 @@ TEST_CASE("[GPU][EdgeCount] a thin wall separates lit from dark ground within bl
 		scene.box->surfaces[0].mesh = make_box_mesh("wall", { 0.002f, 0.9f, 2.4f });
 		scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.1, 0.3, 0.0 });
 		check_mask(fixture, scene, 0.002, glm::uvec2(256));
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] in a world of 2 km a plate of 4 cm casts its shadow, and nothing hides "
+		  "itself") {
+	MaskFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		make_wide_world(scene);
+		scene.light->properties["light_size"] = 0.15;
+		scene.light->properties["light_angular_distance"] = 6.0;
+		add_globe(scene, 0.1, { -0.4, -0.05, -0.2 });
+		const MaskResult frame = render_frame(
+				fixture, scene, { .size_px = glm::uvec2(128), .wants_surfaces = true });
+		const MaskResult exact = count_in_double(scene, frame);
+		CHECK(std::count_if(exact.visibility.begin(), exact.visibility.end(), [](float p_value) {
+			return p_value > 0.3f && p_value < 0.7f; // penumbra
+		}) > 10);
+		const MaskDifference difference = compare_masks(frame.visibility, exact);
+		CHECK(difference.mean < 2e-4);
+		CHECK(difference.maximum < 0.2);
 	}
 }

@@ -1,5 +1,6 @@
 #include "modules/shadow_planar/receiver_planes.h"
 #include "modules/shadows/tests/hard_reference.h"
+#include "modules/shadows/tests/wide_world.h"
 
 #include <doctest/doctest.h>
 
@@ -117,6 +118,16 @@ TEST_CASE("[GPU][ShadowPlanar] the mask does not depend on scale, nor on the dis
 				  render_planar(
 						  fixture, SmallScene(LightType::SPOT, 1.0, glm::dvec3(1e5, -1e5, 1e5)))) <
 			MAX_DIFFERENCE);
+}
+
+TEST_CASE("[GPU][ShadowPlanar] in a world of 2 km a plate of 4 cm casts the shadow of rays") {
+	MaskFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		make_wide_world(scene);
+		check_floor(scene, render_planar(fixture, scene));
+	}
 }
 
 TEST_CASE("[ShadowPlanar] only planes that face the light are found") {

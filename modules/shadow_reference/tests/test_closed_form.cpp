@@ -110,8 +110,9 @@ TEST_CASE("[Reference] a disc before a spot light hides the lens of two circles"
 					glm::cross(axis, side), occluder_radius);
 			std::vector<ReceiverPoint> points;
 			for (int i = 0; i < 24; ++i) {
-				points.push_back({ glm::vec3(light_position - (2.2 + 0.2 * i) * axis),
-						glm::vec3(axis), true });
+				points.push_back(
+						{ glm::vec3(light_position - (2.2 + 0.2 * i) * axis), glm::vec3(axis),
+								/*is_receiver=*/true, /*spread_radius_m=*/0.0f, OFFSET_M });
 			}
 			const VisibilityResult result = triangles.build().compute(points, { 24, 1 },
 					make_spot(light_position, radius), make_options(SAMPLE_COUNT));

@@ -48,6 +48,8 @@ struct TriangleBuilder : Triangles {
 	}
 };
 
+constexpr float OFFSET_M = 2e-4f; // of the receivers' rays from the ground
+
 /// Returns p_count x p_count receivers on a square of the ground around the origin.
 inline std::vector<ReceiverPoint> make_ground(uint32_t p_count, float p_half_size) {
 	std::vector<ReceiverPoint> points;
@@ -55,23 +57,21 @@ inline std::vector<ReceiverPoint> make_ground(uint32_t p_count, float p_half_siz
 		for (uint32_t x = 0; x < p_count; ++x) {
 			const glm::vec2 position =
 					(glm::vec2(x, y) + 0.5f) / static_cast<float>(p_count) * 2.0f - 1.0f;
-			points.push_back({ glm::vec3(position * p_half_size, 0.0f), glm::vec3(0, 0, 1), true });
+			points.push_back({ glm::vec3(position * p_half_size, 0.0f), glm::vec3(0, 0, 1),
+					/*is_receiver=*/true, /*spread_radius_m=*/0.0f, OFFSET_M });
 		}
 	}
 	return points;
 }
 
-constexpr float SCENE_SIZE_M = 4.0f;
-
 /// Returns the point at which the rays of a receiver start.
 inline glm::dvec3 get_start(const ReceiverPoint &p_point) {
 	return glm::dvec3(p_point.position) +
-			5e-5 /* RECEIVER_OFFSET */ * SCENE_SIZE_M * glm::dvec3(p_point.geometric_normal);
+			double(p_point.offset_m) * glm::dvec3(p_point.geometric_normal);
 }
 
 inline VisibilityOptions make_options(uint32_t p_sample_count) {
 	VisibilityOptions options;
-	options.scene_size_m = SCENE_SIZE_M;
 	options.sample_count = p_sample_count;
 	return options;
 }

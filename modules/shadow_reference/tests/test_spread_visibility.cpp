@@ -45,8 +45,9 @@ SpreadMean trace(const Triangles &p_body, const Triangles &p_casters, const glm:
 	const CasterScene casters(p_casters.positions, p_casters.indices, {});
 	const Triangles bodies[] = { p_body };
 	return SpreadVisibility(bodies, EVEN)
-			.compute(casters, p_light, { p_position, glm::vec3(0, 1, 0), true, p_radius_m },
-					OFFSET_M, SAMPLE_COUNT, HASH);
+			.compute(casters, p_light,
+					{ p_position, glm::vec3(0, 1, 0), true, p_radius_m, OFFSET_M }, SAMPLE_COUNT,
+					HASH);
 }
 
 double count_rays(const SpreadMean &p_mean) {
@@ -125,8 +126,9 @@ TEST_CASE("[SpreadVisibility] of several bodies only the receiver's own counts")
 	const Triangles bodies[] = { far_body, near_body };
 	const SpreadMean mean =
 			SpreadVisibility(bodies, EVEN)
-					.compute(casters, make_sun(), { glm::vec3(0), glm::vec3(0, 1, 0), true, 1.0f },
-							OFFSET_M, /*p_sample_count=*/1024, HASH);
+					.compute(casters, make_sun(),
+							{ glm::vec3(0), glm::vec3(0, 1, 0), true, 1.0f, OFFSET_M },
+							/*p_sample_count=*/1024, HASH);
 	CHECK(mean.compute_mean().x == 1);
 }
 
@@ -139,7 +141,7 @@ TEST_CASE("[SpreadVisibility] with a spread far wider than its body, a receiver 
 	VisibilityOptions options;
 	options.sample_count = 256;
 	options.spread = &spread;
-	const ReceiverPoint point = { glm::vec3(0), glm::vec3(0, 1, 0), true, 1e4f };
+	const ReceiverPoint point = { glm::vec3(0), glm::vec3(0, 1, 0), true, 1e4f, OFFSET_M };
 	Triangles roof;
 	add_square(roof, glm::vec3(0, 1, 0), 1);
 	const Triangles nothing;

@@ -1,6 +1,7 @@
 // Tests extreme lights, casters and receivers: the mask must still match ray tracing.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"
+#include "modules/shadows/tests/wide_world.h"
 
 using namespace gnomon;
 
@@ -74,6 +75,16 @@ TEST_CASE("[GPU][ShadowVolume] tiny and large distances in one scene still match
 		add_mesh(
 				r_scene.scene, "Mote", make_box_mesh("mote", glm::vec3(1e-5f)), { 0.2, 1.99, 0.1 });
 	});
+}
+
+TEST_CASE("[GPU][ShadowVolume] in a world of 2 km a plate of 4 cm casts the shadow of rays") {
+	MaskFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		make_wide_world(scene);
+		check_against_rays(scene, render_volumes(fixture, scene));
+	}
 }
 
 TEST_CASE("[GPU][ShadowVolume] casters across the light's near plane or next to the light match "

@@ -36,7 +36,6 @@ public:
 	HardDifference compare(const MaskResult &p_frame,
 			const std::function<bool(const SurfacePoint &)> &p_is_compared = {}) const {
 		HardDifference difference;
-		const double offset_m = 5e-5 * scene->scene_size_m; // RECEIVER_OFFSET
 		for (size_t index = 0; index < p_frame.visibility.size(); ++index) {
 			if (p_frame.receiver[index] <= 0) {
 				continue;
@@ -46,6 +45,7 @@ public:
 				continue;
 			}
 			const glm::dvec3 normal = glm::normalize(glm::dvec3(surface.geometric_normal));
+			const double offset_m = surface.receiver_offset_m;
 			const glm::dvec3 position_world =
 					scene->camera.position_world + glm::dvec3(surface.position) + normal * offset_m;
 			const bool is_hidden = is_light_hidden(position_world);

@@ -77,11 +77,13 @@ TEST_CASE("[LightLimits] a derived width is reported with the light size that it
 TEST_CASE("[LightLimits] a scene size that does not fit the casters is reported") {
 	SmallScene scene;
 	CHECK(describe_scene_size_problem(*scene.snap()).empty());
-	scene.scene.scene_size_m = 2000.0;
+	scene.scene.scene_size_m = 2000.0; // 1000 times the box
+	CHECK(describe_scene_size_problem(*scene.snap()).empty());
+	scene.scene.scene_size_m = 40000.0;
 	std::string problem = describe_scene_size_problem(*scene.snap());
 	CAPTURE(problem);
-	CHECK(holds(problem, "The scene's size is 2000 m"));
-	CHECK(holds(problem, "begin 0.1 m away"));
+	CHECK(holds(problem, "The scene's size is 40000 m"));
+	CHECK(holds(problem, "begin 0.04 m away"));
 	scene.scene.scene_size_m = 1e-4;
 	problem = describe_scene_size_problem(*scene.snap());
 	CHECK(holds(problem, "Set scene_size"));
