@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed command_line editor demo bundle stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
+PARTS="layers scenes build docs engine embed drivers command_line editor demo bundle stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
@@ -18,7 +18,7 @@ Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--jobs N] [--only PA
                build/ (1.2 GB, as root)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
-               command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
+               drivers command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
                also godot; with --full also sanitized_all threads tables editor_repeats large_meshes validator
                fuzz soak kills extremes; only when named: blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
@@ -267,6 +267,10 @@ part_engine() {
 part_embed() {
     run_part embed python3 tests/run_unittest.py tests/embed/test_embed.py
 }
+part_drivers() {
+    run_part drivers python3 tests/run_unittest.py tests/drivers/test_spirv.py tests/drivers/test_amd.py \
+        tests/drivers/test_llvmpipe.py tests/drivers/test_swiftshader.py
+}
 part_command_line() {
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_downloaded_models.py tests/command_line/test_animation.py \
@@ -388,7 +392,7 @@ if is_requested build; then
     part_begin=$SECONDS
     run_check build scons -Q -j"$jobs" || finish
 fi
-run_lanes "docs engine embed template stability demo bundle" "godot_set_up command_line removal" "editor"
+run_lanes "docs engine embed template stability demo bundle" "godot_set_up command_line removal" "editor drivers"
 # Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
     run_lanes blender

@@ -24,7 +24,7 @@ SHADERS = (".vert", ".frag", ".geom", ".comp", ".glsl")
 SOURCES = CPP + SHADERS + (".py", ".sh")
 PROJECT_FOLDERS = ("modules/", "shaders/", "tests/", "demo_project/", "doc/")
 # Where a technique may be named, apart from its own module and shader folder.
-TECHNIQUE_FOLDERS = ("tests/golden/", "tests/benchmark/", "tests/stability/", "tests/embed/", "demo_project/", "doc/")
+TECHNIQUE_FOLDERS = ("tests/golden/", "tests/benchmark/", "tests/stability/", "tests/embed/", "tests/drivers/", "demo_project/", "doc/")
 WINDOW_OWNERS = ("modules/desktop/", "modules/main/", "modules/editor/")
 WITHOUT_DEVICE = ("scene", "mesh_tools")
 BACKEND = re.compile(r"rendering_device_\w+")
