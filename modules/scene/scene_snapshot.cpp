@@ -2,7 +2,6 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/core/limits.h"
 #include "modules/scene/cut_levels.h"
 #include "modules/scene/cut_mesh.h"
 #include "modules/scene/mesh_pose.h"
@@ -177,8 +176,10 @@ void LightSnapshot::decide_settings(double p_scene_size_m) {
 	light_angular_distance_deg = read_float(*this, "light_angular_distance");
 	casts_shadow = std::get<bool>(read_property(*this, "shadow_enabled"));
 	technique_id = std::get<std::string>(read_property(*this, "shadow_technique"));
+	// May exceed the range of explicit widths: a scene of any size has the penumbra of its light's
+	// angle.
 	size_m = type == LightType::DIRECTIONAL
-			? std::min(get_disc_radius() * static_cast<float>(p_scene_size_m), float(MAX_LENGTH_M))
+			? get_disc_radius() * static_cast<float>(p_scene_size_m)
 			: light_size_m;
 	penumbra_outer_width_m = read_float(*this, "penumbra_outer_width");
 	penumbra_inner_width_m = read_float(*this, "penumbra_inner_width");

@@ -12,6 +12,18 @@ namespace {
 const double NEARER_TOLERANCE = 2e-5;
 const double DEPTH_RANGE_DIVISOR = 250.0;
 
+/// Returns the radius of the disc that is counted: the mean of the penumbra widths r and t, in
+/// metres; directional: as a tangent. Widths that are derived from the light's size are that size.
+double compute_disc_radius(const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
+	const double unit_m = p_light.type == LightType::DIRECTIONAL ? p_scene.scene_size_m : 1.0;
+	const double size = p_light.get_disc_radius();
+	const double outer =
+			p_light.is_outer_width_derived ? size : p_light.penumbra_outer_width_m / unit_m;
+	const double inner =
+			p_light.is_inner_width_derived ? size : p_light.penumbra_inner_width_m / unit_m;
+	return 0.5 * (outer + inner);
+}
+
 } // namespace
 
 void add_count_properties(PropertyList &r_list) {
@@ -49,10 +61,7 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
 	settings.budget = budget < 0 ? EDGE_COUNT_NO_BUDGET : static_cast<uint32_t>(budget);
-	const double widths_m =
-			0.5 * (double(p_light.penumbra_outer_width_m) + p_light.penumbra_inner_width_m);
-	settings.disc_radius =
-			p_light.type == LightType::DIRECTIONAL ? widths_m / p_scene.scene_size_m : widths_m;
+	settings.disc_radius = compute_disc_radius(p_light, p_scene);
 	return settings;
 }
 

@@ -1,6 +1,7 @@
 #include "modules/shadow_penumbra_fins/shadow_penumbra_fins.h"
 
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 #include "modules/shadow_penumbra_fins/layer_passes.h"
 #include "modules/shadows/mask.h"
 
@@ -36,8 +37,10 @@ void ShadowPenumbraFins::get_quality_settings(
 	const double size_m = p_light.size_m;
 	r_settings.push_back({ has_inner_half ? "r = R/4, t = R/2" : "r = R/6",
 			{ { "penumbra_outer_width", -1.0 }, { "penumbra_inner_width", -1.0 } } });
-	r_settings.push_back({ has_inner_half ? "r = t = R" : "r = R",
-			{ { "penumbra_outer_width", size_m }, { "penumbra_inner_width", size_m } } });
+	if (size_m <= MAX_LENGTH_M) { // else beyond the range of explicit widths
+		r_settings.push_back({ has_inner_half ? "r = t = R" : "r = R",
+				{ { "penumbra_outer_width", size_m }, { "penumbra_inner_width", size_m } } });
+	}
 }
 
 void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,

@@ -55,7 +55,8 @@ TEST_CASE("[SceneSnapshot] a directional light's disc radius is the tangent of h
 }
 
 TEST_CASE("[SceneSnapshot] derived widths of a directional light scale with the scene size") {
-	for (double size_m : { 4.0, 4000.0 }) {
+	for (double size_m :
+			{ 4.0, 4000.0, 4e6 }) { // the last: beyond the range of a width that is set
 		SmallScene small;
 		small.scene.scene_size_m = size_m;
 		small.light->type = LightType::DIRECTIONAL;

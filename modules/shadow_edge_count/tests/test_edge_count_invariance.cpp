@@ -1,6 +1,7 @@
 // The mask must not depend on the scale, position and rotation of the whole scene, or on the
 // borders between an omni light's views.
 
+#include "modules/core/error.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
 #include <doctest/doctest.h>
@@ -79,6 +80,33 @@ TEST_CASE("[GPU][EdgeCount] very small, very large and distant scenes have the s
 		const glm::dvec3 far(1e5, -3e4, 7e4);
 		CHECK(compute_mask_difference(expected, render(1.0, far)) < 1e-5);
 	}
+}
+
+TEST_CASE("[GPU][EdgeCount] a sun over 40 km is as wide as its angle, and set widths are metres") {
+	MaskFixture fixture;
+	const double S_M = 4e4;
+	const auto render = [&](const PropertyValues &p_properties) {
+		SmallScene scene(LightType::DIRECTIONAL, S_M / 4.0);
+		scene.light->properties = p_properties;
+		return render_frame(fixture, scene);
+	};
+	const MaskResult wide = render({ { "light_angular_distance", 60.0 } }); // widths of 23 km
+	SmallScene small(LightType::DIRECTIONAL);
+	small.light->properties = { { "light_angular_distance", 60.0 } };
+	CHECK(compute_mask_difference(wide, render_frame(fixture, small)) < 1e-4);
+	if (has_reference()) {
+		CHECK(compare_masks(wide.visibility, render_reference(fixture, small, glm::uvec2(96), 1024))
+						.mean < 0.003);
+	}
+	// R = (r + t) / 2; one width alone may be set.
+	const double tangent = std::tan(glm::radians(10.0));
+	const MaskResult both = render({ { "light_angular_distance", 60.0 },
+			{ "penumbra_outer_width", tangent * S_M }, { "penumbra_inner_width", tangent * S_M } });
+	CHECK(compute_mask_difference(both, render({ { "light_angular_distance", 20.0 } })) < 1e-4);
+	const MaskResult outer = render(
+			{ { "light_angular_distance", 20.0 }, { "penumbra_outer_width", tangent * S_M } });
+	CHECK(compute_mask_difference(both, outer) < 1e-4);
+	CHECK_THROWS_AS(render({ { "penumbra_outer_width", 2e4 } }), Error); // above the range
 }
 
 TEST_CASE("[GPU][EdgeCount] a scene rotated as a whole has the same mask") {

@@ -123,6 +123,21 @@ TEST_CASE("[GPU][Techniques] very small, very large and distant scenes have near
 	});
 }
 
+TEST_CASE("[GPU][Techniques] a wide sun over 40 km has the penumbra that it has over 4 m") {
+	const double MAX_MEAN_DIFFERENCE = 5e-3; // only rounding may differ
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		CAPTURE(p_info.id);
+		const auto render = [&](double p_scale) {
+			SmallScene scene(LightType::DIRECTIONAL, p_scale);
+			use_cheap_settings(*scene.light);
+			scene.light->properties["light_angular_distance"] = 60.0; // derived widths: 23 km
+			return fixture.render_mask(scene, p_info.id);
+		};
+		CHECK(compute_mask_difference(render(1.0), render(1e4)) < MAX_MEAN_DIFFERENCE);
+	});
+}
+
 namespace {
 
 /// An extreme or broken scene.
