@@ -8,7 +8,9 @@ namespace {
 
 /// An edge counts only if it is nearer to the light than the receiver by this fraction of the
 /// receiver's distance to the light (directional: of max(S, D / 250), D the view's depth in
-/// metres). Closer edges are those of the receiver's own surface, or due to rounding.
+/// metres), or less in proportion to the distance by which the receiver is moved off its surface
+/// (compute_receiver_offset_m). Closer edges are those of the receiver's own surface, or due to
+/// rounding.
 const double NEARER_TOLERANCE = 2e-5;
 const double DEPTH_RANGE_DIVISOR = 250.0;
 

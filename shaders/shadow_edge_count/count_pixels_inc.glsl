@@ -31,6 +31,7 @@ struct CountPoint {
 	vec3 position; // light space
 	uint view;	   // light view that contains it
 	vec3 warped;   // x', y' and w in the view
+	float offset_fraction; // how far it was moved off its surface, as a fraction of the maximum
 };
 
 /// The pixel must have a receiver, see is_receiver_pixel.
@@ -38,6 +39,7 @@ CountPoint load_count_point(ivec2 p_pixel) {
 	const ReceiverPixel pixel = load_receiver(frame_copy, p_pixel);
 	CountPoint point;
 	point.view = VIEW_COUNT == 1u ? 0u : find_view_of_direction((axes_from_camera * vec4(pixel.position, 1.0)).xyz);
+	point.offset_fraction = pixel.offset_m / frame_copy.max_receiver_offset_m;
 	point.position = (light_from_camera * vec4(pixel.position, 1.0)).xyz;
 	const CountViewConstants view = load_count_view(point.view);
 	const mat3 light_from_view = mat3(view.axis_x.xyz, view.axis_y.xyz, view.axis_z.xyz);

@@ -423,7 +423,7 @@ CountSubject load_subject(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sort
 	CountSubject subject;
 	subject.pixel = ivec2(find_block_corner(p_block) + p_pixel);
 	subject.is_receiver = is_in_image(subject.pixel) && is_receiver_pixel(subject.pixel);
-	subject.point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0));
+	subject.point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), 0.0);
 	if (subject.is_receiver) {
 		subject.point = load_count_point(subject.pixel);
 	}
@@ -431,6 +431,8 @@ CountSubject load_subject(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sort
 	subject.part = is_sorted ? p_sorted_part : subject.point.view;
 	const float distance = subject.is_counted ? load_part_distance(p_block, p_parts, subject.part) : 0.0;
 	subject.receiver = make_count_receiver(light, subject.point.position, distance);
+	// Edges of the receiver's own surface are about as far below it as it was moved.
+	subject.receiver.min_d *= subject.point.offset_fraction;
 	return subject;
 }
 

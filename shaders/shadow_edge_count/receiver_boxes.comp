@@ -35,7 +35,7 @@ const uint NO_VIEW = 0xffffffffu;
 CountPoint load_point(uint p_index, inout bool r_is_lit) {
 	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * uint(EDGE_COUNT_BLOCK_PX) +
 			find_pixel_in_block(p_index));
-	CountPoint point = CountPoint(vec3(0.0), NO_VIEW, vec3(0.0));
+	CountPoint point = CountPoint(vec3(0.0), NO_VIEW, vec3(0.0), 0.0);
 	if (p_index < PIXEL_COUNT && is_in_image(pixel) && is_receiver_pixel(pixel)) {
 		const CountPoint loaded = load_count_point(pixel);
 		if (may_count_at(loaded)) {

@@ -194,7 +194,8 @@ struct SHARED_ALIGN CountLightConstants {
 	float scene_size_m;		// S, the size of the scene
 	float nearer_tolerance; // an edge counts only where it is nearer to the light than the receiver
 							// by this fraction of the receiver's distance; directional: by this
-							// many metres
+							// many metres; less for receivers near the camera, in proportion to
+							// compute_receiver_offset_m
 	uvec2 block_count;		// columns and rows of blocks in the image
 	uvec2 tile_count;		// columns and rows of tiles
 	uint view_count;

@@ -3,6 +3,7 @@
 #include "modules/core/text.h"
 #include "modules/shadow_edge_count/shadow_edge_count.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
+#include "modules/shadows/camera_view.h"
 #include "modules/shadows/light_properties.h"
 #include "modules/shadows/tests/mask_fixture.h"
 
@@ -76,7 +77,10 @@ public:
 		const glm::dvec3 normal = glm::normalize(glm::dvec3(p_surface.geometric_normal));
 		const glm::dvec3 position_world = camera_position_world + glm::dvec3(p_surface.position) +
 				normal * double(p_surface.receiver_offset_m);
-		return compute_count_visibility(space,
+		CountSpace own_space = space;
+		own_space.nearer_tolerance *=
+				p_surface.receiver_offset_m / (MAX_RECEIVER_OFFSET * space.scene_size_m);
+		return compute_count_visibility(own_space,
 				glm::dvec3(light_from_world * glm::dvec4(position_world, 1.0)), casters.edges,
 				casters.faces, masks);
 	}
