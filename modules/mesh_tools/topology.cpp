@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/mesh_tools/edge_pairing.h"
+#include "modules/mesh_tools/flat_regions.h"
 #include "modules/mesh_tools/mesh_parts.h"
 #include "modules/scene/mesh_rig.h"
 
@@ -23,8 +24,6 @@ constexpr uint32_t NO_HALF_EDGE = 0xffffffffu;
 /// Triangles with a smaller sine between two sides have no area. It exceeds the rounding error of
 /// the cross product in double, and is below that of any real sliver.
 constexpr double ZERO_AREA_SINE = 8 * DBL_EPSILON;
-/// Largest sine between coplanar faces: about the error of a flat quad that was rotated in float.
-constexpr double COPLANAR_SINE = 1e-6;
 /// A sum of normals that is shorter than this, relative to the sum of their lengths, is mostly
 /// rounding error and has no useful direction.
 constexpr double ZERO_NORMAL_RATIO = 1e-6;
@@ -215,11 +214,6 @@ uint32_t count_duplicates(
 	return static_cast<uint32_t>(opposites.end() - unique_end);
 }
 
-bool are_coplanar(const glm::dvec3 &p_normal_0, const glm::dvec3 &p_normal_1) {
-	return glm::dot(p_normal_0, p_normal_1) > 0.5 && // not folded back
-			glm::length(glm::cross(p_normal_0, p_normal_1)) <= COPLANAR_SINE;
-}
-
 /// Builds edges from pairs of half edges; also records each half edge's partner.
 class EdgeBuilder {
 public:
@@ -269,10 +263,8 @@ private:
 			edge.face1 = p_half1 / 3;
 			edge.is_inconsistent = half_edges.get_start(p_half1) == edge.a;
 			topology.counts.inconsistent_edge_count += edge.is_inconsistent ? 1 : 0;
-			const glm::dvec3 normal1 = unit_normals[edge.face1];
-			edge.is_coplanar = stays_coplanar(edge) &&
-					are_coplanar(
-							unit_normals[edge.face0], edge.is_inconsistent ? -normal1 : normal1);
+			edge.is_coplanar = !edge.is_inconsistent && stays_coplanar(edge) &&
+					are_coplanar(unit_normals[edge.face0], unit_normals[edge.face1]);
 			partners[p_half0] = p_half1;
 			partners[p_half1] = p_half0;
 		}
@@ -349,6 +341,7 @@ MeshTopology build_topology(const Mesh &p_mesh) {
 		}
 	}
 	builder.write_adjacency();
+	find_flat_regions(unit_normals, topology);
 	find_mesh_parts(topology);
 
 	const TopologyCounts &counts = topology.counts;

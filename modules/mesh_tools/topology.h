@@ -37,9 +37,10 @@ struct MeshEdge {
 	uint32_t face1 = NO_FACE;
 	/// Both faces run a -> b. Code that needs one orientation negates face1's plane for this edge.
 	bool is_inconsistent = false;
-	/// Both faces are in one plane (within 1e-6 rad, computed in double), so that the edge is not a
-	/// silhouette for any viewpoint off that plane. Never set for a boundary, a fold, a zero-area
-	/// face or an edge at which a pose may bend the mesh.
+	/// Both faces are in one flat region (MeshTopology::plane_faces). The edge is then no
+	/// silhouette for any viewpoint, provided that both faces use the region's plane. Never set for
+	/// a boundary, a fold, a zero-area face, an inconsistent edge or one at which a pose may bend
+	/// the mesh.
 	bool is_coplanar = false;
 };
 
@@ -89,6 +90,12 @@ struct MeshTopology {
 	std::vector<uint32_t> source_triangles; // per face the index of the mesh's triangle
 	std::vector<MeshEdge> edges;			// ordered by their vertices
 	std::vector<FacePlane> planes;			// one per face
+	/// Flat regions: faces that are connected by edges at which both are in one plane (within 1e-6
+	/// rad, computed in double). Per face, the face whose plane its region uses: the one with the
+	/// largest height above its longest side, whose plane is the most precise in float. The own
+	/// plane of a sliver of the region is only rounding error after a transformation in float, so
+	/// that code which computes planes in float and skips coplanar edges must use this one.
+	std::vector<uint32_t> plane_faces;
 	/// Normalized area-weighted sums of the face normals; zero where they cancel out, so that there
 	/// is no direction for extrusion.
 	std::vector<glm::vec3> normals_node; // one per welded vertex

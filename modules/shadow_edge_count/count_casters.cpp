@@ -172,7 +172,7 @@ bool add_caster(const ShadowTechnique::Inputs &p_inputs, const CasterMesh &p_lev
 		CountCaster p_caster, CountCasters &r_casters) {
 	CountMeshPools &pools = p_inputs.meshes.get_shared<CountMeshPools>();
 	const CountGpuMesh &gpu = pools.get(p_inputs.meshes, p_level.mesh);
-	p_caster.face_count = gpu.faces.get_count();
+	p_caster.face_count = gpu.faces.get_count() / EDGE_COUNT_MESH_FACE_ITEMS;
 	if (p_caster.face_count == 0) {
 		return false;
 	}

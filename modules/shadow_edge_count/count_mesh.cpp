@@ -59,8 +59,10 @@ CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_s
 		const uint32_t source_part = source ? parts.part_of_triangle.at(p_source.triangles.at(
 													  p_topology.source_triangles[face]))
 											: 0u;
+		const uint32_t *plane = &p_topology.triangles[3 * size_t(p_topology.plane_faces[face])];
 		mesh.faces.push_back({ corners[0], corners[1], corners[2],
-				(p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u) | source_part });
+				(p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u) | source_part,
+				plane[0], plane[1], plane[2], /*padding=*/0 });
 	}
 	for (const MeshEdge &edge : sort_edges(p_topology)) {
 		if (!edge.is_coplanar) {

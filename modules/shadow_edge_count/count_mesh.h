@@ -15,7 +15,7 @@ namespace gnomon {
 
 /// A mesh in the format that the passes that find faces and edges read. Vertices are welded.
 struct CountMesh {
-	/// The edges that can be silhouettes: all but those between coplanar faces. Sorted for spatial
+	/// The edges that can be silhouettes: all but those inside a flat region. Sorted for spatial
 	/// locality, so that bundles of consecutive edges are small, see CountEdgeBundle.
 	std::vector<shader::CountMeshEdge> edges;
 	std::vector<shader::CountMeshFace> faces;

@@ -45,6 +45,13 @@ vec2 find_distances(CountCasterRecord p_caster, uint p_source_part) {
 	return vec2(find_switch_distance(part, p_caster.first_half_width), find_switch_distance(part, p_caster.end_half_width));
 }
 
+CountMeshFace load_mesh_face(CountCasterRecord p_caster, uint p_index) {
+	const uint first = p_caster.first_mesh_face + uint(EDGE_COUNT_MESH_FACE_ITEMS) * p_index;
+	const uvec4 corners = FETCH_UVEC4(mesh_faces_buffer, first);
+	const uvec4 plane = FETCH_UVEC4(mesh_faces_buffer, first + 1u);
+	return CountMeshFace(corners.x, corners.y, corners.z, corners.w, plane.x, plane.y, plane.z, plane.w);
+}
+
 void main() {
 	const CountWorkGroup group = find_work_group();
 	const uint index = group.index * uint(FIND_GROUP_SIZE) + gl_LocalInvocationID.x;
@@ -52,12 +59,12 @@ void main() {
 		return;
 	}
 	const CountCasterRecord caster = load_caster(find_caster(group, /*p_is_word=*/false, index));
-	const uvec4 words = FETCH_UVEC4(mesh_faces_buffer, caster.first_mesh_face + (index - caster.first_face));
-	const CountMeshFace face = CountMeshFace(words.x, words.y, words.z, words.w);
+	const CountMeshFace face = load_mesh_face(caster, index - caster.first_face);
 	const vec3 a = load_light_position(caster, face.a);
 	const vec3 b = load_light_position(caster, face.b);
 	const vec3 c = load_light_position(caster, face.c);
-	const vec4 plane = make_count_plane(a, b, c);
+	const vec4 plane = make_count_plane(load_light_position(caster, face.plane_a),
+			load_light_position(caster, face.plane_b), load_light_position(caster, face.plane_c));
 	const bool is_mirrored = (caster.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
 	planes[index] = is_mirrored ? -plane : plane;
 	const vec2 distances = find_distances(caster, face.kind & EDGE_COUNT_SOURCE_PART_MASK);

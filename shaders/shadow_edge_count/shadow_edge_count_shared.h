@@ -86,15 +86,23 @@ struct SHARED_ALIGN CountMeshEdge {
 };
 SHARED_SIZE(CountMeshEdge, 16);
 
-/// A face of welded vertices.
+/// A face of welded vertices. Fetched as EDGE_COUNT_MESH_FACE_ITEMS x RGBA32_UINT.
 struct SHARED_ALIGN CountMeshFace {
 	uint a;
 	uint b;
 	uint c;
 	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED; in the low bits the index of its source part: the
 			   // part to which it belonged before the alpha test cut holes into the mesh
+	// The vertices of the face whose plane it uses, see MeshTopology::plane_faces. All faces of a
+	// flat region get the same bits: no point is in front of one and behind another, so that
+	// silhouettes are closed without the edges between them.
+	uint plane_a;
+	uint plane_b;
+	uint plane_c;
+	uint padding;
 };
-SHARED_SIZE(CountMeshFace, 16);
+SHARED_SIZE(CountMeshFace, 32);
+#define EDGE_COUNT_MESH_FACE_ITEMS 2
 
 /// One caster. Its first indices are in buffers that all casters of the light share
 /// (CountFaceRecord, and words of EDGE_COUNT_EDGES_PER_WORD edges) and in those that all meshes
@@ -105,7 +113,7 @@ struct SHARED_ALIGN CountCasterRecord {
 	uint first_word;
 	uint edge_count;
 	uint flags; // EDGE_COUNT_CASTER_*
-	uint first_mesh_face;
+	uint first_mesh_face; // its first item
 	uint first_mesh_edge;
 	uint first_vertex;
 	uint first_source_part;

@@ -236,6 +236,13 @@ void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &
 		face.is_double_sided = p_topology.is_double_sided(index);
 		faces.push_back(face);
 	}
+	std::vector<glm::dvec4> planes;
+	for (const uint32_t plane_face : p_topology.plane_faces) {
+		planes.push_back(faces[first + plane_face].plane);
+	}
+	for (size_t index = 0; index < planes.size(); ++index) {
+		faces[first + index].plane = planes[index];
+	}
 	for (const MeshEdge &mesh_edge : p_topology.edges) {
 		CountEdge edge;
 		edge.is_double_sided = p_topology.is_double_sided(mesh_edge.face0);

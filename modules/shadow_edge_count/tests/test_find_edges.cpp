@@ -44,7 +44,8 @@ struct FindInputs {
 				(edge_count + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
 		caster.record = { glm::mat4(p_caster.light_from_node), casters.face_count,
 			casters.word_count, edge_count, is_mirrored ? EDGE_COUNT_CASTER_MIRRORED : 0u,
-			uint32_t(faces.size()), uint32_t(edges.size()), uint32_t(points.size()) };
+			uint32_t(EDGE_COUNT_MESH_FACE_ITEMS * faces.size()), uint32_t(edges.size()),
+			uint32_t(points.size()) };
 		casters.face_count += caster.face_count;
 		casters.edge_count += edge_count;
 		casters.word_count += caster.word_count;
