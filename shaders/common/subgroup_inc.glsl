@@ -30,7 +30,12 @@ vec2 combine_sums(vec2 p_one, vec2 p_other) {
 	return p_one + p_other;
 }
 
+uint combine_sums(uint p_one, uint p_other) {
+	return p_one + p_other;
+}
+
 SUBGROUP_REDUCTION(subgroup_add, vec2, combine_sums, subgroupAdd)
+SUBGROUP_REDUCTION(subgroup_add, uint, combine_sums, subgroupAdd)
 SUBGROUP_REDUCTION(subgroup_min, float, min, subgroupMin)
 SUBGROUP_REDUCTION(subgroup_min, vec2, min, subgroupMin)
 SUBGROUP_REDUCTION(subgroup_min, uint, min, subgroupMin)

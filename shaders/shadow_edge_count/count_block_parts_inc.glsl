@@ -15,10 +15,10 @@ layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
 	uint status[]; // EDGE_COUNT_STATUS_*
 };
 
-/// Writes what note_fault noted. Called once per invocation, at its end.
-void report_faults() {
-	if (count_faults != 0u) {
-		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], count_faults << push.kind);
+/// Writes faults that note_fault noted, in the invocations with p_reports.
+void report_faults(uint p_faults, bool p_reports) {
+	if (p_reports) {
+		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], p_faults << push.kind);
 	}
 }
 

@@ -537,6 +537,14 @@ CountPixel make_count_pixel(CountSubject p_subject, CountState p_state, CountPro
 			p_progress.waits);
 }
 
+/// Writes the faults of the subgroup. One invocation does: drivers insert subgroup operations around other atomics, and
+/// would do so in divergent flow.
+void report_subgroup_faults() {
+	const uint faults = subgroup_or(count_faults);
+	const bool is_elected = subgroupElect();
+	report_faults(faults, faults != 0u && is_elected);
+}
+
 /// Each invocation counts the edges of one pixel and computes its visibility. For the parameters see load_subject.
 CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
 	const CountSubject subject = load_subject(p_block, p_parts, p_pixel, p_sorted_part);
@@ -544,7 +552,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	CountProgress progress = CountProgress(subject.is_counted, 0u);
 	uint edge_count = 0u;
 	count_edges(p_block, p_parts, subject, state, progress, edge_count);
-	report_faults();
+	report_subgroup_faults();
 	return make_count_pixel(subject, state, progress, edge_count);
 }
 

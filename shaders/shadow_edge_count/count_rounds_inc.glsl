@@ -129,7 +129,8 @@ bool count_slot(uint p_slot, uint p_item) {
 	CountProgress progress = CountProgress(subject.is_counted, 0u);
 	if (!is_new) {
 		state = load_count_state(p_slot);
-		progress = CountProgress(load_state(p_slot, 0u) != 0u, load_state(p_slot, 1u));
+		// All invocations saved the same next edge. Broadcast, so that the compiler knows that loops over it are uniform.
+		progress = CountProgress(load_state(p_slot, 0u) != 0u, subgroupBroadcastFirst(load_state(p_slot, 1u)));
 	}
 	uint edge_count = 0u;
 	count_edges(block, parts, subject, state, progress, edge_count);
@@ -165,7 +166,7 @@ void main() {
 		next_round_slots[extend_next_dispatch()] = uvec2(slot.x, item);
 	}
 	note_fault(is_last && is_next, EDGE_COUNT_FAULT_LOOP);
-	report_faults();
+	report_subgroup_faults();
 }
 
 #endif

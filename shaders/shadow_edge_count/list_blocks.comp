@@ -56,6 +56,9 @@ const uint NO_BLOCK = 0xffffffffu;
 // need more than this limit gets no lists. The margin covers the iterations between two checks.
 const uint MAX_ITERATIONS = 40000u;
 uint iteration_count = 0u;
+// Of the parts that the invocation wrote, for the status buffer.
+uint listed_edge_count = 0u;
+uint longest_list = 0u;
 // Smooth blocks cannot continue in a further pass (EDGE_COUNT_MAX_ITERATIONS): with more edges, a block is not smooth.
 const uint MAX_SMOOTH_EDGES = uint(EDGE_COUNT_MAX_ITERATIONS) / 2u; // an edge needs less than 1.5 iterations
 
@@ -491,10 +494,8 @@ void list_view(uvec2 p_tile, uint p_view) {
 			chains[first_word + uint(EDGE_COUNT_CHAIN_FIRST)] = chain.first;
 			chains[first_word + uint(EDGE_COUNT_CHAIN_COUNT)] = chain.edge_count;
 			atomicAdd(block_edge_counts[i % BLOCKS_PER_TILE], chain.edge_count);
-			if (chain.edge_count > 0u) {
-				atomicAdd(status[EDGE_COUNT_STATUS_LISTED_EDGES], chain.edge_count);
-				atomicMax(status[EDGE_COUNT_STATUS_LONGEST_LIST], chain.edge_count);
-			}
+			listed_edge_count += chain.edge_count;
+			longest_list = max(longest_list, chain.edge_count);
 			// Chunks are allocated in increasing order: if the last one fits, all do.
 			if (chain.edge_count > 0u && chain.chunk >= light.chunk_capacity) {
 				blocks_have_room[i % BLOCKS_PER_TILE] = 0u;
@@ -506,6 +507,19 @@ void list_view(uvec2 p_tile, uint p_view) {
 	}
 	sync_subgroup_memory();
 	check_faces_of_view(p_tile, p_view, parts);
+}
+
+/// Adds the tile's counts and faults to the status buffer.
+void write_status() {
+	const uint listed = subgroup_add(listed_edge_count);
+	const uint longest = subgroup_max(longest_list);
+	const uint faults = subgroup_or(count_faults);
+	const bool is_elected = subgroupElect();
+	if (is_elected && (listed | faults) != 0u) {
+		atomicAdd(status[EDGE_COUNT_STATUS_LISTED_EDGES], listed);
+		atomicMax(status[EDGE_COUNT_STATUS_LONGEST_LIST], longest);
+		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], faults << EDGE_COUNT_PASS_LIST_BLOCKS);
+	}
 }
 
 /// Adds a block to the list of its kind. The order is arbitrary and does not affect the mask.
@@ -557,7 +571,5 @@ void main() {
 			add_block(block | (is_dark ? EDGE_COUNT_BLOCK_IS_DARK : 0u), kind);
 		}
 	}
-	if (count_faults != 0u) {
-		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], count_faults << EDGE_COUNT_PASS_LIST_BLOCKS);
-	}
+	write_status();
 }

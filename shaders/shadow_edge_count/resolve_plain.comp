@@ -28,5 +28,5 @@ void main() {
 				: 0.0;
 	}
 	imageStore(mask_image, pixel, vec4(visibility));
-	report_faults();
+	report_faults(count_faults, count_faults != 0u);
 }

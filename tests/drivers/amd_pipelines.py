@@ -43,8 +43,8 @@ SPILLING = ("shadow_edge_count/resolve", "shadow_edge_count/debug")
 # of the ids that it has.
 SUBGROUP = "subgroup"  # the size that the engine requests
 CONSTANTS = {
-    # 0 subgroup size; 1 views: 6 of an omni light, else 1; 2 blocks without lists; 3 directional
-    "shadow_edge_count": {0: (SUBGROUP,), 1: (1, 6), 2: (0, 1), 3: (0, 1)},
+    # 0 subgroup size; 1 views: 6 of an omni light, else 1; 2 blocks without lists; 3 directional; 4 invocations of a work group
+    "shadow_edge_count": {0: (SUBGROUP,), 1: (1, 6), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,)},
     "shadow_map/resolve": {0: (0, 3)},  # width of the filter
     # 1 inner fins; 2 layers; 3 curve; 4 visibility begins at 0
     "shadow_penumbra_fins": {1: (0, 1), 2: (3,), 3: (0,), 4: (0, 1)},
@@ -55,6 +55,7 @@ CONSTANTS = {
 IMPOSSIBLE = (
     ("shadow_edge_count/", {1: 6, 3: 1}),
     ("shadow_edge_count/resolve_smooth", {2: 1}),
+    ("shadow_edge_count/resolve_unfinished", {2: 0}),
 )
 # Columns of the table, and the names of RADV's statistics.
 STATISTICS = {
