@@ -106,7 +106,7 @@ void add_caster_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 	p_bindings.push_back(PassBinding::read(FIND_BINDING_GROUPS, p_buffers.work_groups));
 	const shader::CountFindPush push = { p_work.first_group, p_work.group_count, p_work.item_count,
 		p_passes.is_directional ? 1u : 0u, static_cast<float>(p_passes.casters.disc_radius),
-		p_passes.casters.side_tolerance, /*padding0=*/0, /*padding1=*/0 };
+		p_passes.casters.side_tolerance, p_passes.capacities.edge_count, /*padding=*/0 };
 	const uint32_t columns = std::min(p_work.group_count, MAX_GROUPS_PER_ROW);
 	const uint32_t rows = (p_work.group_count + columns - 1) / columns;
 	add_compute_pass(r_graph, p_name,
@@ -139,7 +139,8 @@ void add_edge_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 			p_device.get_compute_pipeline({ "bound edges",
 					choose_fetching_shader(p_device, "shadow_edge_count/bound_edges.comp"),
 					/*constants=*/{} }),
-			{ PassBinding::read(FIND_BINDING_EDGES, buffers.edges),
+			{ PassBinding::constants(FIND_BINDING_LIGHT, p_passes.constants),
+					PassBinding::read(FIND_BINDING_EDGES, buffers.edges),
 					PassBinding::read(FIND_BINDING_FACES, buffers.faces),
 					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
 					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },

@@ -77,11 +77,15 @@ void ItemPool::submit(std::span<const Pending> p_pending, uint64_t p_size_bytes)
 					.size_bytes = p_size_bytes,
 					.usage = BufferUsage::COPY_SOURCE,
 					.memory = MemoryKind::UPLOAD }));
+	// All bytes first: Godot's device takes them when commands begin.
 	uint8_t *mapped = device.get_mapped(staging.get());
+	for (const Pending &added : p_pending) {
+		std::memcpy(mapped, added.bytes.data(), added.bytes.size());
+		mapped += added.bytes.size();
+	}
 	CommandList &commands = device.begin_commands();
 	uint64_t offset_bytes = 0;
 	for (const Pending &added : p_pending) {
-		std::memcpy(mapped + offset_bytes, added.bytes.data(), added.bytes.size());
 		commands.copy_buffer(staging.get(), buffer.get(), added.bytes.size(), offset_bytes,
 				uint64_t(added.first) * ITEM_BYTES);
 		offset_bytes += added.bytes.size();

@@ -9,6 +9,9 @@
 layout(local_size_x = 64) in;
 FETCHED_UVEC4S(FIND_BINDING_EDGES, edges_buffer); // CountEdgeRecord
 FETCHED_UVEC4S(FIND_BINDING_FACES, faces_buffer); // CountFaceRecord
+layout(std140, set = 0, binding = FIND_BINDING_LIGHT) restrict readonly buffer Light {
+	CountLightConstants light;
+};
 layout(std430, set = 0, binding = FIND_BINDING_TOTALS) readonly buffer Totals {
 	uint totals[];
 };
@@ -23,7 +26,7 @@ void main() {
 	const float CENTER_ROUNDING = 1e-6;
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle = gl_GlobalInvocationID.x;
-	const uint edge_count = min(totals[EDGE_COUNT_TOTAL_EDGES], uint(bundles.length()) * size);
+	const uint edge_count = min(totals[EDGE_COUNT_TOTAL_EDGES], light.max_edge_count);
 	if (bundle * size >= edge_count) {
 		return;
 	}

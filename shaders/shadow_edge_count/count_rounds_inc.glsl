@@ -98,6 +98,12 @@ void save_count_state(uint p_slot, CountState p_state, CountProgress p_progress)
 #endif
 }
 
+/// Capacity of unfinished_items: all subgroups of the image. (Godot does not know the length of an array.)
+uint find_max_item_count() {
+	return light.block_count.x * light.block_count.y *
+			(uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) / SUBGROUP_SIZE);
+}
+
 /// The next subgroup that waits for a slot, with EDGE_COUNT_UNFINISHED_IS_NEW. r_is_any: there was one. Called where all
 /// invocations are active.
 uint take_item(bool p_takes, out bool r_is_any) {
@@ -108,7 +114,7 @@ uint take_item(bool p_takes, out bool r_is_any) {
 	}
 	index = subgroupBroadcastFirst(index);
 	r_is_any = p_takes &&
-			index < min(unfinished_counts[EDGE_COUNT_UNFINISHED_ADDED], uint(unfinished_items.length()));
+			index < min(unfinished_counts[EDGE_COUNT_UNFINISHED_ADDED], find_max_item_count());
 	return (r_is_any ? unfinished_items[index] : 0u) | EDGE_COUNT_UNFINISHED_IS_NEW;
 }
 

@@ -46,8 +46,8 @@ void main() {
 	}
 	const CountCasterRecord caster = load_caster(find_caster(group, /*p_is_word=*/true, word_index));
 	const uint first_edge = (word_index - caster.first_word) * uint(EDGE_COUNT_EDGES_PER_WORD);
-	// The length limits what other passes counted.
-	for (uint bits = load_list_word(word_index); bits != 0u && index < uint(edges.length()); bits &= bits - 1u) {
+	// The capacity limits what other passes counted. (Godot does not know the length of an array.)
+	for (uint bits = load_list_word(word_index); bits != 0u && index < push.max_edge_count; bits &= bits - 1u) {
 		edges[index] = make_record(caster, load_mesh_edge(caster, first_edge + uint(findLSB(bits))));
 		++index;
 	}

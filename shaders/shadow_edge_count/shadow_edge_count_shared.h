@@ -148,8 +148,8 @@ struct SHARED_ALIGN CountFindPush {
 	uint is_directional;
 	float disc_radius;	  // R in metres; directional: a tangent
 	float side_tolerance; // p_tolerance of count_find_light_side
-	uint padding0;
-	uint padding1;
+	uint max_edge_count;  // capacity of the light's list of edges
+	uint padding;
 };
 SHARED_SIZE(CountFindPush, 32);
 #define EDGE_COUNT_SOURCE_PART_MASK 0x00ffffffu

@@ -9,12 +9,13 @@ layout(std430, set = 0, binding = 0) buffer Words {
 layout(push_constant) uniform Push {
 	uint value;
 	uint makes_cycles;
+	uint word_count;
 };
 
 void main() {
 	const uint index = gl_GlobalInvocationID.x;
 	const uint word = makes_cycles != 0u ? 2u * index + 1u : index;
-	if (word < uint(words.length())) {
+	if (word < word_count) {
 		words[word] = makes_cycles != 0u ? index + 1u : value;
 	}
 }

@@ -27,12 +27,14 @@ protected:
 		if (!target) {
 			return;
 		}
-		const uint32_t push[] = { 0xfffffff0u, damage == Damage::CYCLIC_FACES ? 1u : 0u };
-		const uint64_t word_count = r_graph.get_desc(target).size_bytes / sizeof(uint32_t);
+		const auto word_count =
+				static_cast<uint32_t>(r_graph.get_desc(target).size_bytes / sizeof(uint32_t));
+		const uint32_t push[] = { 0xfffffff0u, damage == Damage::CYCLIC_FACES ? 1u : 0u,
+			word_count };
 		add_compute_pass(r_graph, "damage lists",
 				device->get_compute_pipeline({ "damage lists", "tests/damage_words.comp" }),
 				{ PassBinding::write(0, target, PassBuilder::Content::UPDATE) },
-				{ static_cast<uint32_t>(word_count), 1, 1 },
+				{ word_count, 1, 1 },
 				{ reinterpret_cast<const uint8_t *>(push), sizeof(push) });
 	}
 

@@ -140,7 +140,7 @@ Found find_edges(
 				p_space.is_directional ? 1e-6f : float(2.5e-7 * p_space.scene_size_m);
 		commands.push_constants(shader::CountFindPush{ /*first_group=*/0, p_group_count,
 				p_item_count, p_space.is_directional ? 1u : 0u, float(p_space.disc_radius),
-				side_tolerance });
+				side_tolerance, inputs.casters.edge_count });
 		// More work groups than needed, in two rows: the others do nothing.
 		commands.dispatch({ p_group_count / 2 + 1, 2, 1 });
 	};
