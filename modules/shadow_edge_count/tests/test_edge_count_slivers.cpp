@@ -20,8 +20,7 @@ TEST_CASE("[GPU][EdgeCount] slivers in a mesh do not change its mask") {
 				glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(0.3, 1.0, -0.2));
 		const auto render = [&](const std::shared_ptr<const Mesh> &p_mesh) {
 			scene.box->surfaces[0].mesh = p_mesh;
-			return render_frame(
-					fixture, scene, { .size_px = glm::uvec2(72), .wants_surfaces = true });
+			return render_frame(fixture, scene, { .size_px = glm::uvec2(72) });
 		};
 		const MaskResult clean = render(box);
 		for (const double height : { 0.0, 1e-9, 1e-7, 1e-5 }) {
@@ -31,21 +30,7 @@ TEST_CASE("[GPU][EdgeCount] slivers in a mesh do not change its mask") {
 			test_meshes::add_slivers(12, height, random, positions, indices);
 			const MaskResult with_slivers =
 					render(make_mesh("box with slivers", positions, {}, indices));
-			// A sliver that is drawn in a pixel makes another receiver there, with its own normal, and
-			// through a crack at a T-vertex the camera sees what is behind.
-			MaskResult same = clean;
-			size_t drawn_count = 0;
-			for (size_t index = 0; index < same.receiver.size(); ++index) {
-				const SurfacePoint &other = with_slivers.surfaces[index];
-				if (glm::distance(clean.surfaces[index].geometric_normal, other.geometric_normal) >
-								0.01f ||
-						glm::distance(clean.surfaces[index].position, other.position) > 0.01f) {
-					same.receiver[index] = 0.0f;
-					++drawn_count;
-				}
-			}
-			CHECK(drawn_count < 5);
-			const MaskDifference difference = compare_masks(with_slivers.visibility, same);
+			const MaskDifference difference = compare_masks(with_slivers.visibility, clean);
 			CHECK(difference.receiver_count > 1000);
 			CHECK(difference.penumbra_mean < 0.001);
 			CHECK(difference.maximum < 0.05);
