@@ -11,6 +11,13 @@ vec3 normalize_side(vec3 p_side) {
 	return size > 0.0 ? normalize(p_side / size) : vec3(0.0);
 }
 
+/// The unit vector along p_normal without its part along p_axis (unit). 0 if nothing remains.
+vec3 make_perpendicular(vec3 p_normal, vec3 p_axis) {
+	const vec3 rest = p_normal - dot(p_normal, p_axis) * p_axis;
+	const float length_rest = length(rest);
+	return length_rest > 0.0 ? rest / length_rest : vec3(0.0);
+}
+
 /// The plane (n, c) of a face, n unit: n.r + c is 0 on the face and above 0 in front. All 0 for a face without area.
 /// Computed once per face, so that all its edges use equal bits.
 vec4 make_count_plane(vec3 p_a, vec3 p_b, vec3 p_c) {
@@ -23,12 +30,13 @@ vec4 make_count_plane(vec3 p_a, vec3 p_b, vec3 p_c) {
 	const float square_ca = dot(ca, ca);
 	const bool is_ab = square_ab <= square_bc && square_ab <= square_ca;
 	const bool is_bc = square_bc <= square_ca;
-	const vec3 shortest = is_ab ? ab : (is_bc ? bc : ca);
-	const vec3 next = is_ab ? bc : (is_bc ? ca : ab);
-	const vec3 normal = cross(normalize_side(shortest), normalize_side(next));
-	const float length_normal = length(normal);
-	const vec3 unit = length_normal > 0.0 ? normal / length_normal : vec3(0.0);
-	return vec4(unit, -dot(unit, p_a));
+	const vec3 shortest = normalize_side(is_ab ? ab : (is_bc ? bc : ca));
+	const vec3 next = normalize_side(is_ab ? bc : (is_bc ? ca : ab));
+	// Where the sides are parallel but for rounding, the product's direction is arbitrary. The plane must contain the
+	// face's sides even so, since edges are dropped and weighed by the sides of their planes. Twice: the first result
+	// may be mostly rounding.
+	const vec3 normal = make_perpendicular(make_perpendicular(cross(shortest, next), next), next);
+	return vec4(normal, -dot(normal, p_a));
 }
 
 /// +1 if the whole light is in front of the face's plane, -1 if it is behind, 0 if the plane crosses the light.

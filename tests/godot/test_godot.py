@@ -51,7 +51,6 @@ SKIPPED = (
     "*meshes whose vertices are far from their node*",
     # With Mesa 26 one pixel of 72 x 72 under a directional light is off by 0.22, with slivers of 1e-9 and 1e-7; none with Mesa 22.
     # The cause is not known.
-    "*slivers in a mesh do not change its mask*",
     # Limits on wrong pixels at the borders of hard shadows, measured with the rasterizer of Mesa 22. Mesa 26 has a few
     # more, all of them at borders.
     "*300 frames through volumes*",
