@@ -213,6 +213,12 @@ def make_short_table(version, rows):
     return format_table(("pipeline (%s, Mesa %s)" % (SHOWN_FAMILY, version), *SHOWN_COLUMNS), rows)
 
 
+def keep_times(row, stored):
+    """Return the stored row if the pipeline is the same, whose compile time alone differs from run to run; else the new one."""
+    is_same = stored is not None and all(str(row[column]) == stored[column] for column in COLUMNS if column != "compile ms")
+    return stored if is_same else row
+
+
 def measure(family):
     """Return (driver version, list of (row, result)) of all pipelines of a family."""
     jobs = list_jobs(family)
@@ -234,7 +240,8 @@ def main():
     try:
         version, measured = measure_all()
         if arguments.update:
-            rows = [row for row, _ in measured]
+            _, stored = load_table()
+            rows = [keep_times(row, stored.get(get_key(row))) for row, _ in measured]
             save_table(version, rows)
             write_table("pipelines", make_short_table(version, rows), PAGE)
         _, stored = load_table()
