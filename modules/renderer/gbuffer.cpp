@@ -9,6 +9,22 @@ namespace gnomon {
 
 namespace {
 
+/// The value of GBUFFER_CONSTANT_TEXTURES.
+uint32_t find_textures(const Material &p_material) {
+	const std::pair<const Texture &, uint32_t> textures[] = {
+		{ p_material.base_color_texture, GBUFFER_HAS_BASE_COLOR },
+		{ p_material.metallic_roughness_texture, GBUFFER_HAS_METALLIC_ROUGHNESS },
+		{ p_material.normal_texture, GBUFFER_HAS_NORMAL_MAP },
+		{ p_material.occlusion_texture, GBUFFER_HAS_OCCLUSION },
+		{ p_material.emissive_texture, GBUFFER_HAS_EMISSIVE },
+	};
+	uint32_t sum = 0;
+	for (const auto &[texture, value] : textures) {
+		sum |= texture.image ? value : 0;
+	}
+	return sum;
+}
+
 /// The pipelines of a G-buffer pass, created when first needed.
 class GBufferPipelines {
 public:
@@ -27,8 +43,7 @@ public:
 	PipelineRID get_textured(bool p_is_mirrored, const Material &p_material,
 			const std::array<VertexStream, 4> &p_streams) {
 		RasterPipelineDesc desc = make_desc(p_is_mirrored, p_material.is_double_sided, ".textured");
-		desc.constants = { { GBUFFER_CONSTANT_HAS_NORMAL_MAP,
-				p_material.normal_texture.image ? 1u : 0u } };
+		desc.constants = { { GBUFFER_CONSTANT_TEXTURES, find_textures(p_material) } };
 		const uint32_t component_counts[] = { 2, 2, 4, 4 }; // two uv sets, tangent, colour
 		for (uint32_t stream = 0; stream < p_streams.size(); ++stream) {
 			// Locations and buffers 0 and 1 are position and normal.

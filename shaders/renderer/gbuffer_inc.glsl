@@ -34,7 +34,7 @@ layout(set = 0, binding = GBUFFER_BINDING_OCCLUSION) uniform sampler2D occlusion
 layout(set = 0, binding = GBUFFER_BINDING_EMISSIVE) uniform sampler2D emissive_texture;
 // A constant and no branch on the material: lavapipe 22.3 clones and compiles a shader whose branches depend on uniforms
 // alone at each draw that changes a uniform, and frees the clones with the pipeline only.
-layout(constant_id = GBUFFER_CONSTANT_HAS_NORMAL_MAP) const uint HAS_NORMAL_MAP = 0u;
+layout(constant_id = GBUFFER_CONSTANT_TEXTURES) const uint TEXTURES = 0u;
 layout(location = 1) in vec4 in_uvs;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec4 in_color;
@@ -44,9 +44,15 @@ vec2 transform_uv(TextureTransform p_transform) {
 	return vec2(dot(p_transform.row_u.xyz, uv), dot(p_transform.row_v.xyz, uv));
 }
 
+/// Returns a texel, or white where the material has no such texture. p_has_texture: of TEXTURES. Software drivers take as
+/// long for a white texture as for any other.
+vec4 load_texel(uint p_has_texture, sampler2D p_texture, TextureTransform p_transform) {
+	return (TEXTURES & p_has_texture) == 0u ? vec4(1.0) : texture(p_texture, transform_uv(p_transform));
+}
+
 /// Applies the normal map. p_normal: the result of make_shading_normal. p_is_mirrored: InstancePush::is_mirrored.
 vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
-	if (HAS_NORMAL_MAP == 0u) {
+	if ((TEXTURES & GBUFFER_HAS_NORMAL_MAP) == 0u) {
 		return p_normal;
 	}
 	vec3 map = texture(normal_texture, transform_uv(material.normal)).xyz * 2.0 - 1.0;
@@ -63,11 +69,11 @@ vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 /// Discards the fragment if its alpha is below the material's cutoff.
 SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
 	const vec4 base_color = vec4(p_instance.base_color_roughness.rgb, material.alpha) * in_color *
-			texture(base_color_texture, transform_uv(material.base_color));
-	const vec3 metallic_roughness =
-			texture(metallic_roughness_texture, transform_uv(material.metallic_roughness)).rgb;
-	const float occlusion = texture(occlusion_texture, transform_uv(material.occlusion)).r;
-	const vec3 emissive = texture(emissive_texture, transform_uv(material.emissive)).rgb;
+			load_texel(GBUFFER_HAS_BASE_COLOR, base_color_texture, material.base_color);
+	const vec3 metallic_roughness = load_texel(GBUFFER_HAS_METALLIC_ROUGHNESS, metallic_roughness_texture,
+			material.metallic_roughness).rgb;
+	const float occlusion = load_texel(GBUFFER_HAS_OCCLUSION, occlusion_texture, material.occlusion).r;
+	const vec3 emissive = load_texel(GBUFFER_HAS_EMISSIVE, emissive_texture, material.emissive).rgb;
 	const vec3 normal = perturb_normal(p_normal, p_instance.is_mirrored != 0u);
 	if (base_color.a < material.alpha_cutoff) {
 		discard;

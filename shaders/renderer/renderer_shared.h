@@ -31,7 +31,13 @@
 #define GBUFFER_BINDING_NORMAL 6
 #define GBUFFER_BINDING_OCCLUSION 7
 #define GBUFFER_BINDING_EMISSIVE 8
-#define GBUFFER_CONSTANT_HAS_NORMAL_MAP 0 // 1: the normal texture is a normal map
+// Which textures the material has: a sum of the values below. The others are not read.
+#define GBUFFER_CONSTANT_TEXTURES 0
+#define GBUFFER_HAS_BASE_COLOR 1u
+#define GBUFFER_HAS_METALLIC_ROUGHNESS 2u
+#define GBUFFER_HAS_NORMAL_MAP 4u
+#define GBUFFER_HAS_OCCLUSION 8u
+#define GBUFFER_HAS_EMISSIVE 16u
 
 /// Push constants of gbuffer.vert, gbuffer.frag and gbuffer_without_faces.frag.
 struct SHARED_ALIGN InstancePush {

@@ -430,6 +430,37 @@ TEST_CASE("[GPU][Textures] a minified texture shows its mean, or, without mip le
 	}
 }
 
+TEST_CASE("[GPU][Textures] a missing texture is white") {
+	RenderFixture fixture;
+	Square square;
+	Material &material = square.material;
+	material.base_color = glm::vec3(0.7f, 0.2f, 0.9f);
+	material.emissive = glm::vec3(0.3f, 5.0f, 0.01f);
+	material.roughness = 0.37f;
+	material.metallic = 0.83f;
+	material.occlusion_strength = 0.6f;
+	Texture *const textures[] = { &material.base_color_texture,
+		&material.metallic_roughness_texture, &material.occlusion_texture,
+		&material.emissive_texture };
+	const auto white = make_image("white", { 2, 2 }, std::vector<uint8_t>(16, 255));
+	const auto noise = make_noise({ 4, 4 });
+	for (Texture *only : textures) {
+		for (Texture *texture : textures) {
+			texture->image = texture == only ? noise : nullptr;
+		}
+		const Texels missing = square.draw(fixture);
+		for (Texture *texture : textures) {
+			texture->image = texture == only ? noise : white;
+		}
+		const Texels all = square.draw(fixture);
+		CAPTURE(only - &material.base_color_texture);
+		CHECK(missing.base_color == all.base_color);
+		CHECK(missing.material == all.material);
+		CHECK(missing.emissive == all.emissive);
+		CHECK(missing.normal == all.normal);
+	}
+}
+
 TEST_CASE("[GPU][Textures] textures of images that no longer exist are freed") {
 	RenderFixture fixture;
 	MaterialStore store(*fixture.device);
