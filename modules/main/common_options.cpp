@@ -14,6 +14,7 @@
 #include "modules/shadows/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,6 +65,15 @@ bool apply_technique_setting(const std::string &p_setting) {
 	ShadowRegistry::set_setting(all.substr(PREFIX.size(), dot - PREFIX.size()),
 			all.substr(dot + 1, equals - dot - 1), all.substr(equals + 1));
 	return true;
+}
+
+/// Keeps up to 64 MB of freed memory in the process. Software drivers allocate and free the
+/// triangles of each pass; to return them to the system and get them back took a sixth of the time
+/// of frames with 64 copies of a model of 16,000 triangles.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+	mallopt(M_TRIM_THRESHOLD, 64 << 20);
+#endif
 }
 
 } // namespace
@@ -267,7 +277,11 @@ std::unique_ptr<RenderingDevice> create_device(
 		const CommonOptions &p_common, DeviceOptions p_options) {
 	p_options.device = p_common.device;
 	p_options.validation = p_common.validation;
-	return create_rendering_device(p_options);
+	std::unique_ptr<RenderingDevice> device = create_rendering_device(p_options);
+	if (device->get_info().type == "CPU") {
+		keep_freed_memory();
+	}
+	return device;
 }
 
 void check_writable(const fs::path &p_path) {

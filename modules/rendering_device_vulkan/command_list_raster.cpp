@@ -47,7 +47,7 @@ void VulkanCommandList::begin_rendering_of_size(
 	check_recording("begin_rendering");
 	GNOMON_ASSERT(!is_rendering, "begin_rendering before end_rendering");
 	target_color_formats.clear();
-	std::vector<VkRenderingAttachmentInfo> colors;
+	color_attachments.clear();
 	const auto get_target = [&](TextureRID p_texture, TextureUsage p_usage) -> TextureResource & {
 		TextureResource &texture = device->textures.get(p_texture);
 		GNOMON_ASSERT(texture.desc.size_px == p_size_px, "target '", texture.desc.name, "' is ",
@@ -61,7 +61,7 @@ void VulkanCommandList::begin_rendering_of_size(
 		TextureResource &texture = get_target(target.texture, TextureUsage::COLOR_ATTACHMENT);
 		const VkImageView view = device->get_view(
 				texture, ViewUse::ATTACHMENT, target.layer, /*p_is_arrayed=*/false);
-		VkRenderingAttachmentInfo &info = colors.emplace_back(
+		VkRenderingAttachmentInfo &info = color_attachments.emplace_back(
 				VkRenderingAttachmentInfo{ .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
 						.imageView = view,
 						.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -70,7 +70,8 @@ void VulkanCommandList::begin_rendering_of_size(
 		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
 		target_color_formats.push_back(texture.desc.format);
 	}
-	VkRenderingAttachmentInfo depth = { .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO };
+	VkRenderingAttachmentInfo &depth = depth_attachment;
+	depth = { .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO };
 	target_depth_format.reset();
 	is_target_depth_read_only = false;
 	if (p_depth) {
@@ -94,15 +95,16 @@ void VulkanCommandList::begin_rendering_of_size(
 		depth.clearValue.depthStencil.depth = p_depth->clear;
 	}
 	const bool has_target_stencil = target_depth_format && has_stencil(*target_depth_format);
-	const VkRenderingInfo info = { .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+	rendering = { .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
 		.renderArea = { .extent = { p_size_px.x, p_size_px.y } },
 		.layerCount = 1,
-		.colorAttachmentCount = static_cast<uint32_t>(colors.size()),
-		.pColorAttachments = colors.data(),
+		.colorAttachmentCount = static_cast<uint32_t>(color_attachments.size()),
+		.pColorAttachments = color_attachments.data(),
 		.pDepthAttachment = p_depth ? &depth : nullptr,
 		.pStencilAttachment = has_target_stencil ? &depth : nullptr };
 	GNOMON_ASSERT(!is_conditional, "begin_rendering between begin_conditional and end_conditional");
-	vkCmdBeginRendering(commands, &info);
+	vkCmdBeginRendering(commands, &rendering);
+	part_triangle_count = 0;
 	is_rendering = true;
 	set_viewport(glm::uvec2(0), p_size_px);
 	set_depth_bounds(0.0f, 1.0f);
@@ -177,9 +179,36 @@ void VulkanCommandList::check_draw(const char *p_call) const {
 			" vertex buffers, ", bound_vertex_buffer_count, " are bound");
 }
 
+void VulkanCommandList::begin_part_if_full(uint64_t p_triangle_count) {
+	part_triangle_count += p_triangle_count;
+	// A condition ends with the part that it began in. A part has at least one draw.
+	if (part_triangle_count <= device->max_part_triangles || is_conditional ||
+			part_triangle_count == p_triangle_count) {
+		return;
+	}
+	vkCmdEndRendering(commands);
+	const VkMemoryBarrier2 barrier = { .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+		.srcStageMask = VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
+		.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+		.dstStageMask = VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
+		.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT };
+	const VkDependencyInfo dependency = { .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+		.memoryBarrierCount = 1,
+		.pMemoryBarriers = &barrier };
+	vkCmdPipelineBarrier2(commands, &dependency);
+	for (VkRenderingAttachmentInfo &color : color_attachments) {
+		color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+	}
+	depth_attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+	vkCmdBeginRendering(commands, &rendering);
+	part_triangle_count = p_triangle_count;
+	++device->continued_part_count;
+}
+
 void VulkanCommandList::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
 	check_draw("draw");
 	++device->command_counts.draws;
+	begin_part_if_full(uint64_t(p_vertex_count / 3) * p_instance_count);
 	vkCmdDraw(commands, p_vertex_count, p_instance_count, 0, 0);
 }
 
@@ -188,6 +217,7 @@ void VulkanCommandList::draw_indexed(uint32_t p_index_count, uint32_t p_first_in
 	GNOMON_ASSERT(is_index_buffer_bound, "pipeline '", bound_pipeline->name,
 			"': draw_indexed before bind_index_buffer");
 	++device->command_counts.draws;
+	begin_part_if_full(p_index_count / 3);
 	vkCmdDrawIndexed(commands, p_index_count, 1, p_first_index, 0, 0);
 }
 

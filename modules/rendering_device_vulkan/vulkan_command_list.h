@@ -84,6 +84,16 @@ private:
 	void push_barrier(const Barrier &p_barrier, std::vector<VkBufferMemoryBarrier2> &r_buffers,
 			std::vector<VkImageMemoryBarrier2> &r_images);
 
+	/// Called before each draw with its triangles. If they and those drawn since the last part
+	/// began are more than VulkanDevice::max_part_triangles, ends the part after all work in it and
+	/// begins the next one. The image is the same.
+	void begin_part_if_full(uint64_t p_triangle_count);
+
+	// Of begin_rendering, to continue into the same targets.
+	VkRenderingInfo rendering = {};
+	std::vector<VkRenderingAttachmentInfo> color_attachments;
+	VkRenderingAttachmentInfo depth_attachment = {};
+	uint64_t part_triangle_count = 0; // drawn since the part began
 	std::vector<Format> target_color_formats;
 	std::optional<Format> target_depth_format;
 	bool is_target_depth_read_only = false;

@@ -218,6 +218,10 @@ public:
 	VkSemaphore timeline = VK_NULL_HANDLE; // counts finished submissions
 	uint64_t submitted_number = 0;
 	CommandCounts command_counts;
+	/// Passes with more triangles are recorded in parts, each of which ends before the next begins.
+	/// Software drivers keep the triangles of all passes that they have not drawn yet in memory.
+	uint64_t max_part_triangles = ~uint64_t(0);
+	uint64_t continued_part_count = 0; // recorded so far, without the first part of each pass
 	SubmissionSlot slots[SLOT_COUNT];
 	VulkanCommandList recording;
 	std::vector<GpuSpan> gpu_spans;
