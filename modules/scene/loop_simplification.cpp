@@ -3,6 +3,7 @@
 #include "modules/scene/loop_chain.h"
 #include "modules/scene/loop_fitting.h"
 #include "modules/scene/loop_intersections.h"
+#include "modules/scene/loop_nesting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,7 @@ class SimplifiedLoop {
 public:
 	SimplifiedLoop(const PolygonLoop &p_loop, double p_tolerance, const glm::ivec2 &p_size);
 
+	const PolygonLoop &get_source() const { return loop; }
 	const PolygonLoop &get_points() const { return points; }
 	PolygonLoop get_chords() const { return chain.get_retained_loop(); }
 	/// Whether the points are moved from the loop's own to where they fit it best.
@@ -31,13 +33,19 @@ public:
 	/// Restores points of the loop: of each given chord (its index in get_chords, before the call)
 	/// the one that is farthest from it. Returns false if none was restored.
 	bool restore_points(const std::vector<uint32_t> &p_chords);
+	/// Lists the chords (indices in get_chords) that have passed over a point: it was on one side
+	/// of the loop, and is on the other side of the chord.
+	std::vector<uint32_t> list_chords_past(const glm::ivec2 &p_point) const;
 	/// Uses the next candidate: the chords without the fit if they have the area, otherwise half
 	/// the tolerance, in the end the loop itself.
 	void refine();
 
 private:
+	/// Whether points enclose the loop's area, on the same side: a tiny loop must not turn around.
 	bool has_area(const PolygonLoop &p_points) const {
-		return 0.5 * double(std::abs(compute_twice_area(p_points) - twice_area)) <= max_area_error;
+		const int64_t area = compute_twice_area(p_points);
+		return (area > 0) == (twice_area > 0) && (area < 0) == (twice_area < 0) &&
+				0.5 * double(std::abs(area - twice_area)) <= max_area_error;
 	}
 	void simplify();
 	void update_points();
@@ -110,6 +118,24 @@ bool SimplifiedLoop::restore_points(const std::vector<uint32_t> &p_chords) {
 	return has_restored;
 }
 
+std::vector<uint32_t> SimplifiedLoop::list_chords_past(const glm::ivec2 &p_point) const {
+	const std::vector<uint32_t> retained = chain.list_retained();
+	std::vector<uint32_t> chords;
+	for (uint32_t chord = 0; chord < retained.size(); ++chord) {
+		const uint32_t end = chord + 1 < retained.size()
+				? retained[chord + 1]
+				: retained[0] + static_cast<uint32_t>(loop.size());
+		PolygonLoop passed; // bounded by the chord and the part of the loop that it replaces
+		for (uint32_t point = retained[chord]; point <= end; ++point) {
+			passed.push_back(chain.get(point));
+		}
+		if (compute_winding_number(passed, p_point) != 0) {
+			chords.push_back(chord);
+		}
+	}
+	return chords;
+}
+
 /// Restores points where chords meet. Returns false if none was restored.
 bool restore_meeting_chords(std::vector<SimplifiedLoop> &r_loops) {
 	std::vector<PolygonLoop> chords;
@@ -148,6 +174,68 @@ bool refine_meeting_loops(std::vector<SimplifiedLoop> &r_loops) {
 	return has_refined;
 }
 
+/// Loops whose lines do not meet may still have passed over each other: a small hole that is nearer
+/// to its border than the tolerance ends up outside.
+struct PassedLoop {
+	uint32_t loop; // all of it was passed over
+	uint32_t by;   // by lines of this loop
+};
+
+/// Lists the loops that are not within the same loops as before. p_nesting: of the sources, see
+/// compute_nesting. p_lines: one loop for each of p_loops; they do not meet.
+std::vector<PassedLoop> find_passed_loops(const std::vector<SimplifiedLoop> &p_loops,
+		const std::vector<int> &p_nesting, const std::vector<PolygonLoop> &p_lines) {
+	const std::vector<int> nesting = compute_nesting(p_lines);
+	std::vector<PassedLoop> passed;
+	for (uint32_t i = 0; i < p_lines.size(); ++i) {
+		for (uint32_t k = 0; nesting[i] != p_nesting[i] && k < p_lines.size(); ++k) {
+			if (k != i &&
+					compute_winding_number(p_lines[k], p_lines[i].front()) !=
+							compute_winding_number(
+									p_loops[k].get_source(), p_loops[i].get_source().front())) {
+				passed.push_back({ i, k });
+			}
+		}
+	}
+	return passed;
+}
+
+/// Restores points of chords that have passed over a loop. Returns false if none was restored.
+bool restore_passed_loops(const std::vector<int> &p_nesting, std::vector<SimplifiedLoop> &r_loops) {
+	std::vector<PolygonLoop> chords;
+	for (const SimplifiedLoop &loop : r_loops) {
+		chords.push_back(loop.get_chords());
+	}
+	bool has_restored = false;
+	for (const PassedLoop &passed : find_passed_loops(r_loops, p_nesting, chords)) {
+		SimplifiedLoop &by = r_loops[passed.by];
+		// A chord's first point is one of the source.
+		has_restored =
+				by.restore_points(by.list_chords_past(chords[passed.loop].front())) || has_restored;
+	}
+	return has_restored;
+}
+
+/// Refines the loops whose fitted lines have passed over others. Returns false if there are none.
+bool refine_passed_loops(const std::vector<int> &p_nesting, std::vector<SimplifiedLoop> &r_loops) {
+	std::vector<PolygonLoop> fitted;
+	for (const SimplifiedLoop &loop : r_loops) {
+		fitted.push_back(loop.get_points());
+	}
+	std::vector<uint8_t> is_involved(r_loops.size());
+	for (const PassedLoop &passed : find_passed_loops(r_loops, p_nesting, fitted)) {
+		is_involved[passed.loop] = is_involved[passed.by] = 1;
+	}
+	bool has_refined = false;
+	for (size_t i = 0; i < r_loops.size(); ++i) {
+		if (is_involved[i] && r_loops[i].is_fitted()) { // chords alone pass over none
+			r_loops[i].refine();
+			has_refined = true;
+		}
+	}
+	return has_refined;
+}
+
 } // namespace
 
 std::vector<PolygonLoop> simplify_loops(
@@ -157,10 +245,13 @@ std::vector<PolygonLoop> simplify_loops(
 	for (const PolygonLoop &loop : p_loops) {
 		loops.emplace_back(loop, p_tolerance, p_size);
 	}
+	const std::vector<int> nesting = compute_nesting(p_loops);
 	do {
-		while (restore_meeting_chords(loops)) { // ends at the latest when all points are restored
+		// Ends at the latest when all points are restored.
+		while (restore_meeting_chords(loops) || restore_passed_loops(nesting, loops)) {
 		}
-	} while (refine_meeting_loops(loops)); // ends at the latest when no loop is fitted
+		// Ends at the latest when no loop is fitted.
+	} while (refine_meeting_loops(loops) || refine_passed_loops(nesting, loops));
 	std::vector<PolygonLoop> simplified;
 	for (const SimplifiedLoop &loop : loops) {
 		simplified.push_back(loop.get_points());

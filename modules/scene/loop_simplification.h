@@ -6,7 +6,8 @@ namespace gnomon {
 
 /// Simplifies loops that neither cross nor touch. Lengths are in units of the loops' points. Points
 /// are dropped if the remaining lines stay within p_tolerance of them; where lines would meet,
-/// points are restored, so that the result neither crosses nor touches itself. Then the remaining
+/// points are restored, so that the result neither crosses nor touches itself, and where they would
+/// pass over a whole loop, so that each hole remains within its border. Then the remaining
 /// points are moved along the loop, and from it by at most twice the tolerance, so that the lines
 /// between them fit it by least squares. Each loop keeps its area, up to 0.2 % and to rounding: a
 /// loop whose moved lines would meet others is not moved if it has the area without, and otherwise

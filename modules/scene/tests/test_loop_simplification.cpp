@@ -1,6 +1,7 @@
 // build: optimised
 #include "modules/scene/line_moments.h"
 #include "modules/scene/loop_intersections.h"
+#include "modules/scene/loop_nesting.h"
 #include "modules/scene/loop_simplification.h"
 
 #include <doctest/doctest.h>
@@ -200,6 +201,31 @@ TEST_CASE("[Loops] tiny and thin loops remain triangles at least") {
 		const auto simplified = simplify_loops({ loop }, /*p_tolerance=*/100, SIZE);
 		CHECK(simplified[0].size() >= 3);
 		CHECK(compute_area(simplified[0]) > 0);
+	}
+}
+
+TEST_CASE("[Loops] lines do not pass over a tiny hole or island near a border") {
+	const double RADIUS = 4000;
+	const int HALF = 5; // of the diagonal of a hole or island
+	const int COUNT = 60;
+	for (int i = 0; i < COUNT; ++i) {
+		CAPTURE(i);
+		const bool is_hole = i % 2 == 0;
+		const double angle = 2 * std::numbers::pi * (i + 0.3) / COUNT;
+		// Nearer to the border than the tolerance.
+		const double distance = RADIUS + (is_hole ? -60 : 60);
+		const glm::ivec2 at = CENTER +
+				glm::ivec2(glm::round(distance * glm::dvec2(std::cos(angle), std::sin(angle))));
+		PolygonLoop diamond = { at + glm::ivec2(HALF, 0), at + glm::ivec2(0, HALF),
+			at - glm::ivec2(HALF, 0), at - glm::ivec2(0, HALF) };
+		if (is_hole) {
+			std::reverse(diamond.begin(), diamond.end());
+		}
+		const std::vector<PolygonLoop> loops = { make_circle(CENTER, RADIUS), diamond };
+		const auto simplified = simplify_loops(loops, /*p_tolerance=*/1024, SIZE);
+		CHECK(find_intersections(simplified).empty());
+		CHECK(compute_nesting(simplified) == std::vector<int>{ 0, is_hole ? 1 : 0 });
+		CHECK(!triangulate(simplified).empty());
 	}
 }
 
