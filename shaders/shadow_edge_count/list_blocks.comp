@@ -56,6 +56,22 @@ const uint NO_BLOCK = 0xffffffffu;
 // need more than this limit gets no lists. The margin covers the iterations between two checks.
 const uint MAX_ITERATIONS = 40000u;
 uint iteration_count = 0u;
+
+/// Counts an iteration of a loop. Call it in every loop.
+void count_iteration() {
+	++iteration_count;
+}
+
+/// Call it after a loop: p_is_left is true if the loop's own condition would have continued it, which means that the
+/// driver ended it. The tile then gets no lists.
+void check_end(bool p_is_left) {
+	iteration_count = p_is_left ? max(iteration_count, MAX_ITERATIONS) : iteration_count;
+}
+
+bool has_iterations_left() {
+	return iteration_count < MAX_ITERATIONS;
+}
+
 // Of the parts that the invocation wrote, for the status buffer.
 uint listed_edge_count = 0u;
 uint longest_list = 0u;
@@ -228,11 +244,15 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 				}
 				count += subgroupBallotBitCount(needed);
 				first += GROUP_SIZE;
-				++iteration_count;
+				count_iteration();
 			} while (first < end);
+			check_end(first < end);
+			count_iteration();
 		} while (subgroupBallotBitCount(groups) != 0u);
-		++iteration_count;
-	} while (r_next < p_bundle_count && has_room && iteration_count < MAX_ITERATIONS);
+		check_end(subgroupBallotBitCount(groups) != 0u);
+		count_iteration();
+	} while (r_next < p_bundle_count && has_room && has_iterations_left());
+	check_end(r_next < p_bundle_count && has_room);
 	sync_subgroup_memory();
 	return count;
 }
@@ -293,8 +313,9 @@ uint collect_part_bundles(CountBox p_box, uint p_needed_count) {
 		}
 		count += subgroupBallotBitCount(used);
 		first += GROUP_SIZE;
-		++iteration_count;
+		count_iteration();
 	} while (first < p_needed_count);
+	check_end(first < p_needed_count);
 	sync_subgroup_memory();
 	return count;
 }
@@ -325,9 +346,12 @@ uint collect_reached_edges(CountBox p_box, bool p_has_bundles, uint p_edge_count
 			}
 			count += subgroupBallotBitCount(reached);
 			r_first += GROUP_SIZE;
-			++iteration_count;
+			count_iteration();
 		} while (r_first < end && count + GROUP_SIZE <= MAX_REACHED_EDGES);
+		check_end(r_first < end && count + GROUP_SIZE <= MAX_REACHED_EDGES);
+		count_iteration();
 	} while (r_first < p_edge_count && count + GROUP_SIZE <= MAX_REACHED_EDGES);
+	check_end(r_first < p_edge_count && count + GROUP_SIZE <= MAX_REACHED_EDGES);
 	sync_subgroup_memory();
 	return count;
 }
@@ -347,10 +371,13 @@ void list_candidates(CountBox p_box, bool p_has_bundles, uint p_edge_count,
 					make_entry(p_box, is_valid ? reached_edges[item] : 0u, is_valid, is_used, r_min_fraction);
 			append_edges(entry, is_used, r_chain);
 			first += GROUP_SIZE;
-			++iteration_count;
+			count_iteration();
 		} while (first < count);
+		check_end(first < count);
 		sync_subgroup_memory();
-	} while (next < p_edge_count && iteration_count < MAX_ITERATIONS);
+		count_iteration();
+	} while (next < p_edge_count && has_iterations_left());
+	check_end(next < p_edge_count);
 }
 
 /// Lists for each part the edges that it may need, out of p_needed_count bundles in needed_bundles or of
@@ -373,9 +400,10 @@ void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count, ui
 		if (is_valid && gl_SubgroupInvocationID == 0u) {
 			part_chains[i] = chain;
 		}
-		++iteration_count;
+		count_iteration();
 		parts &= parts - 1u;
-	} while (parts != 0u && iteration_count < MAX_ITERATIONS);
+	} while (parts != 0u && has_iterations_left());
+	check_end(parts != 0u);
 	sync_subgroup_memory();
 }
 
@@ -405,9 +433,12 @@ uint collect_tile_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
 			}
 			count += subgroupBallotBitCount(candidate);
 			r_first += GROUP_SIZE;
-			++iteration_count;
+			count_iteration();
 		} while (r_first < end && count + GROUP_SIZE <= MAX_CANDIDATES);
+		check_end(r_first < end && count + GROUP_SIZE <= MAX_CANDIDATES);
+		count_iteration();
 	} while (r_first < p_item_count && count + GROUP_SIZE <= MAX_CANDIDATES);
+	check_end(r_first < p_item_count && count + GROUP_SIZE <= MAX_CANDIDATES);
 	return count;
 }
 
@@ -419,7 +450,9 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 	do {
 		const uint candidate_edge_count = collect_tile_edges(p_pair, item_count, first);
 		list_parts(p_tile, p_view, p_parts, has_split_block ? p_needed_count : 0u, candidate_edge_count);
-	} while (first < item_count && iteration_count < MAX_ITERATIONS);
+		count_iteration();
+	} while (first < item_count && has_iterations_left());
+	check_end(first < item_count);
 }
 
 /// Looks for faces that may separate receivers of a part. Sets the flags of block_solids from parts without edges. If
@@ -444,6 +477,7 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 		step_count = 0u;
 		first += GROUP_SIZE;
 	} while (is_part_left(p_parts, first));
+	check_end(is_part_left(p_parts, first));
 }
 
 /// Loads the distances of the tile's parts, 0 for parts without receivers.
@@ -485,8 +519,11 @@ void list_view(uvec2 p_tile, uint p_view) {
 	do {
 		const uint needed_count = choose_bundles(pair, bundle_count, next);
 		list_bundles(pair, p_tile, p_view, parts, needed_count);
-	} while (next < bundle_count && iteration_count < MAX_ITERATIONS);
-	for (uint first = 0u; first < PARTS_PER_TILE && parts >> first != 0u; first += GROUP_SIZE) {
+		count_iteration();
+	} while (next < bundle_count && has_iterations_left());
+	check_end(next < bundle_count);
+	uint first = 0u;
+	do {
 		const uint i = first + gl_SubgroupInvocationID;
 		if (i < PARTS_PER_TILE && (parts >> i & 1u) != 0u) {
 			const Chain chain = part_chains[i];
@@ -504,7 +541,9 @@ void list_view(uvec2 p_tile, uint p_view) {
 				blocks_are_smooth[i % BLOCKS_PER_TILE] = 0u;
 			}
 		}
-	}
+		first += GROUP_SIZE;
+	} while (is_part_left(parts, first));
+	check_end(is_part_left(parts, first));
 	sync_subgroup_memory();
 	check_faces_of_view(p_tile, p_view, parts);
 }
@@ -550,14 +589,15 @@ void main() {
 	do {
 		list_view(tile, views != 0u ? uint(findLSB(views)) : 0u);
 		views &= views - 1u;
-	} while (views != 0u && iteration_count < MAX_ITERATIONS);
+	} while (views != 0u && has_iterations_left());
+	check_end(views != 0u);
 	sync_subgroup_memory();
 	for (uint i = gl_SubgroupInvocationID; i < BLOCKS_PER_TILE; i += GROUP_SIZE) {
 		const uint block = find_block(tile, i);
 		if (block != NO_BLOCK) {
 			const uint edge_count = block_edge_counts[i];
 			const uint solids = block_solids[i];
-			const bool is_tested = iteration_count < MAX_ITERATIONS; // all edges of the tile
+			const bool is_tested = has_iterations_left(); // all edges of the tile
 			const bool is_smooth = blocks_are_smooth[i] != 0u && edge_count <= MAX_SMOOTH_EDGES;
 			uint kind = uint(is_smooth ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
 			kind = is_tested && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);

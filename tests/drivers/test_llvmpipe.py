@@ -12,7 +12,11 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mask_case import LIGHTS, ROOT, MaskTest, list_techniques  # noqa: E402
+from mask_case import LIGHTS, ROOT, MaskTest, list_techniques, run  # noqa: E402
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "benchmark"))
+import twig_scenes  # noqa: E402
+from gltf_writer import save_files  # noqa: E402
 
 TIMEOUT_S = 600
 WIDE, NARROW = "512", "128"  # 16 and 4 invocations
@@ -45,6 +49,18 @@ class WideVectorsTest(MaskTest):
                     error, apart = self.compare(usual, self.draw(technique, light, SIZE, LP_NATIVE_VECTOR_WIDTH=WIDE))
                     self.assertLess(error, MAX_ERROR)
                     self.assertEqual(apart, 0)
+
+
+class IterationsTest(MaskTest):
+    """llvmpipe ends all loops after an invocation has made 65,535 iterations in them."""
+
+    def test_lists_of_very_many_edges_are_complete_or_not_used(self):
+        scene = twig_scenes.build_scene(seed=1, count=8, alpha_mode="MASK")
+        save_files(scene.build_files(twig_scenes.STEM), self.folder)
+        # With the pattern, passes that read what none wrote find a fault, at which run() fails.
+        result = run("visibility", self.path(twig_scenes.STEM + ".gltf"), "--technique", list_techniques()[1], "--light", "Omni",
+                     "--size", "280x280", "--out", self.path("mask.exr"), GNOMON_MEMORY_PATTERN="deadbeef")  # fmt: skip
+        self.assertEqual(result.returncode, 0, result.stderr)
 
 
 class NarrowVectorsTest(unittest.TestCase):
