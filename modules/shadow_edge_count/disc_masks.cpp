@@ -19,7 +19,7 @@ uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
 }
 
 /// The direction at the centre of a bin of diamond angles, not unit. A diamond angle is 0 at -y, 1
-/// at +x, 2 at +y and 3 at -x, see find_direction_bins in count_masks_inc.glsl.
+/// at +x, 2 at +y and 3 at -x, see find_count_mask_indices in count_masks_inc.glsl.
 glm::dvec2 compute_bin_center(uint32_t p_bin) {
 	const double angle = 4.0 * (p_bin + 0.5) / DiscMasks::DIRECTION_COUNT;
 	const double x = angle < 2.0 ? 1.0 - std::abs(angle - 1.0) : std::abs(angle - 3.0) - 1.0;

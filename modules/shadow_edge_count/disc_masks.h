@@ -13,8 +13,8 @@ namespace gnomon {
 class DiscMasks {
 public:
 	static constexpr uint32_t SAMPLE_COUNT = 64;
-	static constexpr uint32_t DIRECTION_COUNT = 512;
-	static constexpr uint32_t OFFSET_COUNT = 128;
+	static constexpr uint32_t DIRECTION_COUNT = 128;
+	static constexpr uint32_t OFFSET_COUNT = 256;
 
 	/// One of p_sample_set_count sets of 64 points, which together are a Hammersley set of
 	/// N = 64 * p_sample_set_count points. Point i of that set has the angle
@@ -27,8 +27,8 @@ public:
 	glm::dvec2 compute_sample(uint32_t p_index) const;
 	/// The mask of the points with dot(point, direction) > offset, at index
 	/// direction * OFFSET_COUNT + offset. Directions are bins of the diamond angle, see
-	/// find_direction_bins in count_masks_inc.glsl. Offset 0 stands for exactly 0, offset i for
-	/// (i + 0.5) / 128.
+	/// find_count_mask_indices in count_masks_inc.glsl. Offset 0 stands for exactly 0, offset i
+	/// for (i + 0.5) / OFFSET_COUNT.
 	const std::vector<uint64_t> &get_table() const { return table; }
 
 private:

@@ -85,7 +85,10 @@ CountSectors make_count_sectors(DiscEdges p_edges, bvec2 p_are_left, ivec2 p_wei
 	CountSectors sectors;
 	const vec2 weights = vec2(p_weights);
 	sectors.area = mix(vec2(0.0), mix(weights, -weights, p_are_left) * twice_area, are_valid);
-	sectors.mask_index = find_count_mask_indices(mix(-u_y, u_y, p_are_left), mix(u_x, -u_x, p_are_left), offset);
+	// The line's normal is (u_y, -u_x) or, on the other side, its opposite, whose quarter turn is against u.
+	const vec2 middle = 0.5 * (from + to);
+	sectors.mask_index = find_count_mask_indices(mix(-u_y, u_y, p_are_left), mix(u_x, -u_x, p_are_left), offset,
+			mix(-middle, middle, p_are_left));
 	const vec2 angle_a = find_count_angles(p_edges.a_x, p_edges.a_y);
 	const vec2 angle_b = find_count_angles(p_edges.b_x, p_edges.b_y);
 	sectors.from_angle = mix(angle_b, angle_a, p_are_left);

@@ -16,20 +16,23 @@ const float COUNT_PI = 3.14159265358979;
 /// Loads the masks of sample sets 2 p_pair (in x, y) and 2 p_pair + 1 (in z, w). p_index: see find_count_mask_indices.
 uvec4 load_count_masks(uint p_index, uint p_pair);
 
-/// The bins of two directions in the mask table. Bins divide the range 0..4 of the diamond angle evenly, which is
-/// 1 + y / (|x| + |y|) where x >= 0, else 3 - y / (|x| + |y|): 0 at -y, 1 at +x, 2 at +y, 3 at -x.
-uvec2 find_direction_bins(vec2 p_x, vec2 p_y) {
-	const vec2 ratio = p_y / max(abs(p_x) + abs(p_y), vec2(1e-37));
-	const vec2 angle = mix(3.0 - ratio, 1.0 + ratio, greaterThanEqual(p_x, vec2(0.0)));
-	return uvec2(angle * float(EDGE_COUNT_DIRECTION_COUNT / 4)) % uint(EDGE_COUNT_DIRECTION_COUNT);
-}
-
-/// Indices in the mask table of the points of the unit disc that are farther than p_offset (0..1) from the centre along
-/// a direction, which need not be unit.
-uvec2 find_count_mask_indices(vec2 p_x, vec2 p_y, vec2 p_offset) {
+/// Indices in the mask table of the points of the unit disc that are beyond two lines, component by component. p_x, p_y:
+/// unit vector from the disc's centre to the line at p_offset (0..1). The direction is rounded to the middle of a bin, and
+/// the line then turned about its point at p_middle, which is measured from the foot of the perpendicular, a quarter turn
+/// counter-clockwise from (p_x, p_y): there the rounding does not move it. Bins divide the range 0..4 of the diamond angle
+/// evenly, which is 1 + y / (|x| + |y|) where x >= 0, else 3 - y / (|x| + |y|): 0 at -y, 1 at +x, 2 at +y, 3 at -x.
+uvec2 find_count_mask_indices(vec2 p_x, vec2 p_y, vec2 p_offset, vec2 p_middle) {
+	const float bins_per_unit = float(EDGE_COUNT_DIRECTION_COUNT / 4);
+	const vec2 sum = max(abs(p_x) + abs(p_y), vec2(1e-37));
+	const vec2 ratio = p_y / sum;
+	const vec2 angle = mix(3.0 - ratio, 1.0 + ratio, greaterThanEqual(p_x, vec2(0.0))) * bins_per_unit;
+	const vec2 bin = floor(angle);
+	// The derivative of the angle in radians by the diamond angle is sum^2.
+	const vec2 turn = (bin + 0.5 - angle) * (sum * sum / bins_per_unit);
+	const vec2 offset = p_offset + turn * p_middle;
 	// 0.9999: offset 1 is in the last row.
-	const uvec2 row = uvec2(float(EDGE_COUNT_OFFSET_COUNT) * clamp(p_offset, 0.0, 0.9999));
-	return find_direction_bins(p_x, p_y) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
+	const uvec2 row = uvec2(float(EDGE_COUNT_OFFSET_COUNT) * clamp(offset, 0.0, 0.9999));
+	return uvec2(bin) % uint(EDGE_COUNT_DIRECTION_COUNT) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
 }
 
 /// Angles in radians (0..pi) of two directions with y >= 0. The error is at most 2e-6. Needs two fewer divisions than

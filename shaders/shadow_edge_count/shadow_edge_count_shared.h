@@ -5,8 +5,8 @@
 
 // Size of the mask table, see DiscMasks: a mask of EDGE_COUNT_SAMPLE_COUNT points (a uvec2) per
 // direction and offset.
-#define EDGE_COUNT_DIRECTION_COUNT 512
-#define EDGE_COUNT_OFFSET_COUNT 128
+#define EDGE_COUNT_DIRECTION_COUNT 128
+#define EDGE_COUNT_OFFSET_COUNT 256
 #define EDGE_COUNT_SAMPLE_COUNT 64
 
 // Edges and faces are recorded once per light, in light space: metres, the origin at the light's

@@ -184,9 +184,10 @@ private:
 				(std::atan2(to, distance) - std::atan2(from, distance) - distance * (to - from)) /
 				std::numbers::pi;
 		const glm::dvec2 beyond = p_side > 0 ? glm::dvec2(u.y, -u.x) : glm::dvec2(-u.y, u.x);
+		const double middle = (p_side > 0 ? 0.5 : -0.5) * (from + to);
 		for (size_t index = 0; index < masks.size(); ++index) {
 			const DiscLookup &table = masks[index];
-			const uint64_t mask = table.get_mask(beyond, distance) &
+			const uint64_t mask = table.get_mask(beyond, distance, middle) &
 					(p_side > 0 ? table.get_wedge(p_a, p_b) : table.get_wedge(p_b, p_a));
 			for (uint32_t sample = 0; sample < DiscMasks::SAMPLE_COUNT; ++sample) {
 				counts[index][sample] += (mask >> sample & 1) != 0 ? sign * p_weight : 0;

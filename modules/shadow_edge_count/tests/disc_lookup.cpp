@@ -28,18 +28,18 @@ uint64_t DiscLookup::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to)
 	return from > to ? ~between : between;
 }
 
-uint32_t DiscLookup::find_direction(const glm::dvec2 &p_direction) {
-	// The diamond angle needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x. See
-	// find_direction_bins in count_masks_inc.glsl.
+uint64_t DiscLookup::get_mask(
+		const glm::dvec2 &p_direction, double p_offset, double p_middle) const {
+	// The diamond angle needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x.
 	const double sum = std::abs(p_direction.x) + std::abs(p_direction.y);
-	const double ratio = sum > 0 ? p_direction.y / sum : 0.0;
-	const double angle = p_direction.x >= 0 ? 1.0 + ratio : 3.0 - ratio;
-	return static_cast<uint32_t>(angle * (DIRECTION_COUNT / 4)) % DIRECTION_COUNT;
-}
-
-uint32_t DiscLookup::find_offset(double p_offset) {
-	// Below 1, so that the row exists.
-	return static_cast<uint32_t>(OFFSET_COUNT * std::clamp(p_offset, 0.0, 0.9999));
+	const double ratio = p_direction.y / sum;
+	const double angle =
+			(p_direction.x >= 0 ? 1.0 + ratio : 3.0 - ratio) * (DIRECTION_COUNT / 4.0);
+	const double bin = std::floor(angle);
+	const double turn_rad = (bin + 0.5 - angle) * sum * sum / (DIRECTION_COUNT / 4.0);
+	const double offset = std::clamp(p_offset + turn_rad * p_middle, 0.0, 0.9999);
+	return get_table()[size_t(bin) % DIRECTION_COUNT * OFFSET_COUNT +
+			size_t(OFFSET_COUNT * offset)];
 }
 
 } // namespace gnomon

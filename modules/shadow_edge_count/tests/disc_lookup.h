@@ -12,11 +12,9 @@ public:
 			sample_set_count(p_sample_set_count) {}
 
 	/// Mask of the points that are farther than p_offset (0..1) from the centre along p_direction,
-	/// which need not be unit.
-	uint64_t get_mask(const glm::dvec2 &p_direction, double p_offset) const {
-		return get_table()[size_t(find_direction(p_direction)) * OFFSET_COUNT +
-				find_offset(p_offset)];
-	}
+	/// which is unit. The line keeps its point at p_middle when its direction is rounded, see
+	/// find_count_mask_indices.
+	uint64_t get_mask(const glm::dvec2 &p_direction, double p_offset, double p_middle) const;
 	/// Mask of the points in the sector from p_from counter-clockwise to p_to, less than half a
 	/// circle. Adjacent sectors have no point in common and miss none between them.
 	uint64_t get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const;
@@ -24,9 +22,6 @@ public:
 	uint32_t find_sector(const glm::dvec2 &p_direction) const;
 
 private:
-	static uint32_t find_direction(const glm::dvec2 &p_direction);
-	static uint32_t find_offset(double p_offset);
-
 	uint32_t sample_set = 0;
 	uint32_t sample_set_count = 1;
 };

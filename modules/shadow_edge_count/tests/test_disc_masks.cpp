@@ -68,27 +68,40 @@ TEST_CASE("[EdgeCount] a wedge has the points between its directions, in each sa
 	}
 }
 
-TEST_CASE("[EdgeCount] of 256 points, a line has less than 0.4 on the wrong side in the mean") {
-	// Directions and offsets are rounded to those of the table. Where thin shapes overlap, the
-	// points that this moves to the other side make the shadow lighter.
-	const uint32_t LINE_COUNT = 2000;
+TEST_CASE("[EdgeCount] few of 256 points are on the wrong side of an edge, about as many on either") {
+	// Directions and offsets are rounded to those of the table. Points that this moves to the wrong
+	// side make shadows lighter where thin shapes overlap.
+	const uint32_t EDGE_COUNT = 4000;
 	const uint32_t SET_COUNT = 4;
-	uint32_t wrong_count = 0;
+	int missing_count = 0;
+	int added_count = 0;
 	for (uint32_t sample_set = 0; sample_set < SET_COUNT; ++sample_set) {
 		const DiscLookup masks(sample_set, SET_COUNT);
-		for (uint32_t line = 0; line < LINE_COUNT; ++line) {
+		for (uint32_t edge = 0; edge < EDGE_COUNT; ++edge) {
 			// Quasi-random numbers, as above.
-			const double angle = std::fmod(line * 0.7548776662, 1.0) * 2.0 * std::numbers::pi;
-			const double offset = std::fmod(line * 0.5698402910, 1.0);
+			const double angle = std::fmod(edge * 0.7548776662, 1.0) * 2.0 * std::numbers::pi;
+			const double offset = std::fmod(edge * 0.5698402910, 1.0);
+			const double half_chord = std::sqrt(1.0 - offset * offset);
+			const double middle = (2.0 * std::fmod(edge * 0.8191725134, 1.0) - 1.0) * half_chord;
+			const double half_length = 0.5 * std::min(0.2, half_chord - std::abs(middle));
 			const glm::dvec2 direction(std::cos(angle), std::sin(angle));
-			const uint64_t mask = masks.get_mask(direction, offset);
+			const glm::dvec2 along(-direction.y, direction.x);
+			const auto at = [&](double p_along) { return offset * direction + p_along * along; };
+			const uint64_t wedge =
+					masks.get_wedge(at(middle - half_length), at(middle + half_length));
+			const uint64_t mask = masks.get_mask(direction, offset, middle) & wedge;
 			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
-				const bool is_beyond = glm::dot(masks.compute_sample(index), direction) > offset;
-				wrong_count += is_beyond != ((mask >> index & 1) != 0) ? 1 : 0;
+				const bool is_in_wedge = (wedge >> index & 1) != 0;
+				const bool is_found = (mask >> index & 1) != 0;
+				const bool is_beyond =
+						is_in_wedge && glm::dot(masks.compute_sample(index), direction) > offset;
+				missing_count += is_beyond && !is_found ? 1 : 0;
+				added_count += is_found && !is_beyond ? 1 : 0;
 			}
 		}
 	}
-	CHECK(double(wrong_count) / LINE_COUNT < 0.4);
+	CHECK(double(missing_count + added_count) / EDGE_COUNT < 0.025);
+	CHECK(std::abs(double(missing_count - added_count)) / EDGE_COUNT < 0.005);
 }
 
 } // namespace gnomon
