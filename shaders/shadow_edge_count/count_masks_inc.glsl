@@ -170,9 +170,10 @@ uvec2 find_hidden(PointCounters p_sums) {
 	return find_above_one(p_sums) | (p_sums.bit0 & ~p_sums.bit8);
 }
 
-/// True if some count is neither 0 nor 1: casters overlap, or rounding made a count negative.
+/// True if some count is above 1: casters overlap. Rounding alone can make counts of a thin solid negative, where the
+/// lines of two opposite edges are rounded past each other; its area is exact even so.
 bool has_overlap(PointCounters p_sums) {
-	const uvec2 overlapping = find_above_one(p_sums) | p_sums.bit8;
+	const uvec2 overlapping = find_above_one(p_sums);
 	return (overlapping.x | overlapping.y) != 0u;
 }
 

@@ -130,7 +130,7 @@ public:
 				const double change = std::min(std::abs(count - other), 15); // as sum_changes
 				products += (count >= 1) != (other >= 1) ? change : 0;
 				squares += change * change;
-				overlaps = overlaps || count < 0 || count > 1;
+				overlaps = overlaps || count > 1;
 			}
 		}
 		const double mean = p_solid_count + area;
