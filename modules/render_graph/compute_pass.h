@@ -68,4 +68,29 @@ void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineR
 			std::span(reinterpret_cast<const uint8_t *>(&p_push), sizeof(Push)));
 }
 
+/// A dispatch of a pass that has several, see add_compute_steps.
+struct ComputeStep {
+	PipelineRID pipeline;
+	std::vector<PassBinding> bindings;
+	std::vector<uint8_t> push; // the shader's push constants; empty if it has none
+	/// Without arguments, enough work groups to cover the items.
+	glm::uvec3 item_count{ 0 };
+	/// Indirect dispatch: the buffer of its arguments, and their offset.
+	RGBuffer arguments;
+	uint64_t arguments_offset_bytes = 0;
+};
+
+/// The bytes of a struct of push constants.
+template <typename Push> std::vector<uint8_t> make_push_bytes(const Push &p_push) {
+	const auto *bytes = reinterpret_cast<const uint8_t *>(&p_push);
+	return std::vector<uint8_t>(bytes, bytes + sizeof(Push));
+}
+
+/// Adds one pass that runs the steps in order, with barriers between those that use the same
+/// resource. A pass for each step would measure it, which takes longer than a step that finds
+/// nothing to do. Without steps, no pass is added. A resource that some step writes has to have
+/// content that is preserved (UPDATE) in each step, except in the first that uses it.
+void add_compute_steps(
+		RenderGraph &r_graph, const std::string &p_name, std::vector<ComputeStep> p_steps);
+
 } // namespace gnomon

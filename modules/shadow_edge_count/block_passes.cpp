@@ -58,12 +58,13 @@ std::vector<PassBinding> make_count_bindings(
 }
 
 /// The specialization constants of every shader that processes blocks.
-std::vector<SpecializationConstant> make_pipeline_constants(
-		const ShadowTechnique::Inputs &p_inputs) {
-	return { { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(p_inputs.views.size()) },
-		{ EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, p_inputs.device.get_features().subgroup_size },
-		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_inputs.views.front().is_orthographic ? 1u : 0u },
-		{ EDGE_COUNT_CONSTANT_GROUP_SIZE, get_count_subgroup_size(p_inputs.device) } };
+std::vector<SpecializationConstant> make_pipeline_constants(const CountBlockPasses &p_passes) {
+	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
+	return { { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(inputs.views.size()) },
+		{ EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, inputs.device.get_features().subgroup_size },
+		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, inputs.views.front().is_orthographic ? 1u : 0u },
+		{ EDGE_COUNT_CONSTANT_GROUP_SIZE, get_count_subgroup_size(inputs.device) },
+		{ EDGE_COUNT_CONSTANT_MAY_CUT_DISC, p_passes.capacities.cut_face_count > 0 ? 1u : 0u } };
 }
 
 /// Adds an indirect dispatch over the blocks of one kind.
@@ -73,7 +74,7 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	const shader::CountBlockPush push = { p_kind, p_kind * p_blocks.block_count,
 		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, /*round=*/0 };
-	std::vector<SpecializationConstant> constants = make_pipeline_constants(inputs);
+	std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes);
 	const bool has_no_list =
 			p_kind == EDGE_COUNT_BLOCKS_UNLISTED || p_kind == EDGE_COUNT_BLOCKS_FILTERED;
 	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, has_no_list ? 1u : 0u });
@@ -94,7 +95,7 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 /// Adds the rounds that count what subgroups without iterations left have not counted.
 void add_rounds(RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks,
 		RGTexture p_mask) {
-	std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes.inputs);
+	std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes);
 	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, 1u });
 	const bool is_fine = p_passes.settings.get_sample_set_count() > 1;
 	const std::string shader = choose_fetching_shader(p_passes.inputs.device,
@@ -103,7 +104,7 @@ void add_rounds(RenderGraph &r_graph, const CountBlockPasses &p_passes, const Co
 	std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_blocks);
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
-	add_round_passes(r_graph, p_blocks.rounds,
+	add_rounds_pass(r_graph, p_blocks.rounds,
 			p_passes.inputs.device.get_compute_pipeline({ shader, shader, std::move(constants) }),
 			bindings);
 }
@@ -152,8 +153,9 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 	constants.max_cut_face_count = p_capacities.cut_face_count;
 	constants.interpolation = p_settings.interpolation;
 	constants.max_bundle_count = p_capacities.get_bundle_count();
-	const CountRoundLimits limits = choose_round_limits(p_inputs.size_px, constants.view_count,
-			p_capacities.edge_count, get_count_subgroup_size(p_inputs.device));
+	const CountRoundLimits limits =
+			choose_round_limits(p_inputs.size_px, constants.view_count, p_capacities.edge_count,
+					get_count_subgroup_size(p_inputs.device), p_settings.get_sample_set_count());
 	constants.unfinished_slot_count = limits.slot_count;
 	constants.unfinished_round_count = limits.round_count;
 	constants.max_edge_count = p_settings.disc_radius > 0 ? p_capacities.edge_count : 0;
@@ -182,28 +184,32 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1) * sizeof(uint32_t),
 			Format::R32_UINT));
 	blocks.block_count = static_cast<uint32_t>(block_count);
-	blocks.rounds = add_rounds_buffers(
+	blocks.rounds = create_rounds_buffers(
 			r_graph, inputs.device, constants, p_passes.settings.get_sample_set_count());
 	blocks.blocks = make_words("blocks by kind", EDGE_COUNT_BLOCK_KINDS * block_count);
 	blocks.dispatches = r_graph.create_buffer(
 			{ "block dispatches", EDGE_COUNT_DISPATCH_WORDS * sizeof(uint32_t),
 					BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::COPY_TARGET });
-	blocks.status = r_graph.create_buffer(
-			{ "edge count status", EDGE_COUNT_STATUS_WORDS * sizeof(uint32_t),
+	blocks.status =
+			r_graph.create_buffer({ "edge count status", EDGE_COUNT_STATUS_WORDS * sizeof(uint32_t),
 					BufferUsage::STORAGE | BufferUsage::COPY_TARGET | BufferUsage::COPY_SOURCE });
-	r_graph.add_pass("clear blocks")
-			.writes(blocks.dispatches, Access::COPY_WRITE)
-			.writes(blocks.status, Access::COPY_WRITE)
-			.execute([dispatches = blocks.dispatches, status = blocks.status](
-							 PassContext &p_context) {
-				p_context.commands.clear_buffer(p_context.get(dispatches));
-				p_context.commands.clear_buffer(p_context.get(status));
-			});
+	std::vector<RGBuffer> cleared = blocks.rounds.list_cleared();
+	cleared.push_back(blocks.dispatches);
+	cleared.push_back(blocks.status);
+	PassBuilder clear = r_graph.add_pass("clear blocks");
+	for (const RGBuffer &buffer : cleared) {
+		clear.writes(buffer, Access::COPY_WRITE);
+	}
+	clear.execute([cleared](PassContext &p_context) {
+		for (const RGBuffer &buffer : cleared) {
+			p_context.commands.clear_buffer(p_context.get(buffer));
+		}
+	});
 	// Each work group is one subgroup.
 	const uint32_t subgroup_size = inputs.device.get_features().subgroup_size;
 	const auto get_pipeline = [&](const std::string &p_shader) {
 		return inputs.device.get_compute_pipeline(
-				{ p_shader, p_shader, make_pipeline_constants(inputs) });
+				{ p_shader, p_shader, make_pipeline_constants(p_passes) });
 	};
 	std::vector<PassBinding> bindings = blocks.receivers;
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants));

@@ -9,8 +9,8 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
-// Receivers whose subgroups have a slot: at most 20 MB for 256 points.
-constexpr uint32_t MAX_SLOT_RECEIVERS = 65536;
+// Memory of the states between two rounds: those of 65,536 receivers with 256 points.
+constexpr uint64_t MAX_STATE_BYTES = 65536 * sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(4);
 // Rounds that find no unfinished subgroup take a few microseconds each.
 constexpr uint64_t MAX_ROUNDS = 24;
 
@@ -21,7 +21,7 @@ uint32_t get_count_subgroup_size(const RenderingDevice &p_device) {
 }
 
 CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_view_count,
-		uint32_t p_edge_count, uint32_t p_subgroup_size) {
+		uint32_t p_edge_count, uint32_t p_subgroup_size, uint32_t p_sample_set_count) {
 	// An edge needs at most 1.5 iterations for each part of a block's receivers.
 	const uint64_t iterations = uint64_t(p_edge_count) * EDGE_COUNT_PARTS(p_view_count) * 3 / 2;
 	if (iterations <= EDGE_COUNT_MAX_ITERATIONS) {
@@ -30,7 +30,9 @@ CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_view_count
 	const glm::uvec2 blocks =
 			(p_size_px + (EDGE_COUNT_BLOCK_PX - 1u)) / uint32_t(EDGE_COUNT_BLOCK_PX);
 	const uint32_t receivers = blocks.x * blocks.y * BLOCK_PIXELS;
-	const uint32_t slot_receivers = std::min(receivers, MAX_SLOT_RECEIVERS);
+	const uint32_t state_bytes = sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(p_sample_set_count);
+	const uint32_t slot_receivers = std::min(receivers,
+			static_cast<uint32_t>(MAX_STATE_BYTES / state_bytes / BLOCK_PIXELS) * BLOCK_PIXELS);
 	const uint64_t rounds = (iterations / EDGE_COUNT_MAX_ITERATIONS + 1) *
 			((receivers + slot_receivers - 1) / slot_receivers);
 	return { slot_receivers / p_subgroup_size,
@@ -45,7 +47,13 @@ void CountRounds::bind_queue(std::vector<PassBinding> &r_bindings) const {
 			PassBinding::write(COUNT_BINDING_NEXT_DISPATCH, dispatches.front(), update));
 }
 
-CountRounds add_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p_device,
+std::vector<RGBuffer> CountRounds::list_cleared() const {
+	std::vector<RGBuffer> cleared = dispatches;
+	cleared.push_back(counts);
+	return cleared;
+}
+
+CountRounds create_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p_device,
 		const shader::CountLightConstants &p_light, uint32_t p_sample_set_count) {
 	const auto make_words = [&](const std::string &p_name, uint64_t p_count,
 									BufferUsage p_usage = BufferUsage::STORAGE) {
@@ -71,23 +79,13 @@ CountRounds add_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p_de
 			slots = make_words("slots of a round", 2 * slot_count);
 		}
 	}
-	std::vector<RGBuffer> cleared = rounds.dispatches;
-	cleared.push_back(rounds.counts);
-	PassBuilder pass = r_graph.add_pass("clear rounds");
-	for (const RGBuffer &buffer : cleared) {
-		pass.writes(buffer, Access::COPY_WRITE);
-	}
-	pass.execute([cleared](PassContext &p_context) {
-		for (const RGBuffer &buffer : cleared) {
-			p_context.commands.clear_buffer(p_context.get(buffer));
-		}
-	});
 	return rounds;
 }
 
-void add_round_passes(RenderGraph &r_graph, const CountRounds &p_rounds, PipelineRID p_pipeline,
+void add_rounds_pass(RenderGraph &r_graph, const CountRounds &p_rounds, PipelineRID p_pipeline,
 		const std::vector<PassBinding> &p_bindings) {
 	const auto update = PassBuilder::Content::UPDATE;
+	std::vector<ComputeStep> steps;
 	for (uint32_t round = 0; round + 1 < p_rounds.dispatches.size(); ++round) {
 		std::vector<PassBinding> bindings = p_bindings;
 		p_rounds.bind_queue(bindings);
@@ -100,16 +98,12 @@ void add_round_passes(RenderGraph &r_graph, const CountRounds &p_rounds, Pipelin
 				COUNT_BINDING_NEXT_ROUND, p_rounds.slots[(round + 1) % 2], update));
 		const shader::CountBlockPush push = { EDGE_COUNT_BLOCKS_UNLISTED, /*first_block=*/0,
 			/*nearest_w=*/0.0f, round };
-		PassBuilder pass = r_graph.add_pass(text("resolve unfinished round ", round));
-		declare_bindings(pass, bindings);
-		pass.reads(p_rounds.dispatches[round], Access::INDIRECT_READ);
-		pass.execute([p_pipeline, push, bindings = std::move(bindings),
-							 dispatch = p_rounds.dispatches[round]](PassContext &p_context) {
-			bind_compute(p_context, p_pipeline, bindings,
-					std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
-			p_context.commands.dispatch_indirect(p_context.get(dispatch), 0);
-		});
+		steps.push_back({ .pipeline = p_pipeline,
+				.bindings = std::move(bindings),
+				.push = make_push_bytes(push),
+				.arguments = p_rounds.dispatches[round] });
 	}
+	add_compute_steps(r_graph, "resolve unfinished", std::move(steps));
 }
 
 } // namespace gnomon

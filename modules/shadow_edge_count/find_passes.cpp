@@ -33,35 +33,49 @@ struct CasterWork {
 	uint32_t item_count = 0;
 };
 
-/// Adds a pass that copies bytes to a buffer in GPU memory: work groups of all passes read them.
-/// p_owned: buffers that must exist until the graph has run.
-RGBuffer add_upload_pass(RenderGraph &r_graph, const BufferDesc &p_desc, const auto &p_values,
-		std::vector<SharedBuffer> p_owned = {}) {
-	const RGBuffer target = r_graph.create_buffer(p_desc);
-	const RGBuffer source =
-			r_graph.upload(p_desc.name, BufferUsage::COPY_SOURCE, bytes_of(std::span(p_values)));
-	r_graph.add_pass("upload " + p_desc.name)
-			.reads(source, Access::COPY_READ)
-			.writes(target, Access::COPY_WRITE)
-			.execute([source, target, size_bytes = p_desc.size_bytes, owned = std::move(p_owned)](
-							 PassContext &p_context) {
-				p_context.commands.copy_buffer(
-						p_context.get(source), p_context.get(target), size_bytes);
-			});
-	return target;
+/// A buffer in GPU memory, since work groups of all passes read it, and the bytes to copy there.
+struct Upload {
+	RGBuffer target;
+	RGBuffer source;
+	uint64_t size_bytes = 0;
+};
+
+Upload make_upload(RenderGraph &r_graph, BufferDesc p_desc, const auto &p_values) {
+	const std::span<const uint8_t> bytes = bytes_of(std::span(p_values));
+	p_desc.size_bytes = bytes.size();
+	p_desc.usage = p_desc.usage | BufferUsage::COPY_TARGET;
+	return { r_graph.create_buffer(p_desc),
+		r_graph.upload(p_desc.name, BufferUsage::COPY_SOURCE, bytes), bytes.size() };
 }
 
-RGBuffer upload_casters(
-		RenderGraph &r_graph, const RenderingDevice &p_device, const CountCasters &p_casters) {
+/// Adds a pass that uploads the casters and the work groups. p_owned: buffers that must exist until
+/// the graph has run.
+void upload_casters(RenderGraph &r_graph, const RenderingDevice &p_device,
+		const CountCasters &p_casters, const std::vector<shader::CountWorkGroup> &p_groups,
+		std::vector<SharedBuffer> p_owned, CasterBuffers &r_buffers) {
 	std::vector<shader::CountCasterRecord> records;
 	records.reserve(p_casters.casters.size());
 	for (const CountCaster &caster : p_casters.casters) {
 		records.push_back(caster.record);
 	}
-	BufferDesc desc = make_fetched_buffer_desc(p_device, "casters",
-			records.size() * sizeof(shader::CountCasterRecord), Format::RGBA32_UINT);
-	desc.usage = desc.usage | BufferUsage::COPY_TARGET;
-	return add_upload_pass(r_graph, desc, std::as_const(records));
+	const std::vector<Upload> uploads = { make_upload(r_graph,
+												  make_fetched_buffer_desc(p_device, "casters",
+														  /*p_size_bytes=*/0, Format::RGBA32_UINT),
+												  std::as_const(records)),
+		make_upload(r_graph, { .name = "caster work groups", .usage = BufferUsage::STORAGE },
+				p_groups) };
+	r_buffers.casters = uploads[0].target;
+	r_buffers.work_groups = uploads[1].target;
+	PassBuilder pass = r_graph.add_pass("upload casters");
+	for (const Upload &upload : uploads) {
+		pass.reads(upload.source, Access::COPY_READ).writes(upload.target, Access::COPY_WRITE);
+	}
+	pass.execute([uploads, owned = std::move(p_owned)](PassContext &p_context) {
+		for (const Upload &upload : uploads) {
+			p_context.commands.copy_buffer(
+					p_context.get(upload.source), p_context.get(upload.target), upload.size_bytes);
+		}
+	});
 }
 
 /// Adds a pass that copies the vertices of deformed meshes to the pool of all meshes, if some have
@@ -176,22 +190,6 @@ std::vector<FaceRange> find_seen_faces(const CountCasters &p_casters, uint32_t p
 	return ranges;
 }
 
-/// Adds a compute pass with an indirect dispatch. p_word: offset of its arguments in p_dispatches,
-/// in words.
-void add_indirect_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
-		std::vector<PassBinding> p_bindings, RGBuffer p_dispatches, uint32_t p_word,
-		const shader::CountFaceListPush &p_push) {
-	PassBuilder pass = r_graph.add_pass(p_name);
-	declare_bindings(pass, p_bindings);
-	pass.reads(p_dispatches, Access::INDIRECT_READ);
-	pass.execute([=, bindings = std::move(p_bindings)](PassContext &p_context) {
-		bind_compute(p_context, p_pipeline, bindings,
-				std::span(reinterpret_cast<const uint8_t *>(&p_push), sizeof(p_push)));
-		p_context.commands.dispatch_indirect(
-				p_context.get(p_dispatches), p_word * sizeof(uint32_t));
-	});
-}
-
 } // namespace
 
 void add_find_passes(
@@ -217,13 +215,8 @@ void add_find_passes(
 	}
 	if (!groups.empty()) {
 		CasterBuffers inputs;
-		inputs.casters = upload_casters(r_graph, p_device, casters);
-		inputs.work_groups = add_upload_pass(r_graph,
-				{ .name = "caster work groups",
-						.size_bytes = groups.size() * sizeof(groups[0]),
-						.usage = BufferUsage::STORAGE | BufferUsage::COPY_TARGET },
-				std::as_const(groups),
-				{ meshes.get_faces(), meshes.get_edges(), meshes.get_points() });
+		upload_casters(r_graph, p_device, casters, groups,
+				{ meshes.get_faces(), meshes.get_edges(), meshes.get_points() }, inputs);
 		inputs.mesh_faces = r_graph.import_buffer(meshes.get_faces().get());
 		inputs.points = r_graph.import_buffer(meshes.get_points().get());
 		add_pose_pass(r_graph, casters, meshes.get_points().get());
@@ -275,51 +268,55 @@ void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 			PassBinding::write(FACE_LIST_BINDING_TOTALS, buffers.totals, Content::UPDATE);
 	const PassBinding heads =
 			PassBinding::write(FACE_LIST_BINDING_HEADS, buffers.heads, Content::UPDATE);
+	const std::vector<PassBinding> clear_bindings = { constants, heads, totals };
 	const std::vector<PassBinding> list_bindings = { constants,
 		PassBinding::read(FACE_LIST_BINDING_FACES, buffers.faces), heads,
 		PassBinding::write(FACE_LIST_BINDING_NODES, buffers.nodes, Content::UPDATE), totals };
-	RGBuffer dispatches;
-	for (uint32_t attempt = 0; attempt < attempt_count; ++attempt) {
-		const shader::CountFaceListPush push = { p_view_index, /*first_face=*/0,
-			p_passes.capacities.face_count, /*is_first=*/attempt == 0 ? 1u : 0u,
-			/*is_next_final=*/attempt + 2 == attempt_count ? 1u : 0u,
+	const auto make_push = [&](uint32_t p_attempt) {
+		return shader::CountFaceListPush{ p_view_index, /*first_face=*/0,
+			p_passes.capacities.face_count, /*is_first=*/p_attempt == 0 ? 1u : 0u,
+			/*is_next_final=*/p_attempt + 2 == attempt_count ? 1u : 0u,
 			p_passes.may_overflow ? 1u : 0u, /*padding0=*/0, /*padding1=*/0 };
-		const auto push_bytes = std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push));
-		const std::string suffix = attempt == 0 ? view : text(view, " attempt ", attempt);
-		if (attempt == 0) {
-			add_compute_pass(r_graph, "clear faces" + suffix, clear, { constants, heads, totals },
-					{ p_passes.capacities.texels_per_view, 1, 1 }, push_bytes);
-			PassBuilder pass = r_graph.add_pass("list faces" + suffix);
-			declare_bindings(pass, list_bindings);
-			pass.execute([list, list_bindings, push,
-								 ranges = find_seen_faces(p_passes.casters, p_view_index)](
-								 PassContext &p_context) {
-				bind_compute(p_context, list, list_bindings, {});
-				for (const FaceRange &range : ranges) {
-					shader::CountFaceListPush range_push = push;
-					range_push.first_face = range.first;
-					range_push.face_count = range.count;
-					p_context.commands.push_constants(range_push);
-					p_context.commands.dispatch_items({ range.count, 1, 1 });
-				}
-			});
-		} else {
-			add_indirect_pass(r_graph, "clear faces" + suffix, clear, { constants, heads, totals },
-					dispatches, FACE_LIST_DISPATCH_CLEAR, push);
-			add_indirect_pass(r_graph, "list faces" + suffix, list, list_bindings, dispatches,
-					FACE_LIST_DISPATCH_LIST, push);
+	};
+	add_compute_pass(r_graph, "clear faces" + view, clear, clear_bindings,
+			{ p_passes.capacities.texels_per_view, 1, 1 }, make_push_bytes(make_push(0)));
+	PassBuilder pass = r_graph.add_pass("list faces" + view);
+	declare_bindings(pass, list_bindings);
+	pass.execute([list, list_bindings, push = make_push(0),
+						 ranges = find_seen_faces(p_passes.casters, p_view_index)](
+						 PassContext &p_context) {
+		bind_compute(p_context, list, list_bindings, {});
+		for (const FaceRange &range : ranges) {
+			shader::CountFaceListPush range_push = push;
+			range_push.first_face = range.first;
+			range_push.face_count = range.count;
+			p_context.commands.push_constants(range_push);
+			p_context.commands.dispatch_items({ range.count, 1, 1 });
 		}
-		if (attempt + 1 < attempt_count) {
-			dispatches = r_graph.create_buffer(
-					{ "face list dispatches", FACE_LIST_DISPATCH_WORDS * sizeof(uint32_t),
-							BufferUsage::STORAGE | BufferUsage::INDIRECT });
-			add_compute_pass(r_graph, "retry faces" + suffix,
-					get_pipeline("shadow_edge_count/retry_faces.comp"),
-					{ constants, totals,
-							PassBinding::write(FACE_LIST_BINDING_DISPATCHES, dispatches) },
-					{ 1, 1, 1 }, push_bytes);
-		}
+	});
+	std::vector<ComputeStep> steps;
+	for (uint32_t attempt = 1; attempt < attempt_count; ++attempt) {
+		const RGBuffer dispatches = r_graph.create_buffer(
+				{ "face list dispatches", FACE_LIST_DISPATCH_WORDS * sizeof(uint32_t),
+						BufferUsage::STORAGE | BufferUsage::INDIRECT });
+		steps.push_back({ .pipeline = get_pipeline("shadow_edge_count/retry_faces.comp"),
+				.bindings = { constants, totals,
+						PassBinding::write(FACE_LIST_BINDING_DISPATCHES, dispatches) },
+				.push = make_push_bytes(make_push(attempt - 1)),
+				.item_count = { 1, 1, 1 } });
+		const std::vector<uint8_t> push = make_push_bytes(make_push(attempt));
+		steps.push_back({ .pipeline = clear,
+				.bindings = clear_bindings,
+				.push = push,
+				.arguments = dispatches,
+				.arguments_offset_bytes = FACE_LIST_DISPATCH_CLEAR * sizeof(uint32_t) });
+		steps.push_back({ .pipeline = list,
+				.bindings = list_bindings,
+				.push = push,
+				.arguments = dispatches,
+				.arguments_offset_bytes = FACE_LIST_DISPATCH_LIST * sizeof(uint32_t) });
 	}
+	add_compute_steps(r_graph, "list faces again" + view, std::move(steps));
 }
 
 } // namespace gnomon

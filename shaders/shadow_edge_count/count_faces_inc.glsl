@@ -80,6 +80,7 @@ struct FaceWalk {
 	uint next;		 // counted from 1; 0 at the end
 	uint cell;		 // bits of the receiver's column and row of cells, as in a node
 	uint capacity;	 // of the view's nodes
+	uint max_next;	 // of all nodes so far
 	uint steps_left; // a list has each face once at most
 };
 
@@ -96,20 +97,29 @@ FaceWalk start_face_walk(CountLightConstants p_light, uint p_view, vec2 p_positi
 	return FaceWalk(p_view * p_light.node_capacity,
 			is_inside ? load_count_first_node(p_view, uvec2(texel)) : 0u,
 			(1u << cell.x | 1u << (EDGE_COUNT_NODE_CELLS_PER_SIDE + cell.y)) << EDGE_COUNT_NODE_CELLS_SHIFT,
-			p_light.node_capacity, min(p_light.node_capacity, p_light.face_count));
+			p_light.node_capacity, 0u, min(p_light.node_capacity, p_light.face_count));
 }
 
 /// Goes to the next node unless r_faces is full. Adds the node's face to r_faces if its bounds overlap the receiver's
-/// cell. r_faces: unused items, which follow the others, are EDGE_COUNT_NO_FACE.
+/// cell. r_faces: unused items, which follow the others, are EDGE_COUNT_NO_FACE. An index out of range leads to another
+/// node, and end_face_walk() reports it.
 void step_face_walk(inout FaceWalk r_walk, inout uvec4 r_faces) {
-	const bool is_due = r_walk.next != 0u && r_faces.w == EDGE_COUNT_NO_FACE;
-	const bool is_valid = is_due && r_walk.next <= r_walk.capacity && r_walk.steps_left > 0u;
-	note_fault(is_due != is_valid, EDGE_COUNT_FAULT_FACE_LIST);
-	const uvec2 node = load_count_node(r_walk.first_node + (is_valid ? r_walk.next - 1u : 0u));
+	const bool is_valid = r_walk.next != 0u && r_faces.w == EDGE_COUNT_NO_FACE;
+	const uvec2 node = load_count_node(r_walk.first_node + clamp(r_walk.next, 1u, r_walk.capacity) - 1u);
 	const bool overlaps = is_valid && (node.x & r_walk.cell) == r_walk.cell;
 	r_faces = overlaps ? uvec4(node.x & EDGE_COUNT_FACE_MASK, r_faces.xyz) : r_faces;
-	r_walk.next = is_valid ? node.y : (is_due ? 0u : r_walk.next);
-	r_walk.steps_left -= is_valid ? 1u : 0u;
+	r_walk.max_next = max(r_walk.max_next, r_walk.next);
+	r_walk.next = is_valid ? node.y : r_walk.next;
+}
+
+bool is_in_face_walk(FaceWalk p_walk) {
+	return p_walk.next != 0u && p_walk.steps_left > 0u;
+}
+
+void end_face_walk(FaceWalk p_walk) {
+	const bool is_endless = p_walk.next != 0u && p_walk.steps_left == 0u;
+	note_fault(is_endless || p_walk.max_next > p_walk.capacity, EDGE_COUNT_FAULT_FACE_LIST);
+	note_fault(is_in_face_walk(p_walk), EDGE_COUNT_FAULT_LOOP);
 }
 
 /// Counts crossings of the faces that the receiver's texel lists. p_position: x' and y' of the receiver in its view.
@@ -119,13 +129,14 @@ void step_face_walk(inout FaceWalk r_walk, inout uvec4 r_faces) {
 CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_position, CountReceiver p_receiver) {
 	FaceWalk walk = start_face_walk(p_light, p_view, p_position);
 	CountCrossings found = CountCrossings(0, 0, 0);
-	while (walk.next != 0u) {
+	while (is_in_face_walk(walk)) {
 		uvec4 faces = uvec4(EDGE_COUNT_NO_FACE);
 		do {
 			// Two nodes per iteration, since llvmpipe ends every loop after an invocation has made 65535 iterations.
 			step_face_walk(walk, faces);
 			step_face_walk(walk, faces);
-		} while (walk.next != 0u && faces.w == EDGE_COUNT_NO_FACE);
+			--walk.steps_left;
+		} while (is_in_face_walk(walk) && faces.w == EDGE_COUNT_NO_FACE);
 		do {
 			const bool is_valid = faces.x != EDGE_COUNT_NO_FACE;
 			const uint face = is_valid ? faces.x : 0u; // load_count_face() and load_count_plane() limit it
@@ -138,7 +149,7 @@ CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_
 		} while (faces.x != EDGE_COUNT_NO_FACE);
 		note_fault(faces.x != EDGE_COUNT_NO_FACE, EDGE_COUNT_FAULT_LOOP);
 	}
-	note_fault(walk.next != 0u, EDGE_COUNT_FAULT_LOOP);
+	end_face_walk(walk);
 	return found;
 }
 

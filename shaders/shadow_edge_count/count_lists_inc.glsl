@@ -40,9 +40,11 @@ vec4 load_count_plane(uint p_face) {
 	return FETCH_VEC4(planes_buffer, limit_face(p_face));
 }
 
+layout(constant_id = EDGE_COUNT_CONSTANT_MAY_CUT_DISC) const bool MAY_CUT_DISC = true;
+
 /// The number of faces that may cut the light's disc. 0 if no caster comes near it: then no pass has written a total.
 uint find_cut_face_count() {
-	return light.max_cut_face_count == 0u ? 0u : min(totals[EDGE_COUNT_TOTAL_CUT_FACES], light.max_cut_face_count);
+	return MAY_CUT_DISC ? min(totals[EDGE_COUNT_TOTAL_CUT_FACES], light.max_cut_face_count) : 0u;
 }
 
 uint load_cut_face(uint p_index) {

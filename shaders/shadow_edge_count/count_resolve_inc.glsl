@@ -35,6 +35,12 @@ bool has_iterations_left() {
 	return iteration_count < iteration_limit;
 }
 
+/// Notes a fault if p_is_unfinished, after a loop inside the loop over slices. Only work without lists does so, which the
+/// last round does without a limit: with lists, the loop over slices ends long before a driver ends loops.
+void note_inner_loop(bool p_is_unfinished) {
+	note_fault(HAS_NO_LIST && p_is_unfinished, EDGE_COUNT_FAULT_LOOP);
+}
+
 // List entries (see COUNT_EDGE_MASK) of the edges that some receiver of a subgroup may have to count. Each subgroup has
 // its own slice. There is a slice for every four invocations, the smallest size of a subgroup.
 const uint SLICE_SIZE = 64u;
@@ -138,10 +144,10 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 				i += 2u * SUBGROUP_SIZE;
 				++iteration_count;
 			} while (2u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
-			note_fault(i - gl_SubgroupInvocationID < size, EDGE_COUNT_FAULT_LOOP);
+			note_inner_loop(i - gl_SubgroupInvocationID < size);
 			++iteration_count;
 		} while (subgroupBallotBitCount(needed) != 0u);
-		note_fault(subgroupBallotBitCount(needed) != 0u, EDGE_COUNT_FAULT_LOOP);
+		note_inner_loop(subgroupBallotBitCount(needed) != 0u);
 		++iteration_count;
 	} while (choice.next < p_end && has_choice_room(choice, size) && has_iterations_left());
 	return choice;
@@ -318,7 +324,7 @@ CountEdgeMasks test_round(uint p_first, uint p_count, CountReceiver p_receiver, 
 		batches_without_weight |= subgroup_any(lacks_weight) ? 1u << batch : 0u;
 		++batch;
 	} while (batch * BATCH_SIZE < p_count);
-	note_fault(batch * BATCH_SIZE < p_count, EDGE_COUNT_FAULT_LOOP);
+	note_inner_loop(batch * BATCH_SIZE < p_count);
 	do {
 		// If none is left, this iteration has no effect.
 		batch = batches_without_weight != 0u ? uint(findLSB(batches_without_weight)) : 0u;
@@ -336,7 +342,7 @@ CountEdgeMasks test_round(uint p_first, uint p_count, CountReceiver p_receiver, 
 			i += EDGES_PER_ITERATION;
 		} while (BATCH_SIZE > EDGES_PER_ITERATION && i < find_loaded_count(batch, p_count));
 	} while (batches_without_weight != 0u);
-	note_fault(batches_without_weight != 0u, EDGE_COUNT_FAULT_LOOP);
+	note_inner_loop(batches_without_weight != 0u);
 	return edge_masks;
 }
 
@@ -392,7 +398,7 @@ void count_round(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks 
 		i += HAS_NO_LIST ? 4u : 2u;
 		++iteration_count;
 	} while (i < max_count);
-	note_fault(i < max_count, EDGE_COUNT_FAULT_LOOP);
+	note_inner_loop(i < max_count);
 }
 
 /// The bounds of the receivers of a subgroup for which p_is_selected is true.
@@ -518,7 +524,7 @@ void count_edges(uint p_block, uint p_parts, CountSubject p_subject, inout Count
 				first += ROUND_SIZE;
 				iteration_count += TEST_ITERATIONS + 1u;
 			} while (first < choice.count);
-			note_fault(first < choice.count, EDGE_COUNT_FAULT_LOOP);
+			note_inner_loop(first < choice.count);
 			sync_subgroup_memory();
 			++iteration_count;
 		} while (next < end && has_iterations_left());

@@ -62,14 +62,16 @@ void count_iteration() {
 	++iteration_count;
 }
 
-/// Call it after a loop: p_is_left is true if the loop's own condition would have continued it, which means that the
-/// driver ended it. The tile then gets no lists.
-void check_end(bool p_is_left) {
-	iteration_count = p_is_left ? max(iteration_count, MAX_ITERATIONS) : iteration_count;
-}
-
 bool has_iterations_left() {
 	return iteration_count < MAX_ITERATIONS;
+}
+
+bool is_incomplete = false; // some loop did not reach its end
+
+/// Call it after a loop: p_is_left is true if the loop's own condition would have continued it. Either no iterations were
+/// left, or the driver ended it. The tile then gets no lists.
+void check_end(bool p_is_left) {
+	is_incomplete = is_incomplete || p_is_left;
 }
 
 // Of the parts that the invocation wrote, for the status buffer.
@@ -597,7 +599,7 @@ void main() {
 		if (block != NO_BLOCK) {
 			const uint edge_count = block_edge_counts[i];
 			const uint solids = block_solids[i];
-			const bool is_tested = has_iterations_left(); // all edges of the tile
+			const bool is_tested = has_iterations_left() && !is_incomplete; // all edges of the tile
 			const bool is_smooth = blocks_are_smooth[i] != 0u && edge_count <= MAX_SMOOTH_EDGES;
 			uint kind = uint(is_smooth ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
 			kind = is_tested && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);

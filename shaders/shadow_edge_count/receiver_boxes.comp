@@ -29,6 +29,7 @@ const uint SUBGROUP_SIZE = GROUP_SIZE;
 const uint PIXEL_COUNT = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
 const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
 const uint NO_VIEW = 0xffffffffu;
+const uint NO_PART = 0xffffffffu;
 
 /// The receiver of one of the block's pixels. Its view is NO_VIEW if there is none, or if no caster can hide it. In the
 /// latter case r_is_lit becomes true.
@@ -78,46 +79,37 @@ CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_se
 	return find_subgroup_bounds(bounds);
 }
 
-/// Writes a part's bounds, and the distance of its nearest receiver from the light (EDGE_COUNT_CHAIN_DISTANCE). The
-/// part has the receivers for which p_is_selected is true. Returns false if there is none.
-bool write_part(uint p_block, uint p_part, CountPoint p_points[PIXELS_PER_INVOCATION],
-		bool p_is_selected[PIXELS_PER_INVOCATION]) {
-	const CountBounds bounds = find_bounds(p_points, p_is_selected);
+/// Writes a part's bounds, and the distance of its nearest receiver from the light (EDGE_COUNT_CHAIN_DISTANCE).
+/// p_parts: the parts of the receivers.
+void write_part(uint p_block, uint p_part, CountPoint p_points[PIXELS_PER_INVOCATION], uint p_parts[PIXELS_PER_INVOCATION]) {
+	bool is_selected[PIXELS_PER_INVOCATION];
 	float distance_m = COUNT_FAR;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		is_selected[i] = p_parts[i] == p_part;
 		const vec3 position = p_points[i].position;
-		distance_m = p_is_selected[i] ? min(distance_m, IS_DIRECTIONAL ? position.z : length(position))
-									  : distance_m;
+		distance_m = is_selected[i] ? min(distance_m, IS_DIRECTIONAL ? position.z : length(position)) : distance_m;
 	}
 	distance_m = subgroup_min(distance_m);
+	const CountBounds bounds = find_bounds(p_points, is_selected);
 	if (subgroupElect()) {
 		const uint index = p_block * PART_COUNT + p_part;
 		boxes[index] = pack_count_bounds(bounds);
 		chains[index * uint(EDGE_COUNT_CHAIN_WORDS) + uint(EDGE_COUNT_CHAIN_DISTANCE)] = floatBitsToUint(distance_m);
 	}
-	return !is_count_bounds_empty(bounds);
 }
 
 shared float sort_keys[PIXEL_COUNT];
 shared uint sorted_pixels[PIXEL_COUNT];
 
-/// Sorts the block's pixels by distance from the camera, those without a receiver last. Writes their order, and the
-/// boxes of their parts, which divide the range of distances evenly. All receivers must be in one view. Returns the bit
-/// mask of parts that have receivers.
-uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2 p_camera_range) {
-	const float SORTED_PART_COUNT = float(EDGE_COUNT_SORTED_PARTS);
-	const float parts_per_m = SORTED_PART_COUNT / (p_camera_range.y - p_camera_range.x);
-	float distances[PIXELS_PER_INVOCATION];
-	uint parts[PIXELS_PER_INVOCATION];
+/// Writes the order of the block's pixels by distance from the camera, those without a receiver last. p_distances: of the
+/// receivers, COUNT_FAR where there is none. p_parts: the parts of the receivers.
+void write_order(uint p_block, float p_distances[PIXELS_PER_INVOCATION], uint p_parts[PIXELS_PER_INVOCATION]) {
 	uint ranks[PIXELS_PER_INVOCATION];
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
-		const bool is_selected = p_points[i].view != NO_VIEW;
-		distances[i] = is_selected ? find_camera_distance(p_points[i]) : COUNT_FAR;
-		parts[i] = is_selected ? uint(clamp((distances[i] - p_camera_range.x) * parts_per_m, 0.0, SORTED_PART_COUNT - 1.0)) : 0u;
 		ranks[i] = 0u;
 		if (pixel < PIXEL_COUNT) {
-			sort_keys[pixel] = distances[i];
+			sort_keys[pixel] = p_distances[i];
 		}
 	}
 	sync_subgroup_memory();
@@ -125,13 +117,13 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 		const float distance_m = sort_keys[other];
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 			const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
-			ranks[i] += distance_m < distances[i] || (distance_m == distances[i] && other < pixel) ? 1u : 0u;
+			ranks[i] += distance_m < p_distances[i] || (distance_m == p_distances[i] && other < pixel) ? 1u : 0u;
 		}
 	}
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
 		if (pixel < PIXEL_COUNT) {
-			sorted_pixels[ranks[i]] = pixel | parts[i] << EDGE_COUNT_ORDER_PART_SHIFT;
+			sorted_pixels[ranks[i]] = pixel | (p_parts[i] == NO_PART ? 0u : p_parts[i] << EDGE_COUNT_ORDER_PART_SHIFT);
 		}
 	}
 	sync_subgroup_memory();
@@ -140,15 +132,6 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 				sorted_pixels[4u * i] | sorted_pixels[4u * i + 1u] << 8 | sorted_pixels[4u * i + 2u] << 16 |
 				sorted_pixels[4u * i + 3u] << 24;
 	}
-	uint found = 0u;
-	for (uint part = 0u; part < uint(EDGE_COUNT_SORTED_PARTS); ++part) {
-		bool is_selected[PIXELS_PER_INVOCATION];
-		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-			is_selected[i] = p_points[i].view != NO_VIEW && parts[i] == part;
-		}
-		found |= write_part(p_block, part, p_points, is_selected) ? 1u << part : 0u;
-	}
-	return found;
 }
 
 /// True if each pixel has a receiver, and positions change evenly from pixel to pixel: they deviate from a linear
@@ -176,50 +159,46 @@ bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
 void main() {
 	load_count_constants();
 	CountPoint points[PIXELS_PER_INVOCATION];
+	float distances[PIXELS_PER_INVOCATION];
 	bool is_lit = false;
+	uint views = 0u;
+	vec2 camera_range = vec2(COUNT_FAR, -COUNT_FAR);
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		points[i] = load_point(i * GROUP_SIZE + gl_SubgroupInvocationID, is_lit);
+		const bool is_receiver = points[i].view != NO_VIEW;
+		const float distance_m = find_camera_distance(points[i]);
+		views |= is_receiver ? 1u << points[i].view : 0u;
+		camera_range.x = is_receiver ? min(camera_range.x, distance_m) : camera_range.x;
+		camera_range.y = is_receiver ? max(camera_range.y, distance_m) : camera_range.y;
+		distances[i] = is_receiver ? distance_m : COUNT_FAR;
 	}
+	views = subgroup_or(views);
+	camera_range = vec2(subgroup_min(camera_range.x), subgroup_max(camera_range.y));
+	const bool has_one_view = bitCount(views) == 1;
+	const bool is_sorted = has_one_view && needs_sorting(camera_range);
+	// The parts of the receivers: they divide the range of distances evenly, or are the views.
+	const float SORTED_PART_COUNT = float(EDGE_COUNT_SORTED_PARTS);
+	const float parts_per_m = SORTED_PART_COUNT / (camera_range.y - camera_range.x);
+	uint parts[PIXELS_PER_INVOCATION];
+	uint all_parts = 0u;
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		const float position = clamp((distances[i] - camera_range.x) * parts_per_m, 0.0, SORTED_PART_COUNT - 1.0);
+		const uint part = is_sorted ? uint(position) : points[i].view;
+		parts[i] = points[i].view != NO_VIEW ? part : NO_PART;
+		all_parts |= points[i].view != NO_VIEW ? 1u << part : 0u;
+	}
+	all_parts = subgroup_or(all_parts);
 	const uint block = find_work_row() * light.block_count.x + gl_WorkGroupID.x;
-	uint parts = 0u;
-	uint view = 0u;
-	bool is_deep = false;
-	vec2 camera_range = vec2(0.0);
-	while (true) {
-		// The next view that contains a receiver.
-		uint next = NO_VIEW;
-		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-			next = points[i].view >= view ? min(next, points[i].view) : next;
-		}
-		view = subgroup_min(next);
-		if (view == NO_VIEW) {
-			break;
-		}
-		bool is_selected[PIXELS_PER_INVOCATION];
-		float minimum = COUNT_FAR;
-		float maximum = -COUNT_FAR;
-		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-			is_selected[i] = points[i].view == view;
-			const float distance_m = find_camera_distance(points[i]);
-			minimum = is_selected[i] ? min(minimum, distance_m) : minimum;
-			maximum = is_selected[i] ? max(maximum, distance_m) : maximum;
-		}
-		write_part(block, view, points, is_selected); // if sorted, write_sorted replaces it
-		camera_range = vec2(subgroup_min(minimum), subgroup_max(maximum));
-		is_deep = is_deep || needs_sorting(camera_range);
-		parts |= 1u << view;
-		++view;
+	for (uint left = all_parts; left != 0u; left &= left - 1u) {
+		write_part(block, uint(findLSB(left)), points, parts);
 	}
-	const bool has_one_view = bitCount(parts) == 1;
-	if (has_one_view && !is_deep) {
-		parts |= is_smooth(points) ? EDGE_COUNT_IS_SMOOTH : 0u;
+	const bool is_smooth_block = is_smooth(points) && has_one_view && !is_sorted;
+	if (is_sorted) {
+		write_order(block, distances, parts);
 	}
-	if (has_one_view && is_deep) {
-		parts = write_sorted(block, points, camera_range) |
-				uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
-	}
-	parts |= subgroup_any(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u;
+	const uint flags = (is_sorted ? uint(findLSB(views)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED : 0u) |
+			(is_smooth_block ? EDGE_COUNT_IS_SMOOTH : 0u) | (subgroup_any(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u);
 	if (subgroupElect()) {
-		block_receivers[block * uint(EDGE_COUNT_RECEIVERS_WORDS) + uint(EDGE_COUNT_RECEIVERS_PARTS)] = parts;
+		block_receivers[block * uint(EDGE_COUNT_RECEIVERS_WORDS) + uint(EDGE_COUNT_RECEIVERS_PARTS)] = all_parts | flags;
 	}
 }

@@ -169,6 +169,7 @@ SHARED_SIZE(CountFindPush, 32);
 #define EDGE_COUNT_CONSTANT_IS_DIRECTIONAL 3 // the light is directional
 #define EDGE_COUNT_CONSTANT_GROUP_SIZE                                                             \
 	4 // invocations of a work group that is one subgroup, at most EDGE_COUNT_MAX_SUBGROUP
+#define EDGE_COUNT_CONSTANT_MAY_CUT_DISC 5 // some caster may come within R of the light's centre
 // The edge list of one part of a block is a chain of chunks. After all chunks, the buffer has each
 // chunk's next chunk.
 #define EDGE_COUNT_CHUNK_SIZE 64

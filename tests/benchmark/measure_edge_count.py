@@ -207,7 +207,7 @@ def get_pass_times(result, clock):
     times = {}
     for item in result["passes"]:
         if item["name"] != RECEIVERS_PASS:
-            name = re.sub(r" view \d+( attempt \d+)?$", "", item["name"])
+            name = re.sub(r" view \d+$", "", item["name"])
             times[name] = times.get(name, 0.0) + item["wall_ms" if item["is_on_host"] else clock]
     return times
 

@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/render_graph/compute_pass.h"
 #include "modules/render_graph/fill_pass.h"
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
@@ -6,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 
 using namespace gnomon;
@@ -65,6 +67,20 @@ void add_read(RenderGraph &r_graph, RGTexture p_texture, float &r_value, uint32_
 			.keep()
 			.execute_on_host([=, &r_value](HostContext &p_context) {
 				std::memcpy(&r_value, p_context.get_mapped(buffer), sizeof(float));
+			});
+}
+
+/// Reads a buffer of words when the graph has run. The passes that it depends on are not culled.
+void add_words_read(RenderGraph &r_graph, RGBuffer p_words, std::vector<uint32_t> &r_found) {
+	r_graph.add_pass("read words")
+			.reads(p_words, Access::COPY_READ)
+			.keep()
+			.execute([p_words, &r_found](PassContext &p_context) {
+				p_context.get_device().read_back(
+						p_context.get(p_words), [&r_found](std::span<const uint8_t> p_bytes) {
+							std::memcpy(r_found.data(), p_bytes.data(),
+									std::min(p_bytes.size(), r_found.size() * sizeof(uint32_t)));
+						});
 			});
 }
 
@@ -136,17 +152,49 @@ TEST_CASE("[GPU][RenderGraph] a fill reaches every word of a buffer") {
 			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE });
 	add_fill_pass(graph, *fixture.device, "fill", words, 7);
 	std::vector<uint32_t> found(word_count);
-	graph.add_pass("read")
-			.reads(words, Access::COPY_READ)
-			.keep()
-			.execute([&](PassContext &p_context) {
-				p_context.get_device().read_back(
-						p_context.get(words), [&](std::span<const uint8_t> p_bytes) {
-							std::memcpy(found.data(), p_bytes.data(), p_bytes.size());
-						});
-			});
+	add_words_read(graph, words, found);
 	graph.execute(RenderGraph::Mode::WAIT);
 	CHECK(found == std::vector<uint32_t>(word_count, 7));
+}
+
+TEST_CASE("[GPU][RenderGraph] each step of a pass sees the results and the indirect arguments of "
+		  "the steps before it") {
+	GraphFixture fixture;
+	const uint32_t step_count = 6;
+	const uint32_t group_size = 64;
+	const size_t word_count = group_size << (step_count - 1);
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const auto make_buffer = [&](const char *p_name, size_t p_count, BufferUsage p_usage) {
+		return graph.create_buffer(
+				{ p_name, p_count * sizeof(uint32_t), BufferUsage::STORAGE | p_usage });
+	};
+	const RGBuffer words[2] = { make_buffer("even words", word_count, BufferUsage::COPY_SOURCE),
+		make_buffer("odd words", word_count, BufferUsage::COPY_SOURCE) };
+	add_fill_pass(graph, *fixture.device, "fill", words[0], 7);
+	std::vector<ComputeStep> steps;
+	for (uint32_t index = 0; index < step_count; ++index) {
+		const RGBuffer arguments = make_buffer("arguments", 3, BufferUsage::INDIRECT);
+		ComputeStep step = { .pipeline = fixture.device->get_compute_pipeline(
+									 { "steps", "tests/steps.comp", /*constants=*/{} }),
+			.bindings = { PassBinding::read(0, words[index % 2]),
+					PassBinding::write(1, words[(index + 1) % 2], PassBuilder::Content::UPDATE),
+					PassBinding::write(2, arguments) } };
+		if (index == 0) {
+			step.item_count = { group_size, 1, 1 };
+		} else {
+			step.arguments = steps.back().bindings[2].buffer;
+		}
+		steps.push_back(std::move(step));
+	}
+	add_compute_steps(graph, "steps", std::move(steps));
+	add_compute_steps(graph, "no steps", {});
+	std::vector<uint32_t> found(word_count);
+	add_words_read(graph, words[step_count % 2], found);
+	graph.execute(RenderGraph::Mode::WAIT);
+	CHECK(found == std::vector<uint32_t>(word_count, 7 + step_count));
+	for (const PassTiming &timing : graph.get_timings()) {
+		CHECK(timing.name != "no steps");
+	}
 }
 
 TEST_CASE("[GPU][RenderGraph] a pass whose result is unused does not run, nor do its sources") {
