@@ -12,12 +12,11 @@ namespace {
 
 // Measured on trees, fences and single leaves: the error that an outline adds to a penumbra stays
 // below 0.002 if the penumbra's half width is at least this many times the tolerance. The half
-// width is the largest in a scene; most receivers see a smaller one. For tolerances above a quarter
-// of a texel, receivers that touch their caster dominate the error, because no light gives them a
-// wide penumbra.
+// width is the largest in a scene; most receivers see a smaller one. Receivers that touch their
+// caster have a narrow penumbra under any light, so that the tolerance for all receivers is at most
+// a quarter of a texel: with half a texel and more, some of them are lit instead of dark.
 const double MIN_HALF_WIDTH_PER_TOLERANCE = 80;
-const double MIN_HALF_WIDTH_PER_COARSE_TOLERANCE = 350;
-const double COARSE_TOLERANCE_PX = 0.25;
+const double MAX_TOLERANCE_PX = 0.25;
 // For a receiver whose own penumbra is known to have this half width, in tolerances, a coarse
 // outline adds at most 0.0025 to the MAE of trees (the scenes `leaves` and `courtyard`), which is
 // then below 0.006.
@@ -81,10 +80,8 @@ uint32_t CutLevels::choose_level(double p_half_width) const {
 		return BASE_LEVEL;
 	}
 	const auto is_negligible = [&](double p_tolerance_px) {
-		const double min_ratio = p_tolerance_px > COARSE_TOLERANCE_PX
-				? MIN_HALF_WIDTH_PER_COARSE_TOLERANCE
-				: MIN_HALF_WIDTH_PER_TOLERANCE;
-		return p_tolerance_px * texel_size * min_ratio <= p_half_width;
+		return p_tolerance_px <= MAX_TOLERANCE_PX &&
+				p_tolerance_px * texel_size * MIN_HALF_WIDTH_PER_TOLERANCE <= p_half_width;
 	};
 	uint32_t level = static_cast<uint32_t>(TOLERANCES_PX.size()) - 1;
 	while (level > 0 && !is_negligible(TOLERANCES_PX[level])) {
