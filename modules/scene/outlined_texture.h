@@ -15,7 +15,7 @@ namespace gnomon {
 /// above them outlines are made coarser.
 struct OutlineBudget {
 	uint32_t edges_per_tile = 1 << 14;
-	uint32_t edges_per_mesh = 1 << 20;
+	uint32_t edges_per_mesh = 1 << 21; // enough for the outlines of 128 tiles
 };
 
 /// How much of the texture plane the triangles of a mesh cover, in tiles. A tile is one repetition

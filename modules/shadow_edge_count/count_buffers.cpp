@@ -65,6 +65,12 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 		// The node capacity does not shrink: a scene that oscillates about a limit reuses buffers.
 		needed.nodes_per_view = std::max(needed.nodes_per_view, capacities.nodes_per_view);
 	}
+	// With fewer nodes than usual, texels get larger; the largest needs one node per face.
+	const uint64_t max_bytes = p_device.get_features().max_storage_buffer_bytes;
+	const uint64_t max_nodes = std::max<uint64_t>(
+			needed.face_count, max_bytes / sizeof(glm::uvec2) / needed.view_count);
+	needed.nodes_per_view =
+			static_cast<uint32_t>(std::min<uint64_t>(needed.nodes_per_view, max_nodes));
 	if (nodes && capacities == needed) {
 		return true;
 	}
@@ -72,7 +78,6 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	const auto make = [&](const char *p_what, uint64_t p_count, uint64_t p_item_bytes,
 							  std::optional<Format> p_fetched_format = std::nullopt) {
 		const uint64_t size_bytes = std::max(p_count, uint64_t(1)) * p_item_bytes;
-		const uint64_t max_bytes = p_device.get_features().max_storage_buffer_bytes;
 		if (size_bytes > max_bytes) {
 			fail("Light \"", p_light, "\": edge_count needs ", size_bytes, " bytes for the ",
 					p_what, " of its casters, and ", p_device.get_info().name, " has room for ",

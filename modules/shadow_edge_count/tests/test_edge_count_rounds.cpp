@@ -1,4 +1,5 @@
-// Receivers with so many edges that they are counted in several rounds.
+// Casters with so many faces and edges that edges are counted in several rounds, and lists of faces
+// get larger texels.
 
 #include "modules/shadow_edge_count/count_rounds.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
@@ -82,4 +83,24 @@ TEST_CASE("[GPU][EdgeCount] a receiver that sees the light behind 160,000 edges 
 		CHECK(difference.penumbra_count == 20);
 		CHECK(difference.maximum < 0.02);
 	}
+}
+
+TEST_CASE("[GPU][EdgeCount] lists of faces that would exceed a buffer of the device get larger "
+		  "texels, and the mask is the same") {
+	MaskFixture fixture;
+	// llvmpipe has room for 128 MiB: six maps of 1024 x 1024 texels and these 180,000 faces would
+	// usually need 1 MB more.
+	const auto screen = make_screen(300, 1.2f);
+	SmallScene scene(LightType::OMNI);
+	scene.box->surfaces.clear();
+	add_mesh(scene.scene, "Screen", screen, { 0.45, 1.5, 0.3 });
+	scene.light->properties["light_size"] = 0.1;
+	const FrameOptions options = { .size_px = { 16, 16 } };
+	scene.light->properties["edge_count_map_size"] = 64;
+	const MaskResult expected = render_frame(fixture, scene, options);
+	scene.light->properties["edge_count_map_size"] = 1024;
+	const MaskResult found = render_frame(fixture, scene, options);
+	const MaskDifference difference = compare_masks(found.visibility, expected);
+	CHECK(difference.maximum < 1e-3);
+	CHECK(difference.penumbra_count > 0);
 }
