@@ -8,46 +8,44 @@ namespace {
 
 /// How the steps of one pass use a resource.
 struct StepResource {
-	RGTexture texture;
-	RGBuffer buffer;
-	Access declared = Access::NONE; // between passes: that which the graph knows
-	PassBuilder::Content content = PassBuilder::Content::FRESH;
+	PassBinding declared;		// what the graph knows; its binding is unused
 	Access last = Access::NONE; // NONE: no step has used it
 };
 
 StepResource &find_step_resource(
-		std::vector<StepResource> &r_resources, RGTexture p_texture, RGBuffer p_buffer) {
+		std::vector<StepResource> &r_resources, const PassBinding &p_binding) {
 	const auto found = std::find_if(
 			r_resources.begin(), r_resources.end(), [&](const StepResource &p_resource) {
-				return p_resource.texture.index == p_texture.index &&
-						p_resource.buffer.index == p_buffer.index;
+				return p_resource.declared.texture.index == p_binding.texture.index &&
+						p_resource.declared.buffer.index == p_binding.buffer.index;
 			});
 	if (found != r_resources.end()) {
 		return *found;
 	}
-	r_resources.push_back({ p_texture, p_buffer });
+	r_resources.push_back({ p_binding });
 	return r_resources.back();
 }
 
-/// Collects the resources of all steps. One that some step writes is declared with that access.
+/// What a step uses: its bindings, and the buffer of its arguments.
+std::vector<PassBinding> list_uses(const ComputeStep &p_step) {
+	std::vector<PassBinding> uses = p_step.bindings;
+	if (p_step.arguments) {
+		uses.push_back({ .buffer = p_step.arguments, .access = Access::INDIRECT_READ });
+	}
+	return uses;
+}
+
+/// Collects the resources of all steps. One that some step writes is declared with that access, and
+/// with content that is preserved unless the first step that uses it writes all of it.
 std::vector<StepResource> collect_step_resources(const std::vector<ComputeStep> &p_steps) {
 	std::vector<StepResource> resources;
-	const auto add = [&](RGTexture p_texture, RGBuffer p_buffer, Access p_access,
-							 PassBuilder::Content p_content) {
-		StepResource &resource = find_step_resource(resources, p_texture, p_buffer);
-		if (resource.declared == Access::NONE) {
-			resource.content = is_write(p_access) ? p_content : PassBuilder::Content::UPDATE;
-		}
-		if (resource.declared == Access::NONE || is_write(p_access)) {
-			resource.declared = p_access;
-		}
-	};
 	for (const ComputeStep &step : p_steps) {
-		for (const PassBinding &binding : step.bindings) {
-			add(binding.texture, binding.buffer, binding.access, binding.content);
-		}
-		if (step.arguments) {
-			add({}, step.arguments, Access::INDIRECT_READ, PassBuilder::Content::UPDATE);
+		for (const PassBinding &use : list_uses(step)) {
+			PassBinding &declared = find_step_resource(resources, use).declared;
+			if (is_write(use.access) && !is_write(declared.access)) {
+				declared.access = use.access;
+				declared.content = PassBuilder::Content::UPDATE;
+			}
 		}
 	}
 	return resources;
@@ -56,14 +54,15 @@ std::vector<StepResource> collect_step_resources(const std::vector<ComputeStep> 
 /// Adds the barrier before another use of a resource, unless both uses only read it in one way.
 void push_step_barrier(PassContext &r_context, StepResource &r_resource, Access p_access,
 		std::vector<Barrier> &r_barriers) {
-	const Access before = r_resource.last == Access::NONE ? r_resource.declared : r_resource.last;
+	const PassBinding &declared = r_resource.declared;
+	const Access before = r_resource.last == Access::NONE ? declared.access : r_resource.last;
 	const bool is_hazard = r_resource.last != Access::NONE && is_write(before);
 	if (is_hazard || before != p_access) {
 		Barrier barrier = { .before = before, .after = p_access };
-		if (r_resource.texture) {
-			barrier.texture = r_context.get(r_resource.texture);
+		if (declared.texture) {
+			barrier.texture = r_context.get(declared.texture);
 		} else {
-			barrier.buffer = r_context.get(r_resource.buffer);
+			barrier.buffer = r_context.get(declared.buffer);
 		}
 		r_barriers.push_back(barrier);
 	}
@@ -73,14 +72,8 @@ void push_step_barrier(PassContext &r_context, StepResource &r_resource, Access 
 void record_step(
 		PassContext &r_context, const ComputeStep &p_step, std::vector<StepResource> &r_resources) {
 	std::vector<Barrier> barriers;
-	for (const PassBinding &binding : p_step.bindings) {
-		push_step_barrier(r_context,
-				find_step_resource(r_resources, binding.texture, binding.buffer), binding.access,
-				barriers);
-	}
-	if (p_step.arguments) {
-		push_step_barrier(r_context, find_step_resource(r_resources, {}, p_step.arguments),
-				Access::INDIRECT_READ, barriers);
+	for (const PassBinding &use : list_uses(p_step)) {
+		push_step_barrier(r_context, find_step_resource(r_resources, use), use.access, barriers);
 	}
 	if (!barriers.empty()) {
 		r_context.commands.barriers(barriers);
@@ -146,16 +139,12 @@ void add_compute_steps(
 		return;
 	}
 	std::vector<StepResource> resources = collect_step_resources(p_steps);
-	PassBuilder pass = r_graph.add_pass(p_name);
+	std::vector<PassBinding> declared;
 	for (const StepResource &resource : resources) {
-		const RGResource handle =
-				resource.texture ? RGResource(resource.texture) : RGResource(resource.buffer);
-		if (is_write(resource.declared)) {
-			pass.writes(handle, resource.declared, resource.content);
-		} else {
-			pass.reads(handle, resource.declared);
-		}
+		declared.push_back(resource.declared);
 	}
+	PassBuilder pass = r_graph.add_pass(p_name);
+	declare_bindings(pass, declared);
 	pass.execute(
 			[steps = std::move(p_steps), resources = std::move(resources)](PassContext &p_context) {
 				std::vector<StepResource> used = resources;
@@ -164,8 +153,9 @@ void add_compute_steps(
 				}
 				std::vector<Barrier> barriers; // back to the access that the graph knows
 				for (StepResource &resource : used) {
-					if (resource.last != resource.declared) {
-						push_step_barrier(p_context, resource, resource.declared, barriers);
+					const Access access = resource.declared.access;
+					if (resource.last != access) {
+						push_step_barrier(p_context, resource, access, barriers);
 					}
 				}
 				if (!barriers.empty()) {

@@ -84,6 +84,12 @@ struct FaceWalk {
 	uint steps_left; // a list has each face once at most
 };
 
+/// Sets the next node, or ends the walk if there is no such node.
+void set_next_node(inout FaceWalk r_walk, uint p_next) {
+	r_walk.max_next = max(r_walk.max_next, p_next);
+	r_walk.next = p_next <= r_walk.capacity ? p_next : 0u;
+}
+
 /// p_position: x' and y' of the receiver in its view.
 FaceWalk start_face_walk(CountLightConstants p_light, uint p_view, vec2 p_position) {
 	const CountViewConstants view = load_count_view(p_view);
@@ -94,22 +100,22 @@ FaceWalk start_face_walk(CountLightConstants p_light, uint p_view, vec2 p_positi
 	const uvec2 cell = uvec2(clamp(side * (position - texel), 0.0, side - 1.0));
 	// Outside the map there is no receiver that the light reaches.
 	const bool is_inside = all(lessThanEqual(abs(p_position), view.half_extent));
-	return FaceWalk(p_view * p_light.node_capacity,
-			is_inside ? load_count_first_node(p_view, uvec2(texel)) : 0u,
+	FaceWalk walk = FaceWalk(p_view * p_light.node_capacity, 0u,
 			(1u << cell.x | 1u << (EDGE_COUNT_NODE_CELLS_PER_SIDE + cell.y)) << EDGE_COUNT_NODE_CELLS_SHIFT,
 			p_light.node_capacity, 0u, min(p_light.node_capacity, p_light.face_count));
+	set_next_node(walk, is_inside ? load_count_first_node(p_view, uvec2(texel)) : 0u);
+	return walk;
 }
 
 /// Goes to the next node unless r_faces is full. Adds the node's face to r_faces if its bounds overlap the receiver's
-/// cell. r_faces: unused items, which follow the others, are EDGE_COUNT_NO_FACE. An index out of range leads to another
-/// node, and end_face_walk() reports it.
+/// cell. r_faces: unused items, which follow the others, are EDGE_COUNT_NO_FACE. An index out of range ends the walk, and
+/// end_face_walk() notes it.
 void step_face_walk(inout FaceWalk r_walk, inout uvec4 r_faces) {
 	const bool is_valid = r_walk.next != 0u && r_faces.w == EDGE_COUNT_NO_FACE;
-	const uvec2 node = load_count_node(r_walk.first_node + clamp(r_walk.next, 1u, r_walk.capacity) - 1u);
+	const uvec2 node = load_count_node(r_walk.first_node + max(r_walk.next, 1u) - 1u);
 	const bool overlaps = is_valid && (node.x & r_walk.cell) == r_walk.cell;
 	r_faces = overlaps ? uvec4(node.x & EDGE_COUNT_FACE_MASK, r_faces.xyz) : r_faces;
-	r_walk.max_next = max(r_walk.max_next, r_walk.next);
-	r_walk.next = is_valid ? node.y : r_walk.next;
+	set_next_node(r_walk, is_valid ? node.y : r_walk.next);
 }
 
 bool is_in_face_walk(FaceWalk p_walk) {
