@@ -59,8 +59,7 @@ AddonServer::~AddonServer() {
 }
 
 void AddonServer::clear_render_side() {
-	reserved_px = glm::uvec2(0);
-	reserved_count = 0;
+	reserved = {};
 	server.call_on_render_thread(godot::Callable([side = render_side](auto) { side->clear(); }));
 }
 
@@ -125,8 +124,7 @@ void AddonServer::update_worlds() {
 		clear_render_side();
 	}
 	const bool has_failed = render_side->take_failure();
-	glm::uvec2 size_px(0);
-	size_t mask_count = 0;
+	ReceiverSpace needed;
 	receiver_materials.begin_frame();
 	reader.begin_frame();
 	for (const auto &[scenario, nodes] : worlds) {
@@ -141,9 +139,11 @@ void AddonServer::update_worlds() {
 				stand_ins.update(scenario, choose_stand_ins(world, has_failed), other_speculars);
 		world.frame->mask_scale = settings.mask_resolution_scale;
 		for (const ViewDetail &view : world.frame->views) {
-			size_px = glm::max(size_px, view.size_px);
+			needed.size_px = glm::max(needed.size_px, view.size_px);
+			needed.has_depth = needed.has_depth || view.is_multisampled;
 		}
-		mask_count = std::max(mask_count, world.frame->scene->lights.size());
+		needed.mask_count = std::max(
+				needed.mask_count, static_cast<uint32_t>(world.frame->scene->lights.size()));
 		std::unique_ptr<ScenarioEffect> &effect = effects[scenario];
 		if (!effect) {
 			effect = std::make_unique<ScenarioEffect>(scenario, render_side);
@@ -160,19 +160,18 @@ void AddonServer::update_worlds() {
 		receiver_materials.end_frame(nodes.front()->get_node(),
 				godot::SceneTree(nodes.front()->get_node().get_tree().get_object()));
 	}
-	if (mask_count > 0 && size_px.x > 0) {
-		reserve(size_px, static_cast<uint32_t>(mask_count));
+	if (needed.mask_count > 0 && needed.size_px.x > 0) {
+		reserve(needed);
 	}
 }
 
-void AddonServer::reserve(glm::uvec2 p_size_px, uint32_t p_mask_count) {
-	if (p_mask_count <= reserved_count && glm::all(glm::lessThanEqual(p_size_px, reserved_px))) {
+void AddonServer::reserve(const ReceiverSpace &p_space) {
+	if (reserved.holds(p_space)) {
 		return;
 	}
-	reserved_px = glm::max(reserved_px, p_size_px);
-	reserved_count = std::max(reserved_count, p_mask_count);
-	server.call_on_render_thread(godot::Callable(
-			[=, side = render_side](auto) { side->reserve(p_size_px, p_mask_count); }));
+	reserved.add(p_space);
+	server.call_on_render_thread(
+			godot::Callable([=, side = render_side](auto) { side->reserve(p_space); }));
 }
 
 std::vector<NeededStandIn> AddonServer::choose_stand_ins(

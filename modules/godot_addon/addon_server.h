@@ -27,8 +27,8 @@ private:
 	/// Returns the lights that need a stand-in, and whether each needs Godot's shadow as well.
 	/// p_has_failed: the masks of a view could not be made.
 	std::vector<NeededStandIn> choose_stand_ins(const ReadWorld &p_world, bool p_has_failed) const;
-	/// Makes the render thread allocate masks of at least this size and number.
-	void reserve(glm::uvec2 p_size_px, uint32_t p_mask_count);
+	/// Makes the render thread allocate at least this much.
+	void reserve(const ReceiverSpace &p_space);
 	/// Makes the render thread free all GPU resources of Gnomon.
 	void clear_render_side();
 
@@ -42,8 +42,7 @@ private:
 	StandInLights stand_ins; // replace lights of nodes on the RenderingServer
 	SceneReader reader{ receiver_materials };
 	std::shared_ptr<RenderSide> render_side = std::make_shared<RenderSide>();
-	glm::uvec2 reserved_px = glm::uvec2(0); // size of the allocated masks
-	uint32_t reserved_count = 0;
+	ReceiverSpace reserved;
 	std::map<godot::RID, std::unique_ptr<ScenarioEffect>> effects; // by scenario
 };
 

@@ -27,7 +27,8 @@ std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot:
 				const float scale = static_cast<float>(p_viewport.get_scaling_3d_scale());
 				details.push_back({ p_camera.get_camera_transform(),
 						static_cast<float>(p_viewport.get_mesh_lod_threshold()), scale,
-						glm::uvec2(glm::ceil(read_size(p_viewport) * scale)) });
+						glm::uvec2(glm::ceil(read_size(p_viewport) * scale)),
+						p_viewport.get_msaa_3d() != 0 });
 			});
 	return details;
 }

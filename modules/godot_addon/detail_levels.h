@@ -31,12 +31,13 @@ struct InstanceDetail {
 	float scale = 1;	 // the node's largest scale times its lod_bias
 };
 
-/// The settings of a viewport by which Godot chooses levels of detail.
+/// The settings of a viewport, by which Godot chooses levels of detail, and its size.
 struct ViewDetail {
 	godot::Transform3D camera; // transform of the viewport's camera
 	float threshold_px = 1;	   // mesh_lod_threshold
 	float resolution_scale = 1;
 	glm::uvec2 size_px = glm::uvec2(0); // of the 3D image, after resolution_scale
+	bool is_multisampled = false;		// MSAA
 };
 
 /// Returns the settings of each viewport that shows the world p_scenario.

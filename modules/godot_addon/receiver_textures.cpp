@@ -12,6 +12,7 @@ namespace {
 using godot::RenderingServer;
 
 const char MASKS_GLOBAL[] = "gnomon_masks";
+const char DEPTH_GLOBAL[] = "gnomon_depth";
 const char LIGHTS_GLOBAL[] = "gnomon_lights";
 const char ALBEDO_GLOBAL[] = "gnomon_albedo";
 const uint32_t MIN_LAYER_COUNT = 2; // Godot makes no arrays of one layer
@@ -22,7 +23,8 @@ ReceiverRow make_view_row(const GodotView &p_view) {
 	const glm::mat4 world_from_camera(p_view.camera_transform.to_matrix());
 	return { glm::vec4(glm::vec3(world_from_camera[3]), p_view.horizontal_scale),
 		glm::vec4(glm::vec3(world_from_camera[0]), float(p_view.size_px.x)),
-		glm::vec4(glm::vec3(world_from_camera[2]), float(p_view.size_px.y)), glm::vec4(0.0f) };
+		glm::vec4(glm::vec3(world_from_camera[2]), float(p_view.size_px.y)),
+		glm::vec4(p_view.has_depth_samples ? 1.0f : 0.0f, p_view.depth_offset, 0.0f, 0.0f) };
 }
 
 ReceiverRow make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world) {
@@ -47,13 +49,15 @@ ReceiverGlobals::ReceiverGlobals() : server(godot::find_singleton("RenderingServ
 	server.global_shader_parameter_add(
 			MASKS_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2DARRAY, {});
 	server.global_shader_parameter_add(
+			DEPTH_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2D, {});
+	server.global_shader_parameter_add(
 			LIGHTS_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2D, {});
 	server.global_shader_parameter_add(
 			ALBEDO_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2D, albedo);
 }
 
 ReceiverGlobals::~ReceiverGlobals() {
-	for (const char *global : { MASKS_GLOBAL, LIGHTS_GLOBAL, ALBEDO_GLOBAL }) {
+	for (const char *global : { MASKS_GLOBAL, DEPTH_GLOBAL, LIGHTS_GLOBAL, ALBEDO_GLOBAL }) {
 		server.global_shader_parameter_remove(global);
 	}
 	server.free_rid(albedo);
@@ -61,6 +65,7 @@ ReceiverGlobals::~ReceiverGlobals() {
 
 void ReceiverTextures::Published::publish(
 		const RenderingServer &p_server, const char *p_global, godot::RID p_texture) {
+	// The kind of layers matters for arrays only.
 	const godot::RID made =
 			p_server.texture_rd_create(p_texture, RenderingServer::TEXTURE_LAYERED_2D_ARRAY);
 	p_server.global_shader_parameter_set(p_global, made);
@@ -87,24 +92,35 @@ ReceiverTextures::ReceiverTextures(GodotDevice &p_device) :
 }
 
 ReceiverTextures::~ReceiverTextures() {
-	server.global_shader_parameter_set(MASKS_GLOBAL, {});
-	server.global_shader_parameter_set(LIGHTS_GLOBAL, {});
+	for (const char *global : { MASKS_GLOBAL, DEPTH_GLOBAL, LIGHTS_GLOBAL }) {
+		server.global_shader_parameter_set(global, {});
+	}
 	published_masks.free(server);
+	published_depth.free(server);
 	published_lights.free(server);
 }
 
-void ReceiverTextures::reserve(glm::uvec2 p_size_px, uint32_t p_layer_count) {
-	if (p_layer_count <= layer_count && glm::all(glm::lessThanEqual(p_size_px, size_px))) {
+void ReceiverTextures::reserve(const ReceiverSpace &p_space) {
+	if (space.holds(p_space)) {
 		return;
 	}
-	size_px = glm::max(size_px, (p_size_px + SIZE_STEP_PX - 1u) / SIZE_STEP_PX * SIZE_STEP_PX);
-	layer_count = glm::max(layer_count, glm::max(p_layer_count, MIN_LAYER_COUNT));
-	OwnedTexture larger(device,
-			device.create_texture({ "Gnomon's masks", Format::R16_SFLOAT, size_px, layer_count,
+	const glm::uvec2 old_size_px = space.size_px;
+	space.add({ (p_space.size_px + SIZE_STEP_PX - 1u) / SIZE_STEP_PX * SIZE_STEP_PX,
+			glm::max(p_space.mask_count, MIN_LAYER_COUNT), p_space.has_depth });
+	OwnedTexture new_masks(device,
+			device.create_texture({ "Gnomon's masks", Format::R16_SFLOAT, space.size_px,
+					space.mask_count,
 					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
 					/*is_array=*/true }));
-	published_masks.publish(server, MASKS_GLOBAL, device.get_rid(larger.get()));
-	masks = std::move(larger);
+	published_masks.publish(server, MASKS_GLOBAL, device.get_rid(new_masks.get()));
+	masks = std::move(new_masks);
+	if (space.has_depth && (!depth.get() || space.size_px != old_size_px)) {
+		OwnedTexture new_depth(device,
+				device.create_texture({ "Gnomon's depth", Format::R32_SFLOAT, space.size_px, 1,
+						TextureUsage::STORAGE | TextureUsage::SAMPLED }));
+		published_depth.publish(server, DEPTH_GLOBAL, device.get_rid(new_depth.get()));
+		depth = std::move(new_depth);
+	}
 }
 
 void ReceiverTextures::write_lights(

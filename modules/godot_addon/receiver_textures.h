@@ -27,6 +27,23 @@ private:
 	godot::RID albedo; // texture of get_directional_albedo()
 };
 
+/// The size of the textures that all views share.
+struct ReceiverSpace {
+	glm::uvec2 size_px = glm::uvec2(0); // of the largest view
+	uint32_t mask_count = 0;
+	bool has_depth = false; // a view is multisampled
+
+	bool holds(const ReceiverSpace &p_other) const {
+		return p_other.mask_count <= mask_count && (has_depth || !p_other.has_depth) &&
+				glm::all(glm::lessThanEqual(p_other.size_px, size_px));
+	}
+	void add(const ReceiverSpace &p_other) {
+		size_px = glm::max(size_px, p_other.size_px);
+		mask_count = glm::max(mask_count, p_other.mask_count);
+		has_depth = has_depth || p_other.has_depth;
+	}
+};
+
 /// The textures of the global parameters that change with each view: its masks and its table of
 /// lights. All views share them, because Godot draws one after the other. Render thread only.
 class ReceiverTextures {
@@ -36,14 +53,18 @@ public:
 	ReceiverTextures(const ReceiverTextures &) = delete;
 	ReceiverTextures &operator=(const ReceiverTextures &) = delete;
 
-	/// Makes the mask texture at least this large. Call it before a frame is drawn: a new texture
+	/// Makes the textures at least this large. Call it before a frame is drawn: a new texture
 	/// within a frame would make Godot skip draws of materials that read it.
-	void reserve(glm::uvec2 p_size_px, uint32_t p_layer_count);
+	void reserve(const ReceiverSpace &p_space);
 	/// Returns the mask texture: R16_SFLOAT, a layer for each light with the fraction of its light
 	/// that reaches each pixel, below 0 without a receiver (see ShadowFrame::hold). Null before
 	/// reserve().
 	TextureRID get_masks() const { return masks.get(); }
-	glm::uvec2 get_size_px() const { return size_px; }
+	glm::uvec2 get_size_px() const { return space.size_px; }
+	/// Returns the texture for near / z of the surface at each pixel's centre, R32_SFLOAT, by which
+	/// fragments of multisampled views find the pixel whose mask is of their surface. Null if
+	/// reserve() was not told to have it.
+	TextureRID get_depth() const { return depth.get(); }
 	/// Writes the table of lights, which also identifies the view of the masks. Call it before the
 	/// view's opaque objects are drawn.
 	void write_lights(const GodotView &p_view, std::span<const ReceiverLight> p_lights);
@@ -67,10 +88,11 @@ private:
 	};
 	GodotDevice &device;
 	godot::RenderingServer server;
-	glm::uvec2 size_px = glm::uvec2(0);
-	uint32_t layer_count = 0;
+	ReceiverSpace space;
 	OwnedTexture masks;
 	Published published_masks;
+	OwnedTexture depth;
+	Published published_depth;
 	OwnedBuffer rows;
 	OwnedTexture lights;
 	Published published_lights;

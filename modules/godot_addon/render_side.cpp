@@ -44,7 +44,7 @@ void RenderSide::run(
 			return;
 		}
 		prepare_device();
-		const GodotView view = read_view(data, buffers);
+		const GodotView view = read_view(*device, data, buffers);
 		if (!view.unsupported_reason.empty()) {
 			fail("A camera ", view.unsupported_reason, ". Gnomon makes no shadow masks for it.");
 		}
@@ -93,10 +93,10 @@ void RenderSide::forget_unused(uint64_t p_frame) {
 	});
 }
 
-void RenderSide::reserve(glm::uvec2 p_size_px, uint32_t p_mask_count) {
+void RenderSide::reserve(const ReceiverSpace &p_space) {
 	try {
 		prepare_device();
-		receivers->reserve(p_size_px, p_mask_count);
+		receivers->reserve(p_space);
 	} catch (const std::exception &failure) {
 		record_failure(failure);
 	}

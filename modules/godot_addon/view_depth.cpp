@@ -89,11 +89,18 @@ std::string find_unsupported_reason(
 
 } // namespace
 
-GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuffersRD &p_buffers) {
+GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
+		const godot::RenderSceneBuffersRD &p_buffers) {
 	const godot::RenderSceneData data = p_data.get_render_scene_data();
 	GodotView view;
 	view.size_px = glm::uvec2(p_buffers.get_internal_size());
-	view.depth = p_buffers.get_depth_texture(/*msaa=*/false);
+	// Before opaque objects are drawn, Godot has not always resolved the samples: with a normal and
+	// roughness buffer, which SSAO, SSIL, SSR and SDFGI need, it does so later.
+	const int64_t samples = p_buffers.get_texture_samples();
+	view.depth = p_buffers.get_depth_texture(
+			/*msaa=*/samples != godot::RenderingDevice::TEXTURE_SAMPLES_1);
+	view.has_depth_samples = samples > godot::RenderingDevice::TEXTURE_SAMPLES_2 ||
+			(samples == godot::RenderingDevice::TEXTURE_SAMPLES_2 && r_device.has_two_samples());
 	view.color = p_buffers.get_color_texture(/*msaa=*/false);
 	view.camera_transform = data.get_cam_transform();
 	const glm::mat4 projection = data.get_cam_projection();
@@ -148,22 +155,31 @@ ReducedInstances find_reduced_instances(
 }
 
 RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotView &p_view,
-		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced) {
+		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced,
+		RGTexture p_published) {
+	const bool has_samples = p_view.has_depth_samples;
 	const RGTexture scene = create_depth(r_graph, "depth", p_view.size_px);
-	const PipelineRID convert = r_meshes.get_device().get_raster_pipeline(
-			make_screen_depth_pipeline("convert depth", "godot_addon/convert_depth.frag"));
+	const PipelineRID convert =
+			r_meshes.get_device().get_raster_pipeline(make_screen_depth_pipeline("convert depth",
+					has_samples ? "godot_addon/convert_sample_depth.frag"
+								: "godot_addon/convert_depth.frag"));
 	shader::ConvertDepthPush convert_push = {};
 	convert_push.offset = p_view.depth_offset;
-	r_graph.add_pass("convert depth")
-			.reads(p_depth, Access::SHADER_READ_FRAGMENT)
-			.depth(scene, LoadOp::CLEAR, 0.0f)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(convert);
-				p_context.commands.bind_resources(
-						{ { CONVERT_BINDING_DEPTH, p_context.get(p_depth) } });
-				p_context.commands.push_constants(convert_push);
-				p_context.commands.draw(3);
-			});
+	PassBuilder pass = r_graph.add_pass("convert depth");
+	pass.reads(p_depth, Access::SHADER_READ_FRAGMENT).depth(scene, LoadOp::CLEAR, 0.0f);
+	if (has_samples) {
+		pass.writes(p_published, Access::SHADER_WRITE_FRAGMENT);
+	}
+	pass.execute([=](PassContext &p_context) {
+		std::vector<Binding> bindings = { { CONVERT_BINDING_DEPTH, p_context.get(p_depth) } };
+		if (has_samples) {
+			bindings.push_back({ CONVERT_BINDING_PUBLISHED, p_context.get(p_published) });
+		}
+		p_context.commands.bind_pipeline(convert);
+		p_context.commands.bind_resources(bindings);
+		p_context.commands.push_constants(convert_push);
+		p_context.commands.draw(3);
+	});
 	if (p_reduced->list.empty()) {
 		return scene;
 	}

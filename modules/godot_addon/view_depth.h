@@ -10,6 +10,7 @@ namespace gnomon {
 /// The view for which Godot calls a compositor effect: its buffers and its camera.
 struct GodotView {
 	godot::RID depth;
+	bool has_depth_samples = false; // `depth` is multisampled
 	godot::RID color;
 	glm::uvec2 size_px = glm::uvec2(0);
 	CameraSnapshot camera;
@@ -20,7 +21,8 @@ struct GodotView {
 	std::string unsupported_reason;
 };
 /// p_buffers: the buffers of p_data.
-GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuffersRD &p_buffers);
+GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
+		const godot::RenderSceneBuffersRD &p_buffers);
 
 /// An instance that Godot draws with a reduced mesh, see detail_levels.h.
 struct ReducedInstance {
@@ -39,8 +41,12 @@ ReducedInstances find_reduced_instances(
 		const ScenarioFrame &p_frame, const SceneSnapshot &p_scene, const GodotView &p_view);
 
 /// Adds passes that compute the depth for shadows, near / z, with the full meshes instead of the
-/// reduced ones. p_depth: Godot's depth. Call it after the pass that deforms meshes was added.
+/// reduced ones, at the centres of the pixels. p_depth: Godot's depth. Call it after the pass that
+/// deforms meshes was added.
+///
+/// p_published: if the view is multisampled, gets the depth of the surfaces that Godot draws.
 RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotView &p_view,
-		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced);
+		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced,
+		RGTexture p_published);
 
 } // namespace gnomon

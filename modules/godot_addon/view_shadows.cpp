@@ -67,6 +67,10 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 				"were allocated for at most ", receivers.get_size_px().x, "x",
 				receivers.get_size_px().y, ". It has no shadow masks in this frame.");
 	}
+	if (p_view.has_depth_samples && !receivers.get_depth()) {
+		fail("A view is multisampled, but was not when this frame began. It has no shadow masks in "
+			 "this frame. Set the viewport's msaa_3d.");
+	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_frame.scene);
 	scene->camera = p_view.camera;
 	RenderGraph graph(device, transients);
@@ -80,9 +84,13 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 										 { "depth of Godot", Format::D32_SFLOAT, p_view.size_px, 1,
 												 TextureUsage::SAMPLED }),
 					RenderGraph::ImportedContent::PRESERVED);
+	const RGTexture published_depth = p_view.has_depth_samples
+			? graph.import_texture(receivers.get_depth(), RenderGraph::ImportedContent::NONE)
+			: RGTexture();
 	const RGTexture full_depth = add_view_depth(graph, shadows.get_meshes(), p_view, drawn_depth,
 			std::make_shared<const ReducedInstances>(
-					find_reduced_instances(p_frame, *scene, p_view)));
+					find_reduced_instances(p_frame, *scene, p_view)),
+			published_depth);
 	ScaledMasks scaled(graph, device, full_depth, p_frame.mask_scale, count);
 	HostSurfaces surfaces;
 	surfaces.depth = scaled.get_depth();

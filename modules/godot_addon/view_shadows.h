@@ -54,9 +54,8 @@ public:
 	/// Called by the compositor effects. Each failure is logged once.
 	void make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
 	void show_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
-	/// Allocates masks for the frame about to be drawn. p_size_px: size of each mask, that of the
-	/// largest view.
-	void reserve(glm::uvec2 p_size_px, uint32_t p_mask_count);
+	/// Allocates masks for the frame about to be drawn.
+	void reserve(const ReceiverSpace &p_space);
 	/// Whether masks of a view could not be made since the last call. Can be called on any thread.
 	bool take_failure() { return has_failed.exchange(false); }
 	/// Frees all GPU resources. The next frame creates them again.

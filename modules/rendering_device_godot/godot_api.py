@@ -11,7 +11,7 @@ USED = {
     "Object": {"methods": "connect disconnect get_class notification notify_property_list_changed"},
     "RefCounted": {"methods": "init_ref reference unreference get_reference_count"},
     "RDTextureFormat": {
-        "methods": "set_format set_width set_height set_array_layers set_mipmaps set_texture_type set_usage_bits"
+        "methods": "set_format set_width set_height set_array_layers set_mipmaps set_texture_type set_usage_bits set_samples"
     },
     "RDTextureView": {"methods": ""},
     "RDUniform": {"methods": "set_uniform_type set_binding add_id"},
@@ -54,7 +54,7 @@ USED = {
             get_device_vendor_name get_device_name get_memory_usage
         """,
         "enums": """
-            TextureType TextureUsageBits SamplerFilter SamplerRepeatMode IndexBufferFormat StorageBufferUsage
+            TextureType TextureUsageBits TextureSamples SamplerFilter SamplerRepeatMode IndexBufferFormat StorageBufferUsage
             BufferCreationBits UniformType RenderPrimitive PolygonCullMode PolygonFrontFace StencilOperation
             CompareOperator BlendFactor BlendOperation DrawFlags MemoryType Limit DataFormat
             TextureSliceType ShaderStage
@@ -84,7 +84,7 @@ USED = {
     },
     "RenderData": {"methods": "get_render_scene_buffers get_render_scene_data"},
     "RenderSceneBuffers": {"methods": ""},
-    "RenderSceneBuffersRD": {"methods": "get_depth_texture get_color_texture get_internal_size get_view_count"},
+    "RenderSceneBuffersRD": {"methods": "get_depth_texture get_color_texture get_internal_size get_texture_samples get_view_count"},
     "RenderSceneData": {"methods": "get_cam_transform get_cam_projection get_view_count"},
     "Engine": {"methods": "is_editor_hint get_main_loop"},
     "MainLoop": {"methods": ""},
@@ -120,7 +120,7 @@ USED = {
     "OmniLight3D": {"methods": "get_shadow_mode"},
     "SpotLight3D": {"methods": ""},
     "DirectionalLight3D": {"methods": "get_shadow_mode get_sky_mode is_blend_splits_enabled"},
-    "Viewport": {"methods": "get_camera_3d get_mesh_lod_threshold get_scaling_3d_scale get_texture"},
+    "Viewport": {"methods": "get_camera_3d get_mesh_lod_threshold get_msaa_3d get_scaling_3d_scale get_texture"},
     "Window": {"methods": "get_size get_content_scale_mode", "enums": "ContentScaleMode"},
     "Texture2D": {"methods": "get_width get_height get_image"},
     "ViewportTexture": {"methods": ""},

@@ -22,6 +22,8 @@ using godot::Variant;
 namespace {
 
 constexpr uint64_t MAX_BUFFER_BYTES = 0xffffffffu; // sizes are 32 bits wide in Godot's calls
+constexpr int64_t SAMPLED_TEXTURE_PX = 256;		   // side of the texture in measure_two_samples()
+constexpr int MAX_MEASUREMENTS = 8;				   // of its size
 constexpr size_t MAX_SPARE_UPLOADS = 64;		   // per size and usage
 
 uint64_t compute_size_bytes(const TextureDesc &p_desc) {
@@ -221,6 +223,44 @@ TextureRID GodotDevice::create_texture_with_data(
 	use.peak_bytes = std::max(use.peak_bytes, use.used_bytes);
 	texture.desc = std::move(p_desc);
 	return textures.add(std::move(texture));
+}
+
+bool GodotDevice::has_two_samples() {
+	if (!two_samples) {
+		two_samples = measure_two_samples();
+	}
+	return *two_samples;
+}
+
+/// Godot has no function for it, but a texture with 2 samples needs about twice the memory.
+bool GodotDevice::measure_two_samples() {
+	const auto measure_bytes = [this](int64_t p_samples) {
+		const auto format = Ref<godot::RDTextureFormat>::create();
+		format.set_format(to_godot_format(Format::RGBA16_SFLOAT));
+		format.set_width(SAMPLED_TEXTURE_PX);
+		format.set_height(SAMPLED_TEXTURE_PX);
+		format.set_samples(p_samples);
+		format.set_usage_bits(RD::TEXTURE_USAGE_COLOR_ATTACHMENT_BIT);
+		const int64_t before = rd.get_memory_usage(RD::MEMORY_TEXTURES);
+		const godot::RID texture =
+				rd.texture_create(format, Ref<godot::RDTextureView>::create(), Array());
+		const int64_t bytes = rd.get_memory_usage(RD::MEMORY_TEXTURES) - before;
+		rd.free_rid(texture);
+		return bytes;
+	};
+	// Another thread may create or free textures meanwhile, so the results must repeat.
+	int64_t single = measure_bytes(RD::TEXTURE_SAMPLES_1);
+	int64_t doubled = measure_bytes(RD::TEXTURE_SAMPLES_2);
+	for (int attempt = 0; attempt < MAX_MEASUREMENTS; ++attempt) {
+		const int64_t single_again = measure_bytes(RD::TEXTURE_SAMPLES_1);
+		const int64_t doubled_again = measure_bytes(RD::TEXTURE_SAMPLES_2);
+		if (single == single_again && doubled == doubled_again) {
+			break;
+		}
+		single = single_again;
+		doubled = doubled_again;
+	}
+	return 2 * doubled > 3 * single;
 }
 
 TextureRID GodotDevice::import_texture(godot::RID p_texture, const TextureDesc &p_desc) {

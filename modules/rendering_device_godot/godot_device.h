@@ -10,6 +10,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <variant>
 
 namespace gnomon {
@@ -61,6 +62,9 @@ public:
 
 	/// Imports a texture that Godot owns. It must be freed here before Godot frees it.
 	TextureRID import_texture(godot::RID p_texture, const TextureDesc &p_desc);
+	/// Whether textures can have 2 samples. If not, Godot makes them with one sample without
+	/// reporting it. All devices have 1 and 4 samples.
+	bool has_two_samples();
 	/// Lists the live resources: "texture 'albedo'", "buffer 'edges'".
 	std::vector<std::string> list_live_resources();
 	uint32_t get_pipeline_count() const { return static_cast<uint32_t>(pipelines.size()); }
@@ -148,6 +152,7 @@ private:
 	using Cache = std::map<Key, Cached>;
 
 	uint32_t measure_subgroup_size();
+	bool measure_two_samples();
 	godot::RID create_godot_buffer(const BufferDesc &p_desc, std::span<const uint8_t> p_bytes);
 	/// Returns a view of the layer; the texture itself for ALL_LAYERS or if it is no array.
 	godot::RID get_layer(GodotTexture &r_texture, uint32_t p_layer);
@@ -180,6 +185,7 @@ private:
 	const Kind kind;
 	DeviceInfo info;
 	DeviceFeatures features;
+	std::optional<bool> two_samples; // result of measure_two_samples()
 	CommandCounts counts;
 	MemoryUse use;
 	std::vector<GpuSpan> spans; // without times, because Godot only times whole frames

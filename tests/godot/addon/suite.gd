@@ -6,6 +6,7 @@ const CASES: Array[GDScript] = [
 	preload("res://tests/casters.gd"),
 	preload("res://tests/skeletons.gd"),
 	preload("res://tests/views.gd"),
+	preload("res://tests/multisampling.gd"),
 	preload("res://tests/nodes.gd"),
 	preload("res://tests/settings.gd"),
 	preload("res://tests/lights.gd"),

@@ -100,15 +100,6 @@ func _resize(size: Vector2i) -> void:
 	await draw_frames(2)
 
 
-func test_multisampled_views_have_the_same_mask() -> void:
-	var scene := add_study()
-	var plain := await read_settled(scene)
-	get_viewport().msaa_3d = Viewport.MSAA_4X
-	var found := await read_settled(scene)
-	get_viewport().msaa_3d = Viewport.MSAA_DISABLED
-	check(count_different(plain, found, 1.0 / 255.0) < 400, "%d pixels differ" % count_different(plain, found, 1.0 / 255.0))
-
-
 func test_the_mask_is_shown_over_the_image() -> void:
 	for msaa in [Viewport.MSAA_DISABLED, Viewport.MSAA_4X]:
 		var scene := add_study()

@@ -1,0 +1,120 @@
+extends AddonTest
+## Masks and images of multisampled views (MSAA), alone and with the effects that change Godot's order of passes.
+
+const SIZE := Vector2i(160, 120)
+const SUPERSAMPLING := 8
+const MSAA := {"2x": Viewport.MSAA_2X, "4x": Viewport.MSAA_4X, "8x": Viewport.MSAA_8X}
+## Largest fraction of the pixels on outlines that differ from supersampling by more than 0.1. On curved surfaces, Godot's depth
+## at the pixel's centre is not known exactly.
+const MAX_WRONG_FRACTION := {"box": 0.01, "post": 0.02, "sphere": 0.11, "torus": 0.04}
+const EFFECTS: Array[String] = ["", "ssao", "ssil", "ssr", "sdfgi", "glow"]
+
+
+func test_multisampled_views_have_the_same_mask_with_every_effect() -> void:
+	var scene := add_study()
+	var environment: Environment = (scene.find_children("*", "WorldEnvironment", true, false)[0] as WorldEnvironment).environment
+	var plain := await read_settled(scene)
+	for effect in EFFECTS:
+		if not effect.is_empty():
+			environment.set(effect + "_enabled", true)
+		for samples: String in MSAA:
+			get_viewport().msaa_3d = MSAA[samples]
+			var different := count_different(plain, await read_settled(scene), 1.0 / 255.0)
+			check(different < 250, "%s, MSAA %s: %d pixels differ" % [effect, samples, different])
+		if not effect.is_empty():
+			environment.set(effect + "_enabled", false)
+	get_viewport().msaa_3d = Viewport.MSAA_DISABLED
+
+
+## Scaled resolution and FSR 2 change the size of the buffers, or shift the camera.
+func test_multisampled_views_have_the_same_mask_with_every_scaling() -> void:
+	var scene := add_study()
+	var viewport := get_viewport()
+	for scale: float in [0.5, 0.77, 1.5]:
+		viewport.scaling_3d_scale = scale
+		var plain := await read_settled(scene)
+		viewport.msaa_3d = Viewport.MSAA_4X
+		var different := count_different(plain, await read_settled(scene), 1.0 / 255.0)
+		viewport.msaa_3d = Viewport.MSAA_DISABLED
+		check(different < 250 * maxf(scale, 1.0), "scale %s: %d pixels differ" % [scale, different])
+	viewport.scaling_3d_scale = 1.0
+	var settled := await read_settled(scene)
+	viewport.use_taa = true
+	viewport.msaa_3d = Viewport.MSAA_4X
+	var found := await read_settled(scene)
+	check(count_different(settled, found, 0.1) < 600, "TAA: %d pixels differ" % count_different(settled, found, 0.1))
+	viewport.use_taa = false
+	viewport.scaling_3d_mode = Viewport.SCALING_3D_MODE_FSR2
+	viewport.scaling_3d_scale = 0.67
+	found = await read_settled(scene)
+	check(count_darker(found) > 300, "FSR 2: a shadow of %d pixels in %s" % [count_darker(found), found.get_size()])
+	viewport.scaling_3d_mode = Viewport.SCALING_3D_MODE_BILINEAR
+	viewport.scaling_3d_scale = 1.0
+	viewport.msaa_3d = Viewport.MSAA_DISABLED
+
+
+func _add_viewport(scene: Node3D, size: Vector2i) -> SubViewport:
+	var viewport := SubViewport.new()
+	viewport.size = size
+	viewport.use_hdr_2d = true # linear values
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	var camera := Camera3D.new()
+	viewport.add_child(camera)
+	scene.add_child(viewport)
+	camera.look_at_from_position(Vector3(1.5, 2.2, 3), Vector3(0, 0.3, 0))
+	return viewport
+
+
+func _draw(viewport: SubViewport) -> Image:
+	await draw_frames(4)
+	var image := viewport.get_texture().get_image()
+	image.convert(Image.FORMAT_RGBF)
+	return image
+
+
+## Returns the image with each block of pixels averaged, and in alpha the largest difference within the block.
+static func _average(image: Image) -> Image:
+	var size := image.get_size() / SUPERSAMPLING
+	var averaged := Image.create(size.x, size.y, false, Image.FORMAT_RGBAF)
+	for y in size.y:
+		for x in size.x:
+			var sum := Color(0, 0, 0, 0)
+			var low := INF
+			var high := -INF
+			for index in SUPERSAMPLING * SUPERSAMPLING:
+				@warning_ignore("integer_division")
+				var color := image.get_pixel(x * SUPERSAMPLING + index % SUPERSAMPLING, y * SUPERSAMPLING + index / SUPERSAMPLING)
+				sum += color
+				low = minf(low, color.g)
+				high = maxf(high, color.g)
+			sum /= SUPERSAMPLING * SUPERSAMPLING
+			averaged.set_pixel(x, y, Color(sum.r, sum.g, sum.b, high - low))
+	return averaged
+
+
+## Compared with supersampling, in pixels that outlines cross: those whose samples differ without a shadow.
+func test_outlines_have_no_dark_or_bright_pixels() -> void:
+	for light: String in ["directional", "omni"]:
+		for caster: String in StudyScene.CASTERS:
+			var scene := add_study(light, caster)
+			var large := _add_viewport(scene, SIZE * SUPERSAMPLING)
+			var exact := _average(await _draw(large))
+			scene.light.shadow_caster_mask = 0
+			var lit := _average(await _draw(large))
+			scene.light.shadow_caster_mask = 0xffffffff
+			large.free()
+			var viewport := _add_viewport(scene, SIZE)
+			for samples: String in ["4x", "8x"]:
+				viewport.msaa_3d = MSAA[samples]
+				var found := await _draw(viewport)
+				var edges := 0
+				var wrong := 0
+				for y in SIZE.y:
+					for x in SIZE.x:
+						if lit.get_pixel(x, y).a > 0.05:
+							edges += 1
+							wrong += int(absf(exact.get_pixel(x, y).g - found.get_pixel(x, y).g) > 0.1)
+				var result := "%s, %s, MSAA %s: %d of %d pixels differ" % [light, caster, samples, wrong, edges]
+				print(result)
+				check(edges > 50 and wrong <= MAX_WRONG_FRACTION[caster] * edges, result)
+			remove(scene)
