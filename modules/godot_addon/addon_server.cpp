@@ -47,10 +47,14 @@ AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
 	});
 	server.connect(FRAME_SIGNAL, on_frame, /*flags=*/0);
 	is_connected = true;
+	// When Godot quits, it frees a light's projector texture before the next frame: the stand-in,
+	// which also refers to it, must be gone by then.
+	set_last_shadow_node_listener([this] { stand_ins.clear(); });
 }
 
 AddonServer::~AddonServer() {
 	set_shadow_node_listener({});
+	set_last_shadow_node_listener({});
 	if (is_connected) {
 		server.disconnect(FRAME_SIGNAL, on_frame);
 		effects.clear();
@@ -140,7 +144,7 @@ void AddonServer::update_worlds() {
 		world.frame->mask_scale = settings.mask_resolution_scale;
 		for (const ViewDetail &view : world.frame->views) {
 			needed.size_px = glm::max(needed.size_px, view.size_px);
-			needed.has_depth = needed.has_depth || view.is_multisampled;
+			needed.has_depth = needed.has_depth || view.is_multisampled || world.frame->has_faded;
 		}
 		needed.mask_count = std::max(
 				needed.mask_count, static_cast<uint32_t>(world.frame->scene->lights.size()));
@@ -151,6 +155,7 @@ void AddonServer::update_worlds() {
 		effect->update(world.frame, tree);
 	}
 	reader.end_frame();
+	notices.flush();
 	stand_ins.end_frame();
 	const std::vector<ShadowNode *> &nodes = get_shadow_nodes();
 	if (nodes.empty() || !settings.is_enabled) {

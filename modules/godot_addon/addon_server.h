@@ -38,9 +38,10 @@ private:
 	bool is_editor = false;
 	AddonSettings settings;
 	bool has_warned = false; // has logged that a world has too many lights
-	ReceiverMaterials receiver_materials;
+	Notices notices;
+	ReceiverMaterials receiver_materials{ notices };
 	StandInLights stand_ins; // replace lights of nodes on the RenderingServer
-	SceneReader reader{ receiver_materials };
+	SceneReader reader{ receiver_materials, notices };
 	std::shared_ptr<RenderSide> render_side = std::make_shared<RenderSide>();
 	ReceiverSpace reserved;
 	std::map<godot::RID, std::unique_ptr<ScenarioEffect>> effects; // by scenario

@@ -28,7 +28,12 @@ std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot:
 				details.push_back({ p_camera.get_camera_transform(),
 						static_cast<float>(p_viewport.get_mesh_lod_threshold()), scale,
 						glm::uvec2(glm::ceil(read_size(p_viewport) * scale)),
-						p_viewport.get_msaa_3d() != 0 });
+						p_viewport.get_msaa_3d() != 0,
+						godot::get_instance_id(p_viewport.get_object()),
+						p_camera.get_projection() == godot::Camera3D::PROJECTION_ORTHOGONAL
+								? p_camera.get_path().to_utf8()
+								: std::string(),
+						/*hidden_instances=*/{}, /*billboards=*/{} });
 			});
 	return details;
 }

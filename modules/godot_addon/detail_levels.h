@@ -38,6 +38,13 @@ struct ViewDetail {
 	float resolution_scale = 1;
 	glm::uvec2 size_px = glm::uvec2(0); // of the 3D image, after resolution_scale
 	bool is_multisampled = false;		// MSAA
+	uint64_t viewport_id = 0;			// of the node
+	std::string orthogonal_camera;		// its path; empty: the camera is not orthogonal
+	/// Instances of the SceneSnapshot that the view does not draw, because of their visibility
+	/// ranges; they cast no shadow in it.
+	std::vector<size_t> hidden_instances;
+	/// Billboards, which are turned to the view's camera, with their index in the SceneSnapshot.
+	std::vector<std::pair<size_t, InstanceSnapshot>> billboards;
 };
 
 /// Returns the settings of each viewport that shows the world p_scenario.

@@ -154,8 +154,27 @@ bool MeshReader::is_cut_ready(const std::shared_ptr<const Mesh> &p_cut) {
 	return worker.is_ready(p_cut);
 }
 
+std::shared_ptr<const Mesh> MeshReader::grow(const ReadSurface &p_surface, float p_grow_m) {
+	GrownMesh &cached = grown[{ p_surface.mesh->id, p_grow_m }];
+	cached.last_use = frame;
+	if (!cached.mesh) {
+		const Mesh &mesh = *p_surface.mesh;
+		std::vector<glm::vec3> positions = mesh.positions_node;
+		for (size_t vertex = 0; vertex < positions.size(); ++vertex) {
+			positions[vertex] += p_grow_m * mesh.normals_node[vertex];
+		}
+		cached.mesh = make_mesh(mesh.name, std::move(positions), mesh.normals_node, mesh.indices,
+				MeshAttributes(mesh.attributes));
+		worker.prepare(cached.mesh);
+	}
+	return cached.mesh;
+}
+
 void MeshReader::forget_unused() {
 	++frame;
+	std::erase_if(grown, [&](const auto &p_entry) {
+		return frame - p_entry.second.last_use > MAX_UNUSED_MESH_FRAMES;
+	});
 	std::erase_if(entries, [&](const auto &p_entry) {
 		return !p_entry.second.watched->is_alive() ||
 				frame - p_entry.second.last_use > MAX_UNUSED_MESH_FRAMES;

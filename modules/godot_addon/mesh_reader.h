@@ -34,6 +34,9 @@ public:
 	/// The same for p_cut, the mesh that the alpha test leaves of a surface. The first call passes
 	/// it to the worker.
 	bool is_cut_ready(const std::shared_ptr<const Mesh> &p_cut);
+	/// Returns the surface's mesh with each vertex moved along its normal. p_grow_m: the distance,
+	/// in mesh space.
+	std::shared_ptr<const Mesh> grow(const ReadSurface &p_surface, float p_grow_m);
 	/// Removes meshes that were freed or not read for 600 frames. Call once per frame.
 	void forget_unused();
 
@@ -47,7 +50,12 @@ private:
 
 	TopologyWorker worker;
 	std::map<uint64_t, std::weak_ptr<const Mesh>> cut_meshes; // given to the worker, by Mesh::id
-	std::map<uint64_t, Entry> entries;						  // by the resource's id
+	struct GrownMesh {
+		std::shared_ptr<const Mesh> mesh;
+		uint64_t last_use = 0;
+	};
+	std::map<std::pair<uint64_t, float>, GrownMesh> grown; // by Mesh::id of the original, distance
+	std::map<uint64_t, Entry> entries;					   // by the resource's id
 	uint64_t frame = 0;
 };
 

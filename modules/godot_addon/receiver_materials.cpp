@@ -2,6 +2,7 @@
 
 #include "modules/core/log.h"
 #include "modules/godot_addon/shadow_node.h"
+#include "modules/godot_addon/vertex_motion.h"
 
 namespace gnomon {
 
@@ -30,7 +31,8 @@ std::string describe(const godot::Material &p_material, const godot::Node &p_own
 
 } // namespace
 
-ReceiverMaterials::ReceiverMaterials() : server(godot::find_singleton("RenderingServer")) {
+ReceiverMaterials::ReceiverMaterials(Notices &r_notices) :
+		notices(r_notices), server(godot::find_singleton("RenderingServer")) {
 	set_shader_listener([this](godot::RID p_shader) { inspected_shaders.push_back(p_shader); });
 }
 
@@ -45,8 +47,10 @@ void ReceiverMaterials::free(godot::RID &r_owned) const {
 	}
 }
 
-void ReceiverMaterials::copy_code(godot::RID p_original, Copy &r_copy) const {
-	r_copy.receiver = make_receiver_shader(server.shader_get_code(p_original).to_utf8());
+void ReceiverMaterials::copy_code(const MaterialState &p_state, Copy &r_copy) const {
+	const godot::RID original = p_state.original;
+	r_copy.receiver =
+			make_receiver_shader(server.shader_get_code(original).to_utf8(), p_state.is_generated);
 	if (r_copy.receiver.kind != ReceiverKind::PATCHED) {
 		return;
 	}
@@ -54,11 +58,11 @@ void ReceiverMaterials::copy_code(godot::RID p_original, Copy &r_copy) const {
 		r_copy.shader = server.shader_create();
 	}
 	server.shader_set_code(r_copy.shader, godot::String(r_copy.receiver.code));
-	const godot::Array parameters = server.get_shader_parameter_list(p_original);
+	const godot::Array parameters = server.get_shader_parameter_list(original);
 	for (int64_t index = 0; index < parameters.get_size(); ++index) {
 		const std::string name = parameters.get_value(index).get_keyed("name").to_utf8();
 		const godot::RID texture =
-				server.shader_get_default_texture_parameter(p_original, name.c_str(), /*index=*/0);
+				server.shader_get_default_texture_parameter(original, name.c_str(), /*index=*/0);
 		if (texture.id) {
 			server.shader_set_default_texture_parameter(r_copy.shader, name.c_str(), texture, 0);
 		}
@@ -86,9 +90,9 @@ ReceiverMaterials::Copy &ReceiverMaterials::find_copy(
 			copy.watched = std::make_unique<WatchedResource>(shader);
 			copy.holder = godot::Ref<godot::Resource>::share(shader);
 		}
-		copy_code(p_state.original, copy);
+		copy_code(p_state, copy);
 	} else if (copy.watched && copy.watched->take_change()) {
-		copy_code(p_state.original, copy);
+		copy_code(p_state, copy);
 	}
 	return copy;
 }
@@ -102,9 +106,18 @@ ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const god
 		state.original = shader ? shader.get_rid() : godot::RID();
 	}
 	ReceiverKind kind = state.is_generated ? ReceiverKind::GODOT : ReceiverKind::UNLIT;
+	std::string moved_reason;
+	if (state.is_generated) {
+		moved_reason =
+				read_vertex_motion(godot::cast<godot::BaseMaterial3D>(p_material)).unknown_reason;
+	}
 	if (state.original.id) {
 		const Copy &copy = find_copy(state, p_material);
-		kind = copy.receiver.kind;
+		kind = copy.receiver.kind == ReceiverKind::PATCHED && !moved_reason.empty()
+				? ReceiverKind::GODOT
+				: copy.receiver.kind;
+		const std::string &reason =
+				copy.receiver.reason.empty() ? moved_reason : copy.receiver.reason;
 		if (kind == ReceiverKind::PATCHED && state.applied != state.original) {
 			server.material_set_shader(p_material.get_rid(), copy.shader);
 			state.applied = state.original;
@@ -112,9 +125,9 @@ ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const god
 			restore(godot::get_instance_id(p_material.get_object()), state);
 			state.applied = {};
 		}
-		if (kind == ReceiverKind::GODOT && !std::exchange(state.is_warned, true)) {
-			log_warning(describe(p_material, p_owner), " ", copy.receiver.reason,
-					": it keeps Godot's light and shadows, without Gnomon's.");
+		if (kind == ReceiverKind::GODOT && !notices.is_logged(reason)) {
+			notices.add(reason, describe(p_material, p_owner),
+					reason + ": it keeps Godot's light and shadows, without Gnomon's.");
 		}
 	}
 	if (const godot::Ref<godot::Material> next = p_material.get_next_pass()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/godot_addon/notices.h"
 #include "modules/godot_addon/receiver_shader.h"
 #include "modules/godot_addon/watched_resource.h"
 
@@ -16,7 +17,7 @@ namespace gnomon {
 /// inspect_native_shader_code() calls the nodes of the viewer's group before the next frame.
 class ReceiverMaterials {
 public:
-	ReceiverMaterials();
+	explicit ReceiverMaterials(Notices &r_notices);
 	/// Restores all materials.
 	~ReceiverMaterials();
 	ReceiverMaterials(const ReceiverMaterials &) = delete;
@@ -45,7 +46,6 @@ private:
 		godot::RID applied;		   // original of the copy that is set; empty: no copy is set
 		bool is_generated = false; // a BaseMaterial3D, whose shader Godot generates
 		bool is_used = false;	   // in this frame
-		bool is_warned = false;
 	};
 	/// The copy of a shader.
 	struct Copy {
@@ -55,13 +55,14 @@ private:
 		std::unique_ptr<WatchedResource> watched; // the shader of a ShaderMaterial
 	};
 	Copy &find_copy(const MaterialState &p_state, const godot::Material &p_material);
-	void copy_code(godot::RID p_original, Copy &r_copy) const;
+	void copy_code(const MaterialState &p_state, Copy &r_copy) const;
 	void restore(uint64_t p_material, const MaterialState &p_state) const;
 	void restore_bare(uint64_t p_mesh) const;
 	void take_inspected_shaders();
 	void make_bare_material();
 	void free(godot::RID &r_owned) const;
 
+	Notices &notices;
 	godot::RenderingServer server;
 	std::map<uint64_t, MaterialState> materials; // by material id
 	std::map<godot::RID, Copy> copies;			 // by original shader

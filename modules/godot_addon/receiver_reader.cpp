@@ -67,7 +67,8 @@ void ReceiverReader::read_other(const SceneBody &p_body, const Bounds &p_bounds_
 
 void ReceiverReader::add_receiver(
 		const SceneBody &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world) {
-	if (p_kind == ReceiverKind::GODOT) {
+	world.has_faded = world.has_faded || p_body.is_faded;
+	if (p_kind == ReceiverKind::GODOT || (p_body.is_faded && p_kind == ReceiverKind::PATCHED)) {
 		world.others.push_back({ p_bounds_world, p_body.layers });
 	} else if (p_kind != ReceiverKind::UNLIT) {
 		world.masked.push_back({ p_bounds_world, p_body.layers });

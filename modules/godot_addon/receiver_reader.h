@@ -18,6 +18,9 @@ struct Receiver {
 struct WorldReceivers {
 	std::vector<Receiver> masked; // their materials read masks
 	std::vector<Receiver> others; // keep Godot's light and shadow
+	/// Some of them are drawn transparent with materials that read masks. These materials need the
+	/// depth of the masks, to see that the masks are not theirs.
+	bool has_faded = false;
 };
 /// Whether one of the receivers is in the light's range and cull mask.
 bool reaches(const godot::Light3D &p_light, const std::vector<Receiver> &p_receivers);

@@ -30,7 +30,7 @@ const UnsupportedFeature UNSUPPORTED_FEATURES[] = {
 
 const char ATTENUATION[] = "gnomon_get_attenuation"; // function in gnomon.gdshaderinc
 
-std::string find_unsupported_reason(const ShaderText &p_shader) {
+std::string find_unsupported_reason(const ShaderText &p_shader, bool p_is_generated) {
 	if (p_shader.find_function("light")) {
 		return "has a shader with a light() of its own, see addons/gnomon/gnomon.gdshaderinc";
 	}
@@ -41,6 +41,10 @@ std::string find_unsupported_reason(const ShaderText &p_shader) {
 		if (p_shader.has_word(feature.word)) {
 			return feature.reason;
 		}
+	}
+	if (const VertexMotion motion = read_vertex_motion(p_shader);
+			!p_is_generated && !motion.unknown_reason.empty()) {
+		return motion.unknown_reason;
 	}
 	if (find_shadow_kind(p_shader) == ShadowKind::NONE) {
 		return "is transparent or drawn without depth";
@@ -77,7 +81,7 @@ std::string patch(const ShaderText &p_shader) {
 
 } // namespace
 
-ReceiverShader make_receiver_shader(const std::string &p_code) {
+ReceiverShader make_receiver_shader(const std::string &p_code, bool p_is_generated) {
 	const ShaderText shader(p_code);
 	ReceiverShader receiver;
 	if (!shader.has_word("spatial") || shader.has_word("unshaded") ||
@@ -87,7 +91,7 @@ ReceiverShader make_receiver_shader(const std::string &p_code) {
 			   light && shader.has_word(*light, ATTENUATION)) {
 		receiver.kind = ReceiverKind::OWN;
 	} else {
-		receiver.reason = find_unsupported_reason(shader);
+		receiver.reason = find_unsupported_reason(shader, p_is_generated);
 		if (receiver.reason.empty()) {
 			receiver.kind = ReceiverKind::PATCHED;
 			receiver.code = patch(shader);

@@ -19,7 +19,9 @@ struct ReceiverShader {
 };
 
 /// Makes a shader read masks if possible. p_code: the shader's code as Godot's RenderingServer
-/// returns it. With masks of 1 the light() that is added gives the same image as Godot's own.
-ReceiverShader make_receiver_shader(const std::string &p_code);
+/// returns it. p_is_generated: Godot generated it for a BaseMaterial3D, whose read_vertex_motion()
+/// tells more about its vertices. With masks of 1 the light() that is added gives the same image as
+/// Godot's own.
+ReceiverShader make_receiver_shader(const std::string &p_code, bool p_is_generated = false);
 
 } // namespace gnomon

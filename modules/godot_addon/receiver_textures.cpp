@@ -19,12 +19,13 @@ const uint32_t MIN_LAYER_COUNT = 2; // Godot makes no arrays of one layer
 const uint32_t SIZE_STEP_PX = 64;	// no new array for each pixel of a window resize
 
 /// Returns the row that gnomon_is_masked_view() compares with the view that is drawn.
-ReceiverRow make_view_row(const GodotView &p_view) {
+ReceiverRow make_view_row(const GodotView &p_view, bool p_has_faded) {
 	const glm::mat4 world_from_camera(p_view.camera_transform.to_matrix());
 	return { glm::vec4(glm::vec3(world_from_camera[3]), p_view.horizontal_scale),
 		glm::vec4(glm::vec3(world_from_camera[0]), float(p_view.size_px.x)),
 		glm::vec4(glm::vec3(world_from_camera[2]), float(p_view.size_px.y)),
-		glm::vec4(p_view.has_depth_samples ? 1.0f : 0.0f, p_view.depth_offset, 0.0f, 0.0f) };
+		glm::vec4(p_view.has_depth_samples ? 1.0f : 0.0f, p_view.depth_offset,
+				p_has_faded ? 1.0f : 0.0f, 0.0f) };
 }
 
 ReceiverRow make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world) {
@@ -123,12 +124,11 @@ void ReceiverTextures::reserve(const ReceiverSpace &p_space) {
 	}
 }
 
-void ReceiverTextures::write_lights(
-		const GodotView &p_view, std::span<const ReceiverLight> p_lights) {
+void ReceiverTextures::write_lights(const GodotView &p_view, const ScenarioFrame &p_frame) {
 	Table table = {};
-	table[0] = make_view_row(p_view);
+	table[0] = make_view_row(p_view, p_frame.has_faded);
 	const glm::dmat4 view_from_world = glm::inverse(p_view.camera_transform.to_matrix());
-	for (const ReceiverLight &light : p_lights) {
+	for (const ReceiverLight &light : p_frame.receiver_lights) {
 		table[light.row] = make_light_row(light, view_from_world);
 	}
 	write(table);

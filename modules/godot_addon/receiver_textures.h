@@ -31,7 +31,7 @@ private:
 struct ReceiverSpace {
 	glm::uvec2 size_px = glm::uvec2(0); // of the largest view
 	uint32_t mask_count = 0;
-	bool has_depth = false; // a view is multisampled
+	bool has_depth = false; // see ReceiverTextures::get_depth
 
 	bool holds(const ReceiverSpace &p_other) const {
 		return p_other.mask_count <= mask_count && (has_depth || !p_other.has_depth) &&
@@ -62,12 +62,12 @@ public:
 	TextureRID get_masks() const { return masks.get(); }
 	glm::uvec2 get_size_px() const { return space.size_px; }
 	/// Returns the texture for near / z of the surface at each pixel's centre, R32_SFLOAT, by which
-	/// fragments of multisampled views find the pixel whose mask is of their surface. Null if
-	/// reserve() was not told to have it.
+	/// fragments find whether the mask is of their surface, and in multisampled views which
+	/// neighbour's is. Null if reserve() was not told to have it.
 	TextureRID get_depth() const { return depth.get(); }
 	/// Writes the table of lights, which also identifies the view of the masks. Call it before the
 	/// view's opaque objects are drawn.
-	void write_lights(const GodotView &p_view, std::span<const ReceiverLight> p_lights);
+	void write_lights(const GodotView &p_view, const ScenarioFrame &p_frame);
 
 	/// Makes materials ignore the masks until the next write_lights(), because those of the view
 	/// could not be made.

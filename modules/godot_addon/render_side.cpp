@@ -45,6 +45,10 @@ void RenderSide::run(
 		}
 		prepare_device();
 		const GodotView view = read_view(*device, data, buffers);
+		if (view.is_orthogonal) { // SceneReader has warned
+			forget_view();
+			return;
+		}
 		if (!view.unsupported_reason.empty()) {
 			fail("A camera ", view.unsupported_reason, ". Gnomon makes no shadow masks for it.");
 		}

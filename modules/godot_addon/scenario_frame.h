@@ -37,6 +37,7 @@ struct ScenarioFrame {
 	std::vector<ViewDetail> views;
 	std::vector<ReceiverLight> receiver_lights;
 	float mask_scale = 1;				// mask width / view width
+	bool has_faded = false;				// see WorldReceivers::has_faded
 	std::set<std::string> shown_lights; // lights whose masks are drawn over the image
 	std::vector<std::shared_ptr<MaskRequest>> requests;
 };

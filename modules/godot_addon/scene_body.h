@@ -15,6 +15,7 @@ struct SceneBody {
 	uint32_t layers = 1;
 	bool casts_shadow = true;
 	bool is_drawn = true;  // false: it only casts a shadow
+	bool is_faded = false; // a view draws it transparent, whatever its materials are
 	float detail_bias = 1; // lod_bias
 };
 

@@ -48,6 +48,33 @@ bool has_fog_or_gi(const godot::Environment &p_environment) {
 			(p_environment.is_volumetric_fog_enabled() || p_environment.is_sdfgi_enabled());
 }
 
+void set_casting(SceneBody &r_body, int64_t p_setting) {
+	r_body.casts_shadow = p_setting != GeometryInstance3D::SHADOW_CASTING_SETTING_OFF;
+	r_body.is_drawn = p_setting != GeometryInstance3D::SHADOW_CASTING_SETTING_SHADOWS_ONLY;
+}
+
+/// Whether Godot draws a sprite or label into shadow maps: only if its alpha is cut.
+template <typename Node> bool is_alpha_cut(const Node &p_node) {
+	return p_node && p_node.get_alpha_cut_mode() != Node::ALPHA_CUT_DISABLED;
+}
+
+/// Whether Godot draws any of the materials of particles into shadow maps.
+bool cast_particles(const std::vector<godot::Ref<godot::Mesh>> &p_meshes,
+		const godot::Material &p_override, ShadowMaterials &r_materials) {
+	for (const godot::Ref<godot::Mesh> &mesh : p_meshes) {
+		for (int64_t index = 0; mesh && index < mesh.get_surface_count(); ++index) {
+			const godot::Ref<godot::Material> own = mesh.surface_get_material(index);
+			const ShadowSurface surface = p_override ? r_materials.read(p_override)
+					: own							 ? r_materials.read(own)
+													 : ShadowSurface();
+			if (surface.kind != ShadowKind::NONE) {
+				return true;
+			}
+		}
+	}
+	return false;
+}
+
 /// Whether a camera of the world needs Godot's shadows: for volumetric fog, for SDFGI, or because
 /// no masks are made for its projection.
 bool needs_godot_shadows(const godot::SceneTree &p_tree, godot::RID p_scenario) {
@@ -65,10 +92,25 @@ bool needs_godot_shadows(const godot::SceneTree &p_tree, godot::RID p_scenario) 
 
 } // namespace
 
-void SceneReader::warn_once(const SceneBody &p_body, const std::string &p_warning) {
-	if (warned.insert({ godot::get_instance_id(p_body.node.get_object()), p_warning }).second) {
-		log_warning("\"", p_body.node.get_path().to_utf8(), "\" ", p_warning);
+void SceneReader::add_notice(const SceneBody &p_body, const std::string &p_text) {
+	if (notices.is_logged(p_text)) {
+		return;
 	}
+	notices.add(p_text, text("\"", p_body.node.get_path().to_utf8(), "\""), p_text);
+}
+
+bool SceneReader::add_view_notices(const std::vector<ViewDetail> &p_views) {
+	bool has_masked_view = p_views.empty(); // views that Godot's scene tree does not know
+	for (const ViewDetail &view : p_views) {
+		const bool is_masked = view.orthogonal_camera.empty();
+		has_masked_view = has_masked_view || is_masked;
+		if (!is_masked) {
+			notices.add("orthogonal", text("\"", view.orthogonal_camera, "\""),
+					"has an orthogonal projection: its view has Godot's own shadows. Gnomon's need "
+					"a perspective camera.");
+		}
+	}
+	return has_masked_view;
 }
 
 void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
@@ -91,19 +133,30 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 			}
 		}
 		const ShadowSurface shadow = material ? materials.read(material) : ShadowSurface();
-		InstanceSnapshot instance =
-				make_instance(surface.mesh, shadow.cut_out, p_world_from_mesh, p_body.name);
+		const VertexMotion &motion = shadow.motion;
+		const bool is_moved = motion != VertexMotion();
+		ReadSurface drawn = surface;
+		if (motion.grow_m != 0) {
+			drawn.mesh = meshes.grow(surface, motion.grow_m);
+		}
+		const bool is_billboard = motion.billboard != VertexMotion::Billboard::NONE;
+		const std::vector<ViewDetail> &views = world_frame->views;
+		InstanceSnapshot instance = make_instance(drawn.mesh, shadow.cut_out,
+				is_billboard && !views.empty() ? turn_to_camera(motion, p_world_from_mesh,
+														 views.front().camera.to_matrix())
+											   : p_world_from_mesh,
+				p_body.name);
 		instance.layers = p_body.layers;
-		instance.casts_shadow =
-				instance.casts_shadow && p_body.casts_shadow && shadow.kind != ShadowKind::NONE;
-		const bool is_ready = meshes.is_ready(surface) &&
-				(instance.caster_mesh == surface.mesh || meshes.is_cut_ready(instance.caster_mesh));
-		if (mesh_instance && surface.mesh->attributes.rig) {
-			poses.pose(mesh_instance, surface.mesh, surface.index, instance);
+		instance.casts_shadow = instance.casts_shadow && p_body.casts_shadow &&
+				shadow.kind != ShadowKind::NONE && motion.unknown_reason.empty();
+		const bool is_ready = meshes.is_ready(drawn) &&
+				(instance.caster_mesh == drawn.mesh || meshes.is_cut_ready(instance.caster_mesh));
+		if (mesh_instance && drawn.mesh->attributes.rig) {
+			poses.pose(mesh_instance, drawn.mesh, surface.index, instance);
 		}
 		receivers.read(p_body, material, p_mesh, surface.index, instance.bounds_world);
 		if (instance.casts_shadow && shadow.kind == ShadowKind::CUT_OUT && !shadow.cut_out) {
-			warn_once(p_body,
+			add_notice(p_body,
 					"is cut out by alpha in a way that is not read, and casts the shadow of its "
 					"whole surface. Use a StandardMaterial3D with alpha scissor, without triplanar "
 					"coordinates, MSDF textures and albedo from vertex colours.");
@@ -112,7 +165,17 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 			instance.casts_shadow = false;
 			++pending_count;
 		}
-		if (surface.levels) {
+		if (is_billboard) {
+			for (ViewDetail &view : world_frame->views) {
+				InstanceSnapshot turned = make_instance(drawn.mesh, shadow.cut_out,
+						turn_to_camera(motion, p_world_from_mesh, view.camera.to_matrix()),
+						p_body.name);
+				turned.layers = instance.layers;
+				turned.casts_shadow = instance.casts_shadow;
+				view.billboards.emplace_back(r_scene.instances.size(), std::move(turned));
+			}
+		}
+		if (surface.levels && !is_moved) {
 			details.push_back({ r_scene.instances.size(), surface.levels, /*bounds_world=*/{},
 					/*scale=*/1 }); // finish_details sets both
 		}
@@ -156,6 +219,32 @@ void SceneReader::finish_details(
 	}
 }
 
+void SceneReader::read_grid_map(
+		SceneBody p_body, const godot::GridMap &p_grid_map, SceneSnapshot &r_scene) {
+	const godot::Ref<godot::MeshLibrary> library = p_grid_map.get_mesh_library();
+	const godot::Array listed = p_grid_map.get_meshes();
+	if (!library) {
+		return;
+	}
+	// Both lists have the cells in the same order; get_meshes() leaves out items without a mesh.
+	const godot::Array cells = p_grid_map.get_used_cells();
+	int64_t mesh_index = 0;
+	for (int64_t index = 0; index < cells.get_size(); ++index) {
+		const int64_t item =
+				p_grid_map.get_cell_item(glm::ivec3(cells.get_value(index).to_vector3()));
+		const godot::Ref<godot::Mesh> mesh = library.get_item_mesh(item);
+		if (!mesh || mesh_index + 1 >= listed.get_size()) {
+			continue;
+		}
+		set_casting(p_body, library.get_item_mesh_cast_shadow(item));
+		read_mesh(p_body, mesh,
+				get_drawn_transform(p_body.node).to_matrix() *
+						listed.get_value(mesh_index).to_transform().to_matrix(),
+				r_scene);
+		mesh_index += 2;
+	}
+}
+
 void SceneReader::read_mesh_list(
 		const SceneBody &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene) {
 	const glm::dmat4 world_from_node = get_drawn_transform(p_body.node).to_matrix();
@@ -193,6 +282,26 @@ void SceneReader::read_multi_mesh(
 		const std::span<const float> floats = buffer.get_values().subspan(index * stride, stride);
 		read_mesh(p_body, mesh, world_from_node * read_instance_transform(floats, is_3d), r_scene);
 	}
+}
+
+bool SceneReader::casts_in_godot(const godot::ObjectHandle &p_node) {
+	std::vector<godot::Ref<godot::Mesh>> meshes_of_particles;
+	if (const auto particles = godot::cast<godot::GPUParticles3D>(p_node)) {
+		for (int64_t pass = 0; pass < particles.get_draw_passes(); ++pass) {
+			meshes_of_particles.push_back(particles.get_draw_pass_mesh(pass));
+		}
+	} else if (const auto cpu_particles = godot::cast<godot::CPUParticles3D>(p_node)) {
+		meshes_of_particles.push_back(cpu_particles.get_mesh());
+	} else if (const auto sprite = godot::cast<godot::SpriteBase3D>(p_node)) {
+		return is_alpha_cut(sprite);
+	} else if (const auto label = godot::cast<godot::Label3D>(p_node)) {
+		return is_alpha_cut(label);
+	} else {
+		return true;
+	}
+	const godot::Ref<godot::Material> override_material =
+			godot::cast<GeometryInstance3D>(p_node).get_material_override();
+	return cast_particles(meshes_of_particles, override_material, materials);
 }
 
 void SceneReader::read_box(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
@@ -235,11 +344,11 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		body.layers = static_cast<uint32_t>(visual.get_layer_mask());
 	}
 	if (geometry) {
-		const int64_t casting = geometry.get_cast_shadows_setting();
-		body.casts_shadow = casting != GeometryInstance3D::SHADOW_CASTING_SETTING_OFF;
-		body.is_drawn = casting != GeometryInstance3D::SHADOW_CASTING_SETTING_SHADOWS_ONLY;
+		set_casting(body, geometry.get_cast_shadows_setting());
 		body.detail_bias = static_cast<float>(geometry.get_lod_bias());
+		body.is_faded = geometry.get_transparency() > 0 || visibility.is_faded(geometry);
 	}
+	const size_t first_instance = r_scene.instances.size();
 	const size_t first_detail = details.size();
 	if (const auto mesh_instance = godot::cast<godot::MeshInstance3D>(object)) {
 		const godot::Ref<godot::Mesh> mesh = mesh_instance.get_mesh();
@@ -256,16 +365,19 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 			read_mesh_list(body, shape.get_meshes(), r_scene);
 		}
 	} else if (grid_map) {
-		read_mesh_list(body, grid_map.get_meshes(), r_scene);
+		read_grid_map(body, grid_map, r_scene);
 	} else {
-		if (body.casts_shadow) {
-			warn_once(body,
+		if (body.casts_shadow && casts_in_godot(object)) {
+			add_notice(body,
 					text("casts no shadow of Gnomon: the mesh of a ",
 							godot::Object(object.get_object()).get_class().to_utf8(),
 							" cannot be read. Set its cast_shadow to Off, or use a "
 							"MeshInstance3D."));
 		}
 		read_box(body, visual, r_scene);
+	}
+	if (geometry) {
+		visibility.hide(geometry, first_instance, r_scene.instances.size());
 	}
 	finish_details(body, first_detail, r_scene);
 }
@@ -306,6 +418,10 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	frame->number = frame_number;
 	pending_count = 0;
 	details.clear();
+	world_frame = frame;
+	frame->views = find_view_details(p_tree, p_scenario);
+	visibility.begin_world(frame->views);
+	const bool has_masked_view = add_view_notices(frame->views);
 	std::vector<uint64_t> ids = find_instances(p_scenario);
 	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);
 	ids.insert(ids.end(), grid_map_ids.begin(), grid_map_ids.end());
@@ -322,8 +438,9 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	world.receivers = receivers.take();
 	for (ShadowNode *node : p_nodes) {
 		node->pending_caster_count = pending_count;
-		node->makes_mask = node->shows_mask() || node->get_request() ||
-				reaches(node->find_light(), world.receivers.masked);
+		node->makes_mask = has_masked_view &&
+				(node->shows_mask() || node->get_request() ||
+						reaches(node->find_light(), world.receivers.masked));
 		if (!node->makes_mask) {
 			continue;
 		}
@@ -349,7 +466,8 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	}
 	frame->scene = std::move(scene);
 	frame->details = details;
-	frame->views = find_view_details(p_tree, p_scenario);
+	frame->has_faded = world.receivers.has_faded;
+	world_frame.reset();
 	world.frame = std::move(frame);
 	std::erase_if(world.other_lights, [this](const godot::Light3D &p_light) {
 		return std::any_of(world.masked_lights.begin(), world.masked_lights.end(),
@@ -365,6 +483,7 @@ void SceneReader::end_frame() {
 	meshes.forget_unused();
 	poses.end_frame();
 	materials.forget_unused();
+	visibility.forget_unused();
 	std::erase_if(warned,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
 }

@@ -2,10 +2,12 @@
 
 #include "modules/godot_addon/grid_maps.h"
 #include "modules/godot_addon/mesh_reader.h"
+#include "modules/godot_addon/notices.h"
 #include "modules/godot_addon/pose_reader.h"
 #include "modules/godot_addon/receiver_reader.h"
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/shadow_materials.h"
+#include "modules/godot_addon/view_visibility.h"
 
 #include <span>
 
@@ -23,7 +25,8 @@ struct ReadWorld {
 /// Reads the casters, receivers and lights of Godot's scenes. Main thread only.
 class SceneReader {
 public:
-	explicit SceneReader(ReceiverMaterials &r_materials) : receivers(r_materials) {}
+	SceneReader(ReceiverMaterials &r_materials, Notices &r_notices) :
+			receivers(r_materials), notices(r_notices) {}
 	/// p_scenario: a world of the RenderingServer. p_nodes: its lights' visible GnomonShadow3Ds.
 	/// p_hidden_lights: lights that a query of the RenderingServer does not find, because their
 	/// stand-ins replace them. Nodes that cannot be read are skipped, with one warning for each.
@@ -40,20 +43,29 @@ private:
 	void finish_details(const SceneBody &p_body, size_t p_first, const SceneSnapshot &p_scene);
 	void read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 			const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene);
-	/// p_meshes: a transform and a mesh in turn, as GridMap and CSGShape3D return them.
+	void read_grid_map(SceneBody p_body, const godot::GridMap &p_grid_map, SceneSnapshot &r_scene);
+	/// p_meshes: a transform and a mesh in turn, as CSGShape3D returns them.
 	void read_mesh_list(
 			const SceneBody &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene);
 	void read_multi_mesh(
 			const SceneBody &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene);
+	/// Whether Godot draws a node whose mesh cannot be read into shadow maps.
+	bool casts_in_godot(const godot::ObjectHandle &p_node);
 	/// Adds only the box of a node whose mesh cannot be read, because it may receive shadows.
 	void read_box(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
 			SceneSnapshot &r_scene);
 	void read_light_node(const godot::Light3D &p_light);
-	void warn_once(const SceneBody &p_body, const std::string &p_warning);
+	/// Returns whether masks can be made for any of the views.
+	bool add_view_notices(const std::vector<ViewDetail> &p_views);
+	/// p_text: the rest of the warning, after the node's path.
+	void add_notice(const SceneBody &p_body, const std::string &p_text);
 	static LightSnapshot read_light(const ShadowNode &p_node, double p_scene_size_m);
 
 	ReceiverReader receivers;
+	Notices &notices;
+	ViewVisibility visibility;
 	ReadWorld world;
+	std::shared_ptr<ScenarioFrame> world_frame; // of `world`, while it is read
 	std::unique_ptr<GridMaps> grid_maps;
 	MeshReader meshes;
 	PoseReader poses;

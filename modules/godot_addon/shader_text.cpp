@@ -45,6 +45,36 @@ template <typename Function> void for_each_word(std::string_view p_text, Functio
 	}
 }
 
+/// Whether the variable whose name ends at p_end is assigned to there, or one of its components.
+bool is_assigned(std::string_view p_text, size_t p_end) {
+	size_t index = p_end;
+	const auto skip = [&](auto p_is_skipped) {
+		while (index < p_text.size() && p_is_skipped(p_text[index])) {
+			++index;
+		}
+	};
+	const auto is_space = [](char p_character) {
+		return std::isspace(static_cast<unsigned char>(p_character)) != 0;
+	};
+	for (skip(is_space); index < p_text.size() && (p_text[index] == '.' || p_text[index] == '[');
+			skip(is_space)) {
+		if (p_text[index] == '[') { // an element
+			index = std::min(p_text.find(']', index), p_text.size() - 1) + 1;
+		} else { // a component
+			++index;
+			skip(is_identifier_character);
+		}
+	}
+	const std::string_view rest = p_text.substr(std::min(index, p_text.size()));
+	if (rest.starts_with("++") || rest.starts_with("--")) {
+		return true;
+	}
+	const size_t equals = rest.find_first_not_of("+-*/%&|^<>");
+	return equals != std::string_view::npos && equals <= 2 && rest[equals] == '=' &&
+			!rest.substr(equals + 1).starts_with('=') && rest.substr(0, 2) != "<=" &&
+			rest.substr(0, 2) != ">=";
+}
+
 /// Returns the function whose body opens at p_brace, or one without a name if p_brace opens no
 /// function. p_statement: where the statement with the brace begins.
 ShaderFunction read_function(std::string_view p_text, size_t p_statement, size_t p_brace) {
@@ -97,6 +127,27 @@ const ShaderFunction *ShaderText::find_function(std::string_view p_name) const {
 	const auto found = std::find_if(functions.begin(), functions.end(),
 			[&](const ShaderFunction &p_function) { return p_function.name == p_name; });
 	return found == functions.end() ? nullptr : &*found;
+}
+
+bool ShaderText::may_assign(std::string_view p_function, std::string_view p_word) const {
+	const ShaderFunction *function = find_function(p_function);
+	if (!function || !has_word(*function, p_word)) {
+		return false;
+	}
+	// An out parameter may change it, wherever it is passed.
+	if (has_word("out") || has_word("inout")) {
+		return true;
+	}
+	const std::string_view body =
+			std::string_view(code_without_comments)
+					.substr(function->body_begin, function->body_end - function->body_begin);
+	bool assigns = false;
+	for_each_word(body, [&](std::string_view p_found) {
+		assigns = assigns ||
+				(p_found == p_word &&
+						is_assigned(body, size_t(p_found.data() - body.data()) + p_found.size()));
+	});
+	return assigns;
 }
 
 bool ShaderText::has_word(const ShaderFunction &p_function, std::string_view p_word) const {

@@ -38,28 +38,33 @@ ShadowKind find_shadow_kind(const ShaderText &p_shader) {
 }
 
 ShadowSurface ShadowMaterials::read(const godot::Material &p_material) {
+	ShadowSurface surface;
 	if (const auto base = godot::cast<godot::BaseMaterial3D>(p_material)) {
-		const ShadowKind kind = read_base_material(base);
-		return { kind, kind == ShadowKind::CUT_OUT ? cut_outs.read(base) : nullptr };
+		surface.kind = read_base_material(base);
+		surface.cut_out = surface.kind == ShadowKind::CUT_OUT ? cut_outs.read(base) : nullptr;
+		surface.motion = read_vertex_motion(base);
+	} else if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
+		if (const godot::Ref<godot::Shader> shader = custom.get_shader()) {
+			surface = read_shader(shader);
+		}
 	}
-	if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
-		const godot::Ref<godot::Shader> shader = custom.get_shader();
-		// The alpha that a shader computes cannot be read.
-		return { shader ? read_shader(shader) : ShadowKind::OPAQUE, /*cut_out=*/nullptr };
-	}
-	return {}; // opaque
+	return surface;
 }
 
-ShadowKind ShadowMaterials::read_shader(const godot::Shader &p_shader) {
+const ShadowSurface &ShadowMaterials::read_shader(const godot::Shader &p_shader) {
 	Entry &entry = shaders[godot::get_instance_id(p_shader.get_object())];
 	const bool is_new = !entry.watched;
 	if (is_new) {
 		entry.watched = std::make_unique<WatchedResource>(p_shader);
 	}
 	if (entry.watched->take_change() || is_new) {
-		entry.kind = find_shadow_kind(ShaderText(p_shader.get_code().to_utf8()));
+		// The RenderingServer's code has the text of #includes.
+		const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+		const ShaderText text(server.shader_get_code(p_shader.get_rid()).to_utf8());
+		// The alpha that a shader computes cannot be read.
+		entry.surface = { find_shadow_kind(text), /*cut_out=*/nullptr, read_vertex_motion(text) };
 	}
-	return entry.kind;
+	return entry.surface;
 }
 
 void ShadowMaterials::forget_unused() {

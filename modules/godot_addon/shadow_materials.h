@@ -2,6 +2,7 @@
 
 #include "modules/godot_addon/cut_out_materials.h"
 #include "modules/godot_addon/shader_text.h"
+#include "modules/godot_addon/vertex_motion.h"
 #include "modules/godot_addon/watched_resource.h"
 
 #include <map>
@@ -21,6 +22,7 @@ struct ShadowSurface {
 	ShadowKind kind = ShadowKind::OPAQUE;
 	/// If CUT_OUT: the alpha mask; null: it cannot be read.
 	std::shared_ptr<const Material> cut_out;
+	VertexMotion motion;
 };
 
 /// Reads how Godot's materials cast. Main thread only.
@@ -33,9 +35,9 @@ public:
 private:
 	struct Entry {
 		std::unique_ptr<WatchedResource> watched;
-		ShadowKind kind = ShadowKind::OPAQUE;
+		ShadowSurface surface;
 	};
-	ShadowKind read_shader(const godot::Shader &p_shader);
+	const ShadowSurface &read_shader(const godot::Shader &p_shader);
 
 	std::map<uint64_t, Entry> shaders; // by the resource's id
 	CutOutMaterials cut_outs;

@@ -83,6 +83,9 @@ void unregister_shadow_node_class();
 /// Sets a function that is called when a GnomonShadow3D enters the scene tree, and at once if one
 /// is already there. Empty: no function.
 void set_shadow_node_listener(std::function<void()> p_listener);
+/// Sets a function that is called when the last GnomonShadow3D leaves the scene tree. Empty: no
+/// function.
+void set_last_shadow_node_listener(std::function<void()> p_listener);
 /// Sets a function that gets the shader of each material whose inspect_native_shader_code() was
 /// called while a GnomonShadow3D was in the group of Godot's native shader viewer (see
 /// ReceiverMaterials). Empty: no function.

@@ -36,10 +36,11 @@ const int32_t NOTIFICATION_EXIT_TREE = 11;
 
 std::vector<ShadowNode *> nodes; // those in the scene tree
 std::function<void()> listener;
+std::function<void()> last_listener;
 std::function<void(godot::RID)> shader_listener;
 
-void call_listener() {
-	if (const std::function<void()> called = listener) { // a copy, because the call may replace it
+void call_listener(const std::function<void()> &p_listener) {
+	if (const std::function<void()> called = p_listener) { // a copy: the call may replace it
 		called();
 	}
 }
@@ -130,9 +131,12 @@ void free_instance(void *, void *p_instance) {
 void notify(void *p_instance, int32_t p_what, GDExtensionBool) {
 	if (p_what == NOTIFICATION_ENTER_TREE) {
 		nodes.push_back(&to_node(p_instance));
-		call_listener();
+		call_listener(listener);
 	} else if (p_what == NOTIFICATION_EXIT_TREE) {
 		std::erase(nodes, &to_node(p_instance));
+		if (nodes.empty()) {
+			call_listener(last_listener);
+		}
 	}
 }
 
@@ -338,8 +342,12 @@ void register_property(const StringName &p_class, const PropertyInfo &p_info, si
 void set_shadow_node_listener(std::function<void()> p_listener) {
 	listener = std::move(p_listener);
 	if (!nodes.empty()) {
-		call_listener();
+		call_listener(listener);
 	}
+}
+
+void set_last_shadow_node_listener(std::function<void()> p_listener) {
+	last_listener = std::move(p_listener);
 }
 
 void set_shader_listener(std::function<void(godot::RID)> p_listener) {

@@ -91,6 +91,8 @@ public:
 	std::vector<godot::Light3D> find_nodes(godot::RID p_scenario) const;
 	/// Removes the stand-ins that were not updated in this frame.
 	void end_frame();
+	/// Removes all stand-ins.
+	void clear() { lights.clear(); }
 
 private:
 	struct Entry {

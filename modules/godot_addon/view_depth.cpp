@@ -70,9 +70,6 @@ std::string find_unsupported_reason(
 	if (p_view_count > 1) {
 		return "has several views at once (XR)";
 	}
-	if (p_projection[3][3] != 0.0f) {
-		return "has an orthogonal projection";
-	}
 	// Temporal antialiasing shifts the projection by less than a pixel, which is 2 / size in clip
 	// space.
 	if (std::abs(p_projection[2][0]) * float(p_size_px.x) > 2.0f ||
@@ -104,6 +101,10 @@ GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
 	view.color = p_buffers.get_color_texture(/*msaa=*/false);
 	view.camera_transform = data.get_cam_transform();
 	const glm::mat4 projection = data.get_cam_projection();
+	view.is_orthogonal = projection[3][3] != 0.0f;
+	if (view.is_orthogonal) {
+		return view;
+	}
 	view.unsupported_reason =
 			find_unsupported_reason(projection, view.size_px, p_buffers.get_view_count());
 	if (view.unsupported_reason.empty()) {
@@ -123,30 +124,31 @@ GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
 	return view;
 }
 
-ReducedInstances find_reduced_instances(
-		const ScenarioFrame &p_frame, const SceneSnapshot &p_scene, const GodotView &p_view) {
-	// Godot does not report which viewport it draws, so it is identified by its camera's transform.
-	// If none matches, because Godot itself moved the camera, the first viewport is used.
+ViewDetail find_view_detail(const ScenarioFrame &p_frame, const GodotView &p_view) {
 	const auto found = std::find_if(p_frame.views.begin(), p_frame.views.end(),
 			[&](const ViewDetail &p_detail) { return p_detail.camera == p_view.camera_transform; });
-	const ViewDetail detail = found != p_frame.views.end() ? *found
-			: p_frame.views.empty()						   ? ViewDetail()
-														   : p_frame.views.front();
+	return found != p_frame.views.end() ? *found
+			: p_frame.views.empty()		? ViewDetail()
+										: p_frame.views.front();
+}
+
+ReducedInstances find_reduced_instances(const ScenarioFrame &p_frame, const SceneSnapshot &p_scene,
+		const GodotView &p_view, const ViewDetail &p_detail) {
 	const LightView view = make_camera_view(p_scene.camera, p_view.size_px);
 	const float aspect = float(p_view.size_px.x) / float(p_view.size_px.y);
-	const float width_px = float(p_view.size_px.x) / detail.resolution_scale;
+	const float width_px = float(p_view.size_px.x) / p_detail.resolution_scale;
 	const glm::mat4 shift(compute_shift(p_scene.camera));
 	ReducedInstances reduced;
 	// 2 * half_extent.x / width_px is the size of a pixel at distance 1.
 	reduced.lod_tolerance =
-			MAX_DEVIATION_FACTOR * detail.threshold_px * 2.0f * view.half_extent.x / width_px;
+			MAX_DEVIATION_FACTOR * p_detail.threshold_px * 2.0f * view.half_extent.x / width_px;
 	for (const InstanceDetail &candidate : p_frame.details) {
 		const InstanceSnapshot &instance = p_scene.instances[candidate.instance];
 		if (!view.may_see(instance)) {
 			continue;
 		}
 		if (const std::shared_ptr<const Mesh> drawn = choose_detail_level(
-					candidate, p_scene.camera, aspect, detail.threshold_px, width_px)) {
+					candidate, p_scene.camera, aspect, p_detail.threshold_px, width_px)) {
 			reduced.list.push_back({ instance.mesh, drawn,
 					shift * view.compute_clip_from_node(instance.world_from_node) });
 		}
@@ -157,22 +159,22 @@ ReducedInstances find_reduced_instances(
 RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotView &p_view,
 		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced,
 		RGTexture p_published) {
-	const bool has_samples = p_view.has_depth_samples;
 	const RGTexture scene = create_depth(r_graph, "depth", p_view.size_px);
 	const PipelineRID convert =
 			r_meshes.get_device().get_raster_pipeline(make_screen_depth_pipeline("convert depth",
-					has_samples ? "godot_addon/convert_sample_depth.frag"
-								: "godot_addon/convert_depth.frag"));
+					p_view.has_depth_samples ? "godot_addon/convert_sample_depth.frag"
+							: p_published	 ? "godot_addon/convert_published_depth.frag"
+											 : "godot_addon/convert_depth.frag"));
 	shader::ConvertDepthPush convert_push = {};
 	convert_push.offset = p_view.depth_offset;
 	PassBuilder pass = r_graph.add_pass("convert depth");
 	pass.reads(p_depth, Access::SHADER_READ_FRAGMENT).depth(scene, LoadOp::CLEAR, 0.0f);
-	if (has_samples) {
+	if (p_published) {
 		pass.writes(p_published, Access::SHADER_WRITE_FRAGMENT);
 	}
 	pass.execute([=](PassContext &p_context) {
 		std::vector<Binding> bindings = { { CONVERT_BINDING_DEPTH, p_context.get(p_depth) } };
-		if (has_samples) {
+		if (p_published) {
 			bindings.push_back({ CONVERT_BINDING_PUBLISHED, p_context.get(p_published) });
 		}
 		p_context.commands.bind_pipeline(convert);

@@ -17,12 +17,18 @@ struct GodotView {
 	godot::Transform3D camera_transform;
 	float horizontal_scale = 1; // P[0][0] of the projection P
 	float depth_offset = 0;		// P[2][2]
-	/// Why no masks can be made for the view; empty: they can.
+	bool is_orthogonal = false; // it has no masks
+	/// Why no masks can be made for another view; empty: they can.
 	std::string unsupported_reason;
 };
 /// p_buffers: the buffers of p_data.
 GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
 		const godot::RenderSceneBuffersRD &p_buffers);
+
+/// Returns the settings of the view's viewport. Godot does not report which viewport it draws, so
+/// it is identified by its camera's transform. If none matches, because Godot itself moved the
+/// camera, those of the first viewport are returned.
+ViewDetail find_view_detail(const ScenarioFrame &p_frame, const GodotView &p_view);
 
 /// An instance that Godot draws with a reduced mesh, see detail_levels.h.
 struct ReducedInstance {
@@ -37,14 +43,15 @@ struct ReducedInstances {
 	float lod_tolerance = 0;
 };
 /// Returns the reduced instances that may be visible. p_scene must have the view's camera.
-ReducedInstances find_reduced_instances(
-		const ScenarioFrame &p_frame, const SceneSnapshot &p_scene, const GodotView &p_view);
+ReducedInstances find_reduced_instances(const ScenarioFrame &p_frame, const SceneSnapshot &p_scene,
+		const GodotView &p_view, const ViewDetail &p_detail);
 
 /// Adds passes that compute the depth for shadows, near / z, with the full meshes instead of the
 /// reduced ones, at the centres of the pixels. p_depth: Godot's depth. Call it after the pass that
 /// deforms meshes was added.
 ///
-/// p_published: if the view is multisampled, gets the depth of the surfaces that Godot draws.
+/// p_published: gets the depth of the surfaces that Godot draws, for materials; may be empty unless
+/// the view is multisampled.
 RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotView &p_view,
 		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced,
 		RGTexture p_published);

@@ -57,7 +57,7 @@ ViewShadows::~ViewShadows() {
 
 void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_view) {
 	layers.clear();
-	receivers.write_lights(p_view, p_frame.receiver_lights);
+	receivers.write_lights(p_view, p_frame);
 	const uint32_t count = static_cast<uint32_t>(p_frame.scene->lights.size());
 	if (count == 0) {
 		return;
@@ -67,12 +67,20 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 				"were allocated for at most ", receivers.get_size_px().x, "x",
 				receivers.get_size_px().y, ". It has no shadow masks in this frame.");
 	}
-	if (p_view.has_depth_samples && !receivers.get_depth()) {
+	const bool publishes_depth = p_view.has_depth_samples || p_frame.has_faded;
+	if (publishes_depth && !receivers.get_depth()) {
 		fail("A view is multisampled, but was not when this frame began. It has no shadow masks in "
 			 "this frame. Set the viewport's msaa_3d.");
 	}
+	const ViewDetail detail = find_view_detail(p_frame, p_view);
 	auto scene = std::make_shared<SceneSnapshot>(*p_frame.scene);
 	scene->camera = p_view.camera;
+	for (const auto &[index, instance] : detail.billboards) {
+		scene->instances[index] = instance;
+	}
+	for (const size_t hidden : detail.hidden_instances) {
+		scene->instances[hidden].casts_shadow = false;
+	}
 	RenderGraph graph(device, transients);
 	FramePlan plan;
 	// Created first, because it deforms the meshes whose depth is drawn below.
@@ -84,12 +92,12 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 										 { "depth of Godot", Format::D32_SFLOAT, p_view.size_px, 1,
 												 TextureUsage::SAMPLED }),
 					RenderGraph::ImportedContent::PRESERVED);
-	const RGTexture published_depth = p_view.has_depth_samples
+	const RGTexture published_depth = publishes_depth
 			? graph.import_texture(receivers.get_depth(), RenderGraph::ImportedContent::NONE)
 			: RGTexture();
 	const RGTexture full_depth = add_view_depth(graph, shadows.get_meshes(), p_view, drawn_depth,
 			std::make_shared<const ReducedInstances>(
-					find_reduced_instances(p_frame, *scene, p_view)),
+					find_reduced_instances(p_frame, *scene, p_view, detail)),
 			published_depth);
 	ScaledMasks scaled(graph, device, full_depth, p_frame.mask_scale, count);
 	HostSurfaces surfaces;

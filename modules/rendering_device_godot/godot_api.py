@@ -93,22 +93,28 @@ USED = {
             get_node_or_null get_name add_to_group remove_from_group is_physics_interpolated_and_enabled"""
     },
     "SceneTree": {"methods": "get_root get_nodes_in_group"},
-    "Node3D": {"methods": "get_global_transform get_global_transform_interpolated is_visible_in_tree get_world_3d"},
+    "Node3D": {
+        "methods": """get_global_transform get_global_transform_interpolated is_visible_in_tree get_world_3d
+            get_visibility_parent"""
+    },
     "VisualInstance3D": {"methods": "get_layer_mask get_aabb get_instance"},
     "ReflectionProbe": {"methods": ""},
     "VoxelGI": {"methods": ""},
     "GeometryInstance3D": {
-        "methods": "get_cast_shadows_setting get_material_override get_material_overlay get_lod_bias",
-        "enums": "ShadowCastingSetting",
+        "methods": """get_cast_shadows_setting get_material_override get_material_overlay get_lod_bias get_custom_aabb
+            get_transparency get_visibility_range_begin get_visibility_range_end get_visibility_range_begin_margin
+            get_visibility_range_end_margin get_visibility_range_fade_mode""",
+        "enums": "ShadowCastingSetting VisibilityRangeFadeMode",
     },
     "MeshInstance3D": {
         "methods": "get_mesh get_active_material get_skin_reference get_blend_shape_count get_blend_shape_value"
     },
     "MultiMeshInstance3D": {"methods": "get_multimesh"},
     "CSGShape3D": {"methods": "get_meshes is_root_shape"},
-    "GridMap": {"methods": "get_meshes"},
-    "SpriteBase3D": {"methods": "get_draw_flag", "enums": "DrawFlags"},
-    "Label3D": {"methods": "get_draw_flag", "enums": "DrawFlags"},
+    "GridMap": {"methods": "get_meshes get_used_cells get_cell_item get_mesh_library"},
+    "MeshLibrary": {"methods": "get_item_mesh get_item_mesh_cast_shadow"},
+    "SpriteBase3D": {"methods": "get_draw_flag get_alpha_cut_mode", "enums": "DrawFlags AlphaCutMode"},
+    "Label3D": {"methods": "get_draw_flag get_alpha_cut_mode", "enums": "DrawFlags AlphaCutMode"},
     "GPUParticles3D": {"methods": "get_draw_passes get_draw_pass_mesh"},
     "CPUParticles3D": {"methods": "get_mesh"},
     "Light3D": {
@@ -146,8 +152,9 @@ USED = {
     "Material": {"methods": "get_next_pass inspect_native_shader_code"},
     "BaseMaterial3D": {
         "methods": """get_transparency get_depth_draw_mode get_flag get_blend_mode get_texture get_albedo
-            get_alpha_scissor_threshold get_uv1_scale get_uv1_offset get_texture_filter""",
-        "enums": "Transparency DepthDrawMode Flags BlendMode TextureParam TextureFilter",
+            get_alpha_scissor_threshold get_uv1_scale get_uv1_offset get_texture_filter get_billboard_mode
+            is_grow_enabled get_grow""",
+        "enums": "BillboardMode Transparency DepthDrawMode Flags BlendMode TextureParam TextureFilter",
     },
     "ShaderMaterial": {"methods": "get_shader"},
     "Shader": {"methods": "get_code"},
@@ -175,6 +182,7 @@ VALUES = {
     "bool": "bool",
     "RID": "RID",
     "Vector2i": "glm::ivec2",
+    "Vector3i": "glm::ivec3",
     "Vector3": "glm::vec3",
     "Color": "glm::vec4",
     "Rect2": "Rect2",

@@ -8,7 +8,7 @@
 #define RECEIVER_ROW_COUNT 64
 #define RECEIVER_COLUMN_COUNT 4
 
-// Bindings of convert_depth.frag, convert_sample_depth.frag, merge_depth.frag and show_mask.frag.
+// Bindings of convert_*depth.frag, merge_depth.frag and show_mask.frag.
 #define CONVERT_BINDING_DEPTH 0
 #define CONVERT_BINDING_PUBLISHED 1
 #define MERGE_BINDING_SCENE 0
@@ -22,7 +22,7 @@
 #define SCALE_BINDING_MASKS 2
 #define SCALE_BINDING_RESULT 3
 
-/// Push constants of convert_depth.frag and convert_sample_depth.frag.
+/// Push constants of convert_*depth.frag.
 struct SHARED_ALIGN ConvertDepthPush {
 	float offset; // P[2][2] of Godot's projection P, whose depth d is P[3][2] / z - P[2][2]
 	float padding0;

@@ -11,6 +11,7 @@ const CASES: Array[GDScript] = [
 	preload("res://tests/settings.gd"),
 	preload("res://tests/lights.gd"),
 	preload("res://tests/surroundings.gd"),
+	preload("res://tests/likeness.gd"),
 	preload("res://tests/materials.gd"),
 ]
 

@@ -148,6 +148,7 @@ func test_orthogonal_cameras_are_refused_with_one_message() -> void:
 	scene.camera.projection = Camera3D.PROJECTION_ORTHOGONAL
 	var masks := await _read_all(scene)
 	check(masks.is_empty(), "no mask")
+	check(not scene.shadow.makes_mask(), "makes_mask() is false")
 	scene.camera.projection = Camera3D.PROJECTION_PERSPECTIVE
 	check(count_darker(await read_settled(scene)) > 500, "a mask again")
 

@@ -1,0 +1,231 @@
+extends AddonTest
+## Small scenes as games have them, in which Gnomon's shadow must be where Godot's is. Brightness is compared at points of the
+## world that are well inside or outside of the shadow.
+
+const SIZE := Vector2i(480, 270)
+const TOLERANCE := 0.1
+
+var _viewport: SubViewport
+var _root: Node3D
+var _camera: Camera3D
+var _sun: DirectionalLight3D
+
+
+func _begin() -> void:
+	_viewport = SubViewport.new()
+	_viewport.size = SIZE
+	_viewport.own_world_3d = true
+	_viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	add_child(_viewport)
+	_root = Node3D.new()
+	_viewport.add_child(_root)
+	var world := WorldEnvironment.new()
+	world.environment = Environment.new()
+	world.environment.background_mode = Environment.BG_COLOR
+	world.environment.background_color = Color(0.2, 0.25, 0.3)
+	world.environment.ambient_light_source = Environment.AMBIENT_SOURCE_COLOR
+	world.environment.ambient_light_color = Color(0.25, 0.25, 0.3)
+	_root.add_child(world)
+	_camera = Camera3D.new()
+	_root.add_child(_camera)
+	_camera.look_at_from_position(Vector3(0, 4, 6), Vector3(0, 0.4, 0))
+	_sun = DirectionalLight3D.new()
+	_sun.rotation_degrees = Vector3(-50, 35, 0)
+	_sun.shadow_enabled = true
+	_sun.light_angular_distance = 0.5
+	_root.add_child(_sun)
+	var plane := PlaneMesh.new()
+	plane.size = Vector2(20, 20)
+	_add(plane, Vector3.ZERO)
+
+
+func _add(mesh: Mesh, at: Vector3, material: Material = null) -> MeshInstance3D:
+	var node := MeshInstance3D.new()
+	node.mesh = mesh
+	node.position = at
+	node.material_override = StandardMaterial3D.new() if material == null else material
+	_root.add_child(node)
+	return node
+
+
+func _add_box(at: Vector3, material: Material = null) -> MeshInstance3D:
+	return _add(BoxMesh.new(), at, material)
+
+
+func _make_shader(code: String) -> ShaderMaterial:
+	var material := ShaderMaterial.new()
+	material.shader = Shader.new()
+	material.shader.code = "shader_type spatial;\n" + code
+	return material
+
+
+## The point of the floor that the sun's ray through a point reaches.
+func _floor_below(point: Vector3) -> Vector3:
+	var direction := -_sun.global_basis.z
+	return point - direction * (point.y / direction.y)
+
+
+func _take() -> Image:
+	await draw_frames(8)
+	return _viewport.get_texture().get_image()
+
+
+## Draws with Godot's shadows and with Gnomon's, and compares the images at the points.
+func _compare(label: String, points: Array[Vector3]) -> void:
+	var godot := await _take()
+	var shadows: Array[Node] = []
+	for light in _root.find_children("*", "Light3D", true, false):
+		shadows.append(ClassDB.instantiate("GnomonShadow3D"))
+		light.add_child(shadows.back())
+	var gnomon := await _take()
+	for point in points:
+		var pixel := Vector2i(_camera.unproject_position(point))
+		var difference := gnomon.get_pixelv(pixel).get_luminance() - godot.get_pixelv(pixel).get_luminance()
+		check(absf(difference) < TOLERANCE, "%s: %+.3f at %s" % [label, difference, point])
+	godot.save_png("user://likeness_%s_godot.png" % label.validate_filename().replace(" ", "_"))
+	gnomon.save_png("user://likeness_%s_gnomon.png" % label.validate_filename().replace(" ", "_"))
+	for shadow in shadows:
+		shadow.free()
+
+
+func _end() -> void:
+	_viewport.free()
+	await draw_frames(2)
+
+
+func test_billboards_cast_as_they_face_the_camera() -> void:
+	for mode: BaseMaterial3D.BillboardMode in [BaseMaterial3D.BILLBOARD_ENABLED, BaseMaterial3D.BILLBOARD_FIXED_Y]:
+		for keeps_scale: bool in [false, true]:
+			_begin()
+			var material := StandardMaterial3D.new()
+			material.billboard_mode = mode
+			material.billboard_keep_scale = keeps_scale
+			var quad := _add(QuadMesh.new(), Vector3(-1, 1.2, 0), material)
+			quad.scale = Vector3(1.5, 0.7, 1)
+			quad.rotation_degrees = Vector3(0, 80, 20)
+			var points: Array[Vector3] = [_floor_below(quad.position), _floor_below(quad.position + Vector3(0.3, 0.1, 0)), _floor_below(quad.position + Vector3(0.6, 0.45, 0))]
+			for y: float in [-0.3, 0.0, 0.3]:
+				points.append(quad.position + _camera.global_basis.y * y)
+			await _compare("billboard %d %s" % [mode, keeps_scale], points)
+			await _end()
+
+
+func test_grown_meshes_cast_and_receive_as_they_are_drawn() -> void:
+	for grow: float in [-0.2, 0.25]:
+		_begin()
+		var material := StandardMaterial3D.new()
+		material.grow = true
+		material.grow_amount = grow
+		var sphere := _add(SphereMesh.new(), Vector3(-1, 1, 0), material)
+		var radius := 0.5 + grow
+		var points: Array[Vector3] = [sphere.position + _sun.global_basis.z * radius, sphere.position + Vector3.UP * radius, _floor_below(sphere.position)]
+		for side: Vector3 in [_sun.global_basis.x, -_sun.global_basis.x, _sun.global_basis.y]:
+			points.append(_floor_below(sphere.position + side * (radius - 0.1)))
+			points.append(_floor_below(sphere.position + side * (radius + 0.1)))
+		await _compare("grow %.2f" % grow, points)
+		await _end()
+
+
+func test_surfaces_that_a_shader_moves_do_not_shadow_themselves() -> void:
+	const SHADERS: Array[String] = [
+		"void vertex() { VERTEX.y -= 0.7; }\nvoid fragment() { ALBEDO = vec3(0.2, 0.5, 0.9); }",
+		"void vertex() { VERTEX += vec3(0.0, -0.7 - 0.01 * sin(TIME), 0.0); }",
+		"void vertex() { VERTEX = VERTEX - NORMAL * 0.7; }",
+		"void sink(inout vec3 v) { v.y -= 0.7; }\nvoid vertex() { sink(VERTEX); }",
+		"void vertex() { MODELVIEW_MATRIX = MODELVIEW_MATRIX * mat4(vec4(1,0,0,0), vec4(0,1,0,0), vec4(0,0,1,0), vec4(0,-0.7,0,1)); }",
+		"render_mode world_vertex_coords;\nvoid vertex() { VERTEX[1] -= 0.7; }",
+		"render_mode skip_vertex_transform;\nvoid vertex() { VERTEX = (MODELVIEW_MATRIX * vec4(VERTEX - vec3(0.0, 0.7, 0.0), 1.0)).xyz; NORMAL = normalize((MODELVIEW_MATRIX * vec4(NORMAL, 0.0)).xyz); }",
+	]
+	for index in SHADERS.size():
+		_begin()
+		var mesh := PlaneMesh.new()
+		mesh.size = Vector2(3, 2)
+		_add(mesh, Vector3(0, 1, 0), _make_shader(SHADERS[index]))
+		var points: Array[Vector3] = [Vector3(-1, 0.3, 0), Vector3(0, 0.3, 0), Vector3(1, 0.3, 0), _floor_below(Vector3(-1.4, 1, -0.9))]
+		await _compare("moved %d" % index, points)
+		await _end()
+
+
+## A vertex() that only computes values for fragment() changes nothing.
+func test_surfaces_whose_shader_moves_no_vertex_cast() -> void:
+	_begin()
+	_add_box(Vector3(0, 0.5, 0), _make_shader("varying float height;\nvoid vertex() { height = VERTEX.y; UV = UV * 2.0; if (VERTEX.y == 1.0 && VERTEX.x <= 1.0) { height = 2.0; } }\nvoid fragment() { ALBEDO = vec3(0.3 + 0.1 * height); }"))
+	var below := _floor_below(Vector3(-0.3, 0.8, -0.3))
+	await _compare("shader box", [below, Vector3(0, 1, 0), Vector3(2, 0, 2)])
+	check(_viewport.get_texture().get_image().get_pixelv(Vector2i(_camera.unproject_position(below))).get_luminance() < 0.5, "the floor is in its shadow")
+	await _end()
+
+
+func test_nodes_that_their_visibility_range_hides_cast_nothing() -> void:
+	for range: Vector4 in [Vector4(0, 3, 0, 0), Vector4(12, 0, 0, 0), Vector4(0, 20, 0, 5), Vector4(2, 30, 1, 1)]:
+		_begin()
+		var box := _add_box(Vector3(0, 0.5, 0))
+		box.visibility_range_begin = range.x
+		box.visibility_range_end = range.y
+		box.visibility_range_begin_margin = range.z
+		box.visibility_range_end_margin = range.w
+		await _compare("range %s" % range, [Vector3(0, 0, 0), Vector3(0, 1, 0), _floor_below(Vector3(-0.3, 0.8, -0.3))])
+		await _end()
+
+
+## A hierarchical level of detail: the parent replaces its children in the distance.
+func test_children_of_a_visibility_parent_cast_where_they_are_drawn() -> void:
+	for distance: float in [1.0, 2.5]:
+		_begin()
+		_camera.position *= distance
+		var parent := _add_box(Vector3(-0.8, 0.5, 0))
+		parent.visibility_range_begin = 10.0
+		var child := _add_box(Vector3(0.8, 0.5, 0))
+		child.visibility_parent = child.get_path_to(parent)
+		await _compare("parent %.1f" % distance, [_floor_below(Vector3(-1.1, 0.8, -0.3)), _floor_below(Vector3(0.5, 0.8, -0.3)), parent.position + Vector3.UP * 0.5, child.position + Vector3.UP * 0.5])
+		await _end()
+
+
+func test_faded_and_transparent_nodes_show_no_mask_of_what_is_behind() -> void:
+	for msaa: Viewport.MSAA in [Viewport.MSAA_DISABLED, Viewport.MSAA_4X]:
+		for fade: String in ["transparency", "range"]:
+			_begin()
+			_viewport.msaa_3d = msaa
+			var box := _add_box(Vector3(-1, 0.5, 0))
+			if fade == "transparency":
+				box.transparency = 0.5
+			else:
+				box.visibility_range_end = _camera.position.distance_to(box.position)
+				box.visibility_range_end_margin = 2.0
+				box.visibility_range_fade_mode = GeometryInstance3D.VISIBILITY_RANGE_FADE_SELF
+			var points: Array[Vector3] = [_floor_below(Vector3(-1.3, 0.8, -0.3)), Vector3(2, 0, 2)]
+			for y: float in [0.15, 0.3, 0.5, 0.7, 0.85]:
+				points.append(Vector3(-1, y, 0.5))
+			await _compare("faded %s %d" % [fade, msaa], points)
+			await _end()
+
+
+func test_items_of_a_mesh_library_cast_as_they_are_set() -> void:
+	for setting: RenderingServer.ShadowCastingSetting in [RenderingServer.SHADOW_CASTING_SETTING_OFF, RenderingServer.SHADOW_CASTING_SETTING_ON, RenderingServer.SHADOW_CASTING_SETTING_DOUBLE_SIDED, RenderingServer.SHADOW_CASTING_SETTING_SHADOWS_ONLY]:
+		_begin()
+		var items := MeshLibrary.new()
+		var mesh := BoxMesh.new()
+		for item in 3: # item 0 has no mesh, items 1 and 2 have the same one
+			items.create_item(item)
+			if item > 0:
+				items.set_item_mesh(item, mesh)
+		items.set_item_mesh_transform(1, Transform3D(Basis(), Vector3(0, 0.2, 0)))
+		items.set_item_mesh_cast_shadow(1, setting)
+		var grid := GridMap.new()
+		grid.mesh_library = items
+		grid.cell_size = Vector3.ONE
+		_root.add_child(grid)
+		grid.set_cell_item(Vector3i(-3, 0, 0), 0)
+		grid.set_cell_item(Vector3i(-2, 0, 0), 1)
+		grid.set_cell_item(Vector3i(1, 0, 0), 2)
+		await _compare("grid %d" % setting, [_floor_below(Vector3(-1.8, 0.9, 0.2)), _floor_below(Vector3(1.2, 0.8, 0.2))])
+		await _end()
+
+
+func test_orthogonal_views_have_the_shadow_of_godot() -> void:
+	_begin()
+	_camera.projection = Camera3D.PROJECTION_ORTHOGONAL
+	_camera.size = 6
+	_add_box(Vector3(0, 0.5, 0))
+	await _compare("orthogonal", [_floor_below(Vector3(-0.3, 0.8, -0.3)), Vector3(0, 1, 0), Vector3(2, 0, 1)])
+	await _end()
