@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/godot_addon/light_choice.h"
 
 #include "godot_addon/godot_addon_shared.h"
 
@@ -87,7 +88,8 @@ std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::
 	std::set<void *> lights;
 	for (ShadowNode *node : get_shadow_nodes()) {
 		const godot::Light3D light = node->find_light();
-		if (!light || !node->get_node().is_visible_in_tree() ||
+		node->makes_mask = node->makes_mask && light && light.has_shadow();
+		if (!light || !node->get_node().is_visible_in_tree() || !light.has_shadow() ||
 				(light.is_editor_only() && !is_editor) ||
 				!lights.insert(light.get_object()).second) {
 			continue;
@@ -96,20 +98,30 @@ std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::
 		if (!world) {
 			continue;
 		}
-		std::vector<ShadowNode *> &nodes = worlds[world.get_scenario()];
-		if (nodes.size() < settings.most_lights) {
-			nodes.push_back(node);
-		} else if (!std::exchange(has_warned, true)) {
+		worlds[world.get_scenario()].push_back(node);
+		r_tree = godot::SceneTree(node->get_node().get_tree().get_object());
+	}
+	for (auto &[scenario, nodes] : worlds) {
+		if (nodes.size() <= settings.most_lights) {
+			continue;
+		}
+		choose_lights(nodes, find_view_details(r_tree, scenario), settings.most_lights);
+		for (size_t index = settings.most_lights; index < nodes.size(); ++index) {
+			nodes[index]->makes_mask = false;
+		}
+		if (!std::exchange(has_warned, true)) {
 			const size_t limit = RECEIVER_ROW_COUNT - 1;
 			const std::string step = settings.most_lights < limit
 					? "Raise rendering/gnomon/most_lights in the project's settings, at most " +
 							std::to_string(limit) + "."
 					: "This is the largest number: remove GnomonShadow3D nodes from lights that "
 					  "need none.";
-			log_warning("\"", node->get_path(), "\" has no shadow of Gnomon: its world has ",
-					settings.most_lights, " lights before it that have one. ", step);
+			log_warning("\"", nodes[settings.most_lights]->get_path(),
+					"\" has no shadow of Gnomon: its world has ", nodes.size(),
+					" lights with one, and the ", settings.most_lights,
+					" that cover more of the view have it. ", step);
 		}
-		r_tree = godot::SceneTree(node->get_node().get_tree().get_object());
+		nodes.resize(settings.most_lights);
 	}
 	return worlds;
 }

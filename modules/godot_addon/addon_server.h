@@ -20,8 +20,8 @@ public:
 
 private:
 	void before_draw();
-	/// Returns one visible GnomonShadow3D per light, by the scenario of their world, at most
-	/// settings.most_lights for each. r_tree is set to their scene tree, if there are any.
+	/// Returns one visible GnomonShadow3D per light whose shadow is enabled, by the scenario of their
+	/// world, at most settings.most_lights for each. r_tree is set to their scene tree, if there are any.
 	std::map<godot::RID, std::vector<ShadowNode *>> find_worlds(godot::SceneTree &r_tree);
 	void update_worlds();
 	/// Returns the lights that need a stand-in, and whether each needs Godot's shadow as well.

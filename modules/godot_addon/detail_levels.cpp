@@ -18,6 +18,13 @@ glm::vec2 read_size(const godot::Viewport &p_viewport) {
 	return { float(texture.get_width()), float(texture.get_height()) };
 }
 
+float compute_half_diagonal(const godot::Camera3D &p_camera, glm::vec2 p_size) {
+	const float tangent = std::tan(0.5f * glm::radians(static_cast<float>(p_camera.get_fov())));
+	const bool keeps_width = p_camera.get_keep_aspect_mode() == godot::Camera3D::KEEP_WIDTH;
+	const glm::vec2 half = p_size * (tangent / std::max(keeps_width ? p_size.x : p_size.y, 1.0f));
+	return std::atan(glm::length(half));
+}
+
 } // namespace
 
 std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot::RID p_scenario) {
@@ -30,6 +37,7 @@ std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot:
 						glm::uvec2(glm::ceil(read_size(p_viewport) * scale)),
 						p_viewport.get_msaa_3d() != 0,
 						godot::get_instance_id(p_viewport.get_object()),
+						compute_half_diagonal(p_camera, read_size(p_viewport)),
 						p_camera.get_projection() == godot::Camera3D::PROJECTION_ORTHOGONAL
 								? p_camera.get_path().to_utf8()
 								: std::string(),

@@ -39,6 +39,7 @@ struct ViewDetail {
 	glm::uvec2 size_px = glm::uvec2(0); // of the 3D image, after resolution_scale
 	bool is_multisampled = false;		// MSAA
 	uint64_t viewport_id = 0;			// of the node
+	float half_diagonal_rad = 1;		// half the camera's angle of view across the image
 	std::string orthogonal_camera;		// its path; empty: the camera is not orthogonal
 	/// Instances of the SceneSnapshot that the view does not draw, because of their visibility
 	/// ranges; they cast no shadow in it.

@@ -15,6 +15,7 @@ const char MASKS_GLOBAL[] = "gnomon_masks";
 const char DEPTH_GLOBAL[] = "gnomon_depth";
 const char LIGHTS_GLOBAL[] = "gnomon_lights";
 const char ALBEDO_GLOBAL[] = "gnomon_albedo";
+const float NO_FADE_M = 1e30f;		// depth from which the shadow of a light that does not fade fades
 const uint32_t MIN_LAYER_COUNT = 2; // Godot makes no arrays of one layer
 const uint32_t SIZE_STEP_PX = 64;	// no new array for each pixel of a window resize
 
@@ -28,14 +29,21 @@ ReceiverRow make_view_row(const GodotView &p_view, bool p_has_faded) {
 				p_has_faded ? 1.0f : 0.0f, 0.0f) };
 }
 
-ReceiverRow make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world) {
+ReceiverRow make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world,
+		const glm::dvec3 &p_camera_world) {
 	const glm::vec3 position(p_view_from_world * glm::dvec4(p_light.position_world, 1.0));
 	const glm::vec3 direction(p_view_from_world * glm::dvec4(p_light.direction_world, 0.0));
 	const float godot_shadow = p_light.has_godot_shadow ? 2.0f : 0.0f;
+	const bool fades_by_depth = p_light.is_directional && p_light.fade_end_m > 0;
+	const float opacity = p_light.is_directional
+			? p_light.mask_opacity
+			: p_light.mask_opacity * compute_shadow_fade(p_light, p_camera_world);
 	return { glm::vec4(p_light.specular, float(p_light.mask), p_light.size_m,
-					 p_light.mask_opacity + godot_shadow),
+					 opacity + godot_shadow),
 		glm::vec4(position, 1.0f / p_light.range_m), glm::vec4(direction, p_light.cone_cosine),
-		glm::vec4(p_light.distance_exponent, p_light.cone_exponent, 0.0f, 0.0f) };
+		glm::vec4(p_light.distance_exponent, p_light.cone_exponent,
+				fades_by_depth ? p_light.fade_begin_m : NO_FADE_M,
+				fades_by_depth ? p_light.fade_end_m : 2.0f * NO_FADE_M) };
 }
 
 } // namespace
@@ -129,7 +137,7 @@ void ReceiverTextures::write_lights(const GodotView &p_view, const ScenarioFrame
 	table[0] = make_view_row(p_view, p_frame.has_faded);
 	const glm::dmat4 view_from_world = glm::inverse(p_view.camera_transform.to_matrix());
 	for (const ReceiverLight &light : p_frame.receiver_lights) {
-		table[light.row] = make_light_row(light, view_from_world);
+		table[light.row] = make_light_row(light, view_from_world, p_view.camera.position_world);
 	}
 	write(table);
 }

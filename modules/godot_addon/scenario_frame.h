@@ -20,13 +20,22 @@ struct ReceiverLight {
 	float mask_opacity = 1;
 	float size_m = 0; // 0 for directional lights
 	bool has_godot_shadow = false;
+	bool is_directional = false;
 	glm::dvec3 position_world = glm::dvec3(0.0);
 	glm::dvec3 direction_world = glm::dvec3(0.0); // from the light
 	float range_m = 1;
 	float distance_exponent = 1;
 	float cone_cosine = -1; // of the cone's half angle; -1: not a spot light
 	float cone_exponent = 1;
+	/// The shadow fades over this range of distances between camera and light, for omni and spot
+	/// lights, or of depths in the view, for directional lights, and ends at its end. In metres;
+	/// negative: it does not fade.
+	float fade_begin_m = -1;
+	float fade_end_m = -1;
 };
+/// Returns the factor of an omni or spot light's shadow by its distance from the camera; 0: it has
+/// no shadow there.
+float compute_shadow_fade(const ReceiverLight &p_light, const glm::dvec3 &p_camera_world);
 
 /// What the main thread passes to the render thread in each frame about one world (a scenario of
 /// Godot's RenderingServer). It does not change afterwards.

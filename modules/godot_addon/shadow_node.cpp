@@ -92,6 +92,9 @@ std::vector<std::string> ShadowNode::find_warnings() const {
 						   "OmniLight3D, a SpotLight3D or a DirectionalLight3D.");
 		return warnings;
 	}
+	if (!light.has_shadow()) {
+		warnings.push_back("The light has no shadow: its shadow_enabled is off. Turn it on.");
+	}
 	if (light.get_param(godot::Light3D::PARAM_SIZE) <= 0) {
 		const bool is_directional = bool(godot::cast<godot::DirectionalLight3D>(light));
 		warnings.push_back(text("The shadow is hard: ",

@@ -16,6 +16,7 @@ namespace {
 
 using godot::RenderingServer;
 
+const float MAX_FADE_START = 0.999f; // of directional_shadow_fade_start, as in Godot
 const float MIN_SPECULAR = 1e-6f; // instead of 0, which with a row would be denormal
 
 RenderingServer find_server() {
@@ -63,7 +64,16 @@ ReceiverLight make_receiver_light(const NeededStandIn &p_needed, uint32_t p_row)
 	light.mask_opacity = get_param(node, godot::Light3D::PARAM_SHADOW_OPACITY);
 	light.has_godot_shadow = p_needed.needs_godot_shadow && node.has_shadow();
 	if (godot::cast<godot::DirectionalLight3D>(node)) {
+		light.is_directional = true;
+		light.fade_end_m = get_param(node, godot::Light3D::PARAM_SHADOW_MAX_DISTANCE);
+		light.fade_begin_m = light.fade_end_m *
+				std::min(get_param(node, godot::Light3D::PARAM_SHADOW_FADE_START), MAX_FADE_START);
 		return light;
+	}
+	if (node.is_distance_fade_enabled()) {
+		light.fade_begin_m = static_cast<float>(node.get_distance_fade_shadow());
+		light.fade_end_m =
+				light.fade_begin_m + static_cast<float>(node.get_distance_fade_length());
 	}
 	const glm::dmat4 world_from_light = get_drawn_transform(node).to_matrix();
 	light.size_m = get_param(node, godot::Light3D::PARAM_SIZE);
@@ -80,6 +90,20 @@ ReceiverLight make_receiver_light(const NeededStandIn &p_needed, uint32_t p_row)
 }
 
 } // namespace
+
+float compute_shadow_fade(const ReceiverLight &p_light, const glm::dvec3 &p_camera_world) {
+	if (p_light.fade_end_m < 0) {
+		return 1;
+	}
+	const float distance_m =
+			static_cast<float>(glm::distance(p_light.position_world, p_camera_world));
+	if (distance_m <= p_light.fade_begin_m) {
+		return 1;
+	}
+	return distance_m >= p_light.fade_end_m
+			? 0.0f
+			: 1.0f - glm::smoothstep(p_light.fade_begin_m, p_light.fade_end_m, distance_m);
+}
 
 float tag_specular(float p_specular, uint32_t p_row) {
 	const uint32_t bits = std::bit_cast<uint32_t>(std::max(p_specular, MIN_SPECULAR));

@@ -26,6 +26,15 @@ RasterPipelineDesc make_show_pipeline() {
 	return desc;
 }
 
+/// Whether the light's shadow ends nearer to the camera than the light is (distance_fade_shadow).
+bool is_faded_out(const ScenarioFrame &p_frame, uint32_t p_layer, const GodotView &p_view) {
+	return std::any_of(p_frame.receiver_lights.begin(), p_frame.receiver_lights.end(),
+			[&](const ReceiverLight &p_light) {
+				return p_light.mask == int32_t(p_layer) && !p_light.is_directional &&
+						compute_shadow_fade(p_light, p_view.camera.position_world) <= 0;
+			});
+}
+
 } // namespace
 
 TextureRID ImportedTexture::get(
@@ -109,6 +118,9 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	std::map<std::string, MaskReadback> reads;
 	for (uint32_t layer = 0; layer < count; ++layer) {
 		const LightSnapshot &light = scene->lights[layer];
+		if (is_faded_out(p_frame, layer, p_view)) {
+			continue;
+		}
 		const LightShadow shadow = frame.add_light(light);
 		frame.hold(shadow, target, layer, NO_RECEIVER);
 		for (const std::shared_ptr<MaskRequest> &request : p_frame.requests) {

@@ -132,7 +132,10 @@ USED = {
     "ViewportTexture": {"methods": ""},
     "Environment": {"methods": "is_volumetric_fog_enabled is_sdfgi_enabled"},
     "ProjectSettings": {"methods": "has_setting get_setting_with_override"},
-    "Camera3D": {"methods": "get_compositor get_environment get_projection get_camera_transform", "enums": "ProjectionType"},
+    "Camera3D": {
+        "methods": "get_compositor get_environment get_projection get_camera_transform get_fov get_keep_aspect_mode",
+        "enums": "ProjectionType KeepAspect",
+    },
     "WorldEnvironment": {"methods": "get_compositor"},
     "Resource": {"methods": "get_rid get_path get_name duplicate"},
     "Compositor": {"methods": "get_compositor_effects"},

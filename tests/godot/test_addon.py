@@ -21,6 +21,7 @@ EXPECTED = (
     ("has an orthogonal projection", 1),
     ('RIDs of type "Texture" were leaked', 1),  # a leak of Godot itself, for each reflection probe that was drawn
     ("is cut out by alpha", 1),
+    ("that cover more of the view have it", 1),
     ("moves its vertices in vertex()", 1),
     ("moves its vertices in a way that is not read", 1),
     ("is transparent or drawn without depth", 1),

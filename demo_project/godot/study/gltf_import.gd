@@ -51,6 +51,7 @@ static func _add_shadow(light: Light3D, described: Dictionary) -> void:
 		light.light_angular_distance = extras.get("light_angular_distance", 0.5)
 	else:
 		light.light_size = extras.get("light_size", 0.1)
+	light.shadow_enabled = true
 	var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
 	shadow.name = "Shadow"
 	light.add_child(shadow)

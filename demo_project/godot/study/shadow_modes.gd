@@ -11,7 +11,7 @@ const ALL: Array[String] = ["off", "low", "ultra", "gnomon"]  # "off" first: the
 static func apply(lights: Array[Light3D], mode: String) -> void:
 	for light in lights:
 		find_shadow(light).visible = mode == "gnomon"
-		light.shadow_enabled = QUALITIES.has(mode)
+		light.shadow_enabled = mode != "off"
 	if QUALITIES.has(mode):
 		RenderingServer.positional_soft_shadow_filter_set_quality(QUALITIES[mode])
 		RenderingServer.directional_soft_shadow_filter_set_quality(QUALITIES[mode])

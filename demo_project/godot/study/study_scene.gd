@@ -109,6 +109,7 @@ func add_light(kind: String) -> void:
 			light = DirectionalLight3D.new()
 			light.light_angular_distance = 3.0
 	light.name = "Light"
+	light.shadow_enabled = true
 	add_child(light)
 	light.look_at_from_position(LIGHT_POSITION, LIGHT_TARGET)
 	shadow = ClassDB.instantiate("GnomonShadow3D")

@@ -229,3 +229,78 @@ func test_orthogonal_views_have_the_shadow_of_godot() -> void:
 	_add_box(Vector3(0, 0.5, 0))
 	await _compare("orthogonal", [_floor_below(Vector3(-0.3, 0.8, -0.3)), Vector3(0, 1, 0), Vector3(2, 0, 1)])
 	await _end()
+
+
+func test_shadows_end_where_the_properties_of_the_light_end_them() -> void:
+	const POINTS: Array[Vector3] = [Vector3(-0.3, 0.8, -0.3), Vector3(-0.2, 0.9, -0.3)]
+	for distance: float in [5.0, 7.5, 9.0, 100.0]:  # the camera is about 7 m away
+		for fade_start: float in [0.5, 1.0]:
+			_begin()
+			_sun.directional_shadow_max_distance = distance
+			_sun.directional_shadow_fade_start = fade_start
+			_add_box(Vector3(0, 0.5, 0))
+			await _compare("max distance %.1f %.1f" % [distance, fade_start], [_floor_below(POINTS[0]), _floor_below(POINTS[1]), Vector3(2, 0, 2)])
+			await _end()
+	for values: Vector2 in [Vector2(3, 2), Vector2(6, 4), Vector2(20, 10)]:
+		_begin()
+		_sun.visible = false
+		var lamp := OmniLight3D.new()
+		lamp.position = Vector3(1.5, 3, 1)
+		lamp.omni_range = 12
+		lamp.light_size = 0.02
+		lamp.light_energy = 8
+		lamp.shadow_enabled = true
+		lamp.distance_fade_enabled = true
+		lamp.distance_fade_begin = 100
+		lamp.distance_fade_shadow = values.x
+		lamp.distance_fade_length = values.y
+		_root.add_child(lamp)
+		_add_box(Vector3(0, 0.5, 0))
+		await _compare("distance fade %s" % values, [Vector3(-0.75, 0, -0.5), Vector3(-0.75, 0, 0), Vector3(2, 0, 2)])
+		await _end()
+
+
+func test_lights_without_shadow_have_no_mask() -> void:
+	_begin()
+	_add_box(Vector3(0, 0.5, 0))
+	_sun.shadow_enabled = false
+	await _compare("shadow_enabled", [_floor_below(Vector3(-0.3, 0.8, -0.3)), Vector3(2, 0, 2)])
+	var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
+	_sun.add_child(shadow)
+	await draw_frames(2)
+	check(not shadow.makes_mask() and not shadow.get_warning().is_empty(), "no mask, and a warning")
+	_sun.shadow_enabled = true
+	await draw_frames(2)
+	check(shadow.makes_mask() and shadow.get_warning().is_empty(), "a mask, and no warning")
+	_sun.shadow_enabled = false
+	await draw_frames(2)
+	check(not shadow.makes_mask(), "no mask again")
+	await _end()
+
+
+## If there are more lights than masks, those that cover more of the view have one, and lights without a size come last.
+func test_lights_that_cover_more_of_the_view_have_masks() -> void:
+	_begin()
+	ProjectSettings.set_setting("rendering/gnomon/most_lights", 3)
+	var shadows: Array[Node3D] = []
+	for position: Vector3 in [Vector3(0, 1, 60), Vector3(0, 1, -60), Vector3(-1, 2, 0), Vector3(1, 2, -4), Vector3(0, 2, 1)]:
+		var lamp := OmniLight3D.new()
+		lamp.position = position
+		lamp.omni_range = 5
+		lamp.light_size = 0.0 if position == Vector3(0, 2, 1) else 0.1
+		lamp.shadow_enabled = true
+		_root.add_child(lamp)
+		shadows.append(ClassDB.instantiate("GnomonShadow3D"))
+		lamp.add_child(shadows.back())
+	var plane := PlaneMesh.new()
+	plane.size = Vector2(200, 200)
+	_add(plane, Vector3.ZERO)
+	await draw_frames(3)
+	var masked := shadows.map(func(shadow: Node3D) -> bool: return shadow.makes_mask())
+	check(masked == [false, true, true, true, false], "masks: %s" % [masked])
+	_camera.look_at_from_position(Vector3(0, 4, 0), Vector3(0, 0, 60))
+	await draw_frames(3)
+	masked = shadows.map(func(shadow: Node3D) -> bool: return shadow.makes_mask())
+	check(masked == [true, false, true, true, false], "the camera turned round: %s" % [masked])
+	ProjectSettings.set_setting("rendering/gnomon/most_lights", null)
+	await _end()

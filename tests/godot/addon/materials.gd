@@ -88,6 +88,7 @@ func _add_light(light: String) -> void:
 		_light.light_angular_distance = 3 if has_size else 0
 	else:
 		_light.light_size = 0.4 if has_size else 0.0
+	_light.shadow_enabled = true
 	_light.light_energy = 2
 	_light.light_specular = 0.7
 	_light.light_color = Color(1, 0.9, 0.7)

@@ -27,9 +27,9 @@ func test_masks_of_fewer_pixels_shadow_the_same_image() -> void:
 	var scene := add_study("spot", "torus")
 	get_viewport().use_hdr_2d = true
 	var full := await _draw()
-	scene.shadow.visible = false # Godot's own shadow is off, as by default
+	scene.light.shadow_enabled = false # neither Godot's shadow nor Gnomon's
 	var lit := await _draw()
-	scene.shadow.visible = true
+	scene.light.shadow_enabled = true
 	ProjectSettings.set_setting(SCALE, 0.5)
 	var half := await _draw()
 	check((await read(scene)).get_size() == (full.get_size() + Vector2i.ONE) / 2, "the mask has half the size")

@@ -168,4 +168,4 @@ func _redo() -> void:
 func _report_saved() -> void:
 	var saved := FileAccess.get_file_as_string(SCENE)
 	_report("the_saved_scene_has_the_node", "type=\"GnomonShadow3D\" parent=\"Light\"" in saved)
-	_report("the_saved_light_has_no_changes_of_the_addon", not "light_specular" in saved and not "shadow_enabled" in saved and not "visible" in saved)
+	_report("the_saved_light_has_no_changes_of_the_addon", not "light_specular" in saved and "shadow_enabled = true" in saved and not "visible" in saved)

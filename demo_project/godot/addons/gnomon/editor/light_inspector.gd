@@ -65,6 +65,8 @@ class ShadowCheckBox:
 			undo_redo.add_do_method(shadow, "set_owner", EditorInterface.get_edited_scene_root())
 			undo_redo.add_do_reference(shadow)
 			undo_redo.add_undo_method(light, "remove_child", shadow)
+			undo_redo.add_do_property(light, "shadow_enabled", true) # without it the light has no shadow at all
+			undo_redo.add_undo_property(light, "shadow_enabled", light.shadow_enabled)
 		undo_redo.add_do_method(light, "update_gizmos")
 		undo_redo.add_undo_method(light, "update_gizmos")
 		undo_redo.commit_action()
