@@ -5,6 +5,7 @@
 #include "modules/core/module_registry.h"
 #include "modules/godot_addon/addon_server.h"
 #include "modules/godot_addon/receiver_textures.h"
+#include "modules/godot_addon/server_casters.h"
 #include "modules/godot_addon/shadow_node.h"
 #include "modules/godot_addon/shadow_properties.h"
 #include "modules/rendering_device_godot/godot_interface.h"
@@ -47,9 +48,11 @@ void stop_server() {
 void initialize(void *, GDExtensionInitializationLevel p_level) {
 	const godot::Interface &interface = godot::get_interface();
 	if (p_level == GDEXTENSION_INITIALIZATION_EDITOR) {
-		const std::string documentation = write_class_documentation();
-		interface.editor_help_load_xml_from_utf8_chars_and_len(
-				documentation.data(), static_cast<GDExtensionInt>(documentation.size()));
+		for (const std::string &documentation :
+				{ write_class_documentation(), write_server_documentation() }) {
+			interface.editor_help_load_xml_from_utf8_chars_and_len(
+					documentation.data(), static_cast<GDExtensionInt>(documentation.size()));
+		}
 	}
 	if (p_level != GDEXTENSION_INITIALIZATION_SCENE) {
 		return;
@@ -59,6 +62,7 @@ void initialize(void *, GDExtensionInitializationLevel p_level) {
 	register_modules();
 	ModuleRegistry::initialize(ModuleLevel::FEATURES);
 	register_shadow_node_class();
+	register_caster_server();
 	GDExtensionMainLoopCallbacks callbacks = {};
 	callbacks.startup_func = &start_server; // the RenderingServer exists by then
 	callbacks.shutdown_func = &stop_server;
@@ -68,6 +72,7 @@ void initialize(void *, GDExtensionInitializationLevel p_level) {
 void uninitialize(void *, GDExtensionInitializationLevel p_level) {
 	if (p_level == GDEXTENSION_INITIALIZATION_SCENE) {
 		stop_server();
+		unregister_caster_server();
 		unregister_shadow_node_class();
 		ModuleRegistry::uninitialize();
 		set_log_sink({});

@@ -136,6 +136,8 @@ void AddonServer::update_worlds() {
 	}
 	const size_t before = effects.size();
 	std::erase_if(effects, [&](const auto &p_entry) { return !worlds.contains(p_entry.first); });
+	std::erase_if(worlds_with_unknown,
+			[&](const godot::RID &p_scenario) { return !worlds.contains(p_scenario); });
 	if (before > 0 && worlds.empty()) {
 		clear_render_side();
 	}
@@ -144,7 +146,8 @@ void AddonServer::update_worlds() {
 	receiver_materials.begin_frame();
 	reader.begin_frame();
 	for (const auto &[scenario, nodes] : worlds) {
-		const ReadWorld world = reader.read(scenario, tree, nodes, stand_ins.find_nodes(scenario));
+		ReadWorld world = reader.read(scenario, tree, nodes, stand_ins.find_nodes(scenario));
+		world.uses_godot_shadows = world.uses_godot_shadows || has_unknown_objects(scenario, world);
 		// Materials identify a stand-in by its specular amount, which no other light may have.
 		std::set<float> other_speculars;
 		for (const godot::Light3D &light : world.other_lights) {
@@ -182,6 +185,23 @@ void AddonServer::update_worlds() {
 	}
 }
 
+bool AddonServer::has_unknown_objects(godot::RID p_scenario, const ReadWorld &p_world) {
+	if (settings.keep_godot_shadows != KeepGodotShadows::AUTO) {
+		return settings.keep_godot_shadows == KeepGodotShadows::ALWAYS;
+	}
+	// The editor draws its own grid and gizmos, which are no nodes.
+	if (!is_editor && p_world.unknown_object_count > 0 && !p_world.masked_lights.empty() &&
+			worlds_with_unknown.insert(p_scenario).second) {
+		notices.add("unknown objects", text(p_world.unknown_object_count, " object(s)"),
+				"in view are no nodes, such as the tiles of a terrain add-on: they cast no shadow "
+				"of "
+				"Gnomon, and the lights of their world keep Godot's shadow for them. Add-ons hand "
+				"them over with GnomonServer.add_caster; the project setting "
+				"rendering/gnomon/keep_godot_shadows turns this off.");
+	}
+	return worlds_with_unknown.contains(p_scenario);
+}
+
 void AddonServer::reserve(const ReceiverSpace &p_space) {
 	if (reserved.holds(p_space)) {
 		return;
@@ -204,7 +224,7 @@ std::vector<NeededStandIn> AddonServer::choose_stand_ins(
 				all_need_godot_shadow || reaches(light, p_world.receivers.others) });
 	}
 	for (const godot::Light3D &light : p_world.other_lights) {
-		if (!godot::cast<godot::DirectionalLight3D>(light) &&
+		if ((!godot::cast<godot::DirectionalLight3D>(light) || light.has_shadow()) &&
 				light.get_param(godot::Light3D::PARAM_SIZE) > 0) {
 			// It has no mask, but the light() of materials needs its size, which only the table of
 			// lights provides.

@@ -20,13 +20,16 @@ public:
 
 private:
 	void before_draw();
-	/// Returns one visible GnomonShadow3D per light whose shadow is enabled, by the scenario of their
-	/// world, at most settings.most_lights for each. r_tree is set to their scene tree, if there are any.
+	/// Returns one visible GnomonShadow3D per light whose shadow is enabled, by the scenario of
+	/// their world, at most settings.most_lights for each. r_tree is set to their scene tree, if
+	/// there are any.
 	std::map<godot::RID, std::vector<ShadowNode *>> find_worlds(godot::SceneTree &r_tree);
 	void update_worlds();
 	/// Returns the lights that need a stand-in, and whether each needs Godot's shadow as well.
 	/// p_has_failed: the masks of a view could not be made.
 	std::vector<NeededStandIn> choose_stand_ins(const ReadWorld &p_world, bool p_has_failed) const;
+	/// Whether the world has objects that are no nodes and keep Godot's shadow.
+	bool has_unknown_objects(godot::RID p_scenario, const ReadWorld &p_world);
 	/// Makes the render thread allocate at least this much.
 	void reserve(const ReceiverSpace &p_space);
 	/// Makes the render thread free all GPU resources of Gnomon.
@@ -38,6 +41,8 @@ private:
 	bool is_editor = false;
 	AddonSettings settings;
 	bool has_warned = false; // has logged that a world has too many lights
+	/// Worlds in which Godot has drawn objects that are no nodes.
+	std::set<godot::RID> worlds_with_unknown;
 	Notices notices;
 	ReceiverMaterials receiver_materials{ notices };
 	StandInLights stand_ins; // replace lights of nodes on the RenderingServer

@@ -31,6 +31,15 @@ PropertyInfo make_most_lights_setting() {
 	return info;
 }
 
+PropertyInfo make_keep_setting() {
+	PropertyInfo info;
+	info.name = "rendering/gnomon/keep_godot_shadows";
+	info.type = PropertyType::ENUM;
+	info.default_value = std::string("auto");
+	info.hint = "auto,always,never";
+	return info;
+}
+
 PropertyInfo make_resolution_setting() {
 	PropertyInfo info;
 	info.name = "rendering/gnomon/mask_resolution_scale";
@@ -62,6 +71,7 @@ Value read_checked(const PropertyInfo &p_info, Value (*p_convert)(const godot::V
 AddonSettings read_addon_settings() {
 	static const PropertyInfo most_lights = make_most_lights_setting();
 	static const PropertyInfo resolution = make_resolution_setting();
+	static const PropertyInfo keep = make_keep_setting();
 	AddonSettings settings;
 	settings.is_enabled = read_setting("rendering/gnomon/enabled", settings.is_enabled).to_bool();
 	settings.most_lights = size_t(read_checked<int64_t>(
@@ -70,6 +80,11 @@ AddonSettings read_addon_settings() {
 			[](const godot::Variant &p_value) { return p_value.to_utf8(); });
 	settings.mask_resolution_scale = static_cast<float>(read_checked<double>(
 			resolution, [](const godot::Variant &p_value) { return p_value.to_float(); }));
+	const std::string kept = read_checked<std::string>(
+			keep, [](const godot::Variant &p_value) { return p_value.to_utf8(); });
+	settings.keep_godot_shadows = kept == "always" ? KeepGodotShadows::ALWAYS
+			: kept == "never"					   ? KeepGodotShadows::NEVER
+												   : KeepGodotShadows::AUTO;
 	return settings;
 }
 

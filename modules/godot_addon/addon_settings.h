@@ -5,6 +5,13 @@
 
 namespace gnomon {
 
+/// Whether lights with masks also keep Godot's shadow for objects that are no nodes.
+enum class KeepGodotShadows {
+	AUTO,	// where a viewport draws more objects than the nodes of its world
+	ALWAYS, // for all objects
+	NEVER,
+};
+
 /// The project settings under rendering/gnomon. A setting that is missing has its default. One with
 /// an invalid value has its default too, with one warning. A game may change them while it runs.
 struct AddonSettings {
@@ -12,6 +19,7 @@ struct AddonSettings {
 	size_t most_lights = 16;		 // max. lights with masks in each world
 	std::string default_technique;	 // for nodes whose technique is "default"
 	float mask_resolution_scale = 1; // mask width / view width, 0.25 to 1
+	KeepGodotShadows keep_godot_shadows = KeepGodotShadows::AUTO;
 };
 AddonSettings read_addon_settings();
 

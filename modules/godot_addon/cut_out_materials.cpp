@@ -19,14 +19,14 @@ bool is_nearest(const godot::BaseMaterial3D &p_material) {
 	}
 }
 
-/// Returns the texture as RGBA8, or null if its texels cannot be read.
-std::shared_ptr<const Image> decode(const godot::Texture2D &p_texture) {
-	const godot::Ref<godot::Image> shown = p_texture.get_image();
-	if (!shown || shown.is_empty()) {
+/// Returns the image as RGBA8, or null if its texels cannot be read.
+std::shared_ptr<const Image> decode(
+		const godot::Ref<godot::Image> &p_image, const AlphaSource &p_source) {
+	if (!p_image || p_image.is_empty()) {
 		return nullptr;
 	}
 	// Convert a copy, because some textures return their own image.
-	const godot::Ref<godot::Resource> copy = shown.duplicate(/*deep=*/false);
+	const godot::Ref<godot::Resource> copy = p_image.duplicate(/*deep=*/false);
 	const auto image = godot::cast<godot::Image>(copy);
 	const int64_t width = image.get_width();
 	const int64_t height = image.get_height();
@@ -40,7 +40,12 @@ std::shared_ptr<const Image> decode(const godot::Texture2D &p_texture) {
 	if (width <= 0 || height <= 0 || bytes.size() < size) {
 		return nullptr;
 	}
-	return make_image("albedo", glm::uvec2(width, height), { bytes.begin(), bytes.begin() + size });
+	std::vector<uint8_t> texels(bytes.begin(), bytes.begin() + size);
+	for (size_t texel = 0; p_source != AlphaSource() && texel < size; texel += 4) {
+		const uint8_t value = texels[texel + size_t(p_source.channel)];
+		texels[texel + 3] = p_source.is_inverted ? uint8_t(255 - value) : value;
+	}
+	return make_image("albedo", glm::uvec2(width, height), std::move(texels));
 }
 
 Material make_material(
@@ -65,38 +70,161 @@ Material make_material(
 	return material;
 }
 
+/// Returns the numbers in a Variant; empty: it has none.
+std::vector<double> to_numbers(const godot::Variant &p_value) {
+	using godot::BuiltInType;
+	float components[4] = {};
+	const BuiltInType type = p_value.get_type();
+	size_t count = 0;
+	switch (type) {
+		case BuiltInType::BOOL:
+		case BuiltInType::INT:
+		case BuiltInType::FLOAT:
+			return { p_value.to_float() };
+		case BuiltInType::VECTOR2:
+			count = 2;
+			break;
+		case BuiltInType::VECTOR3:
+			count = 3;
+			break;
+		case BuiltInType::VECTOR4:
+		case BuiltInType::COLOR:
+			count = 4;
+			break;
+		default:
+			return {};
+	}
+	p_value.store(type, components);
+	return { components, components + count };
+}
+
+/// Whether the sampler of that name in a shader has the hint.
+bool has_sampler_hint(const ShaderText &p_text, const std::string &p_sampler, const char *p_hint) {
+	const std::string &code = p_text.get_code();
+	const size_t name = code.find(p_sampler, code.find("sampler2D"));
+	const size_t end = code.find(';', name);
+	return name != std::string::npos && end != std::string::npos &&
+			code.substr(name, end - name).find(p_hint) != std::string::npos;
+}
+
 } // namespace
+
+std::shared_ptr<const Material> CutOutMaterials::share(
+		const godot::Material &p_material, const Material &p_current) {
+	std::shared_ptr<const Material> &cached =
+			materials[godot::get_instance_id(p_material.get_object())];
+	if (!cached || *cached != p_current) {
+		cached = std::make_shared<const Material>(p_current);
+	}
+	return cached;
+}
 
 /// Godot's materials do not signal changes, so they are read at every call.
 std::shared_ptr<const Material> CutOutMaterials::read(const godot::BaseMaterial3D &p_material) {
 	using godot::BaseMaterial3D;
 	const godot::Ref<godot::Texture2D> texture =
 			p_material.get_texture(BaseMaterial3D::TEXTURE_ALBEDO);
-	const std::shared_ptr<const Image> image = texture ? read_image(texture) : nullptr;
+	const std::shared_ptr<const Image> image = texture ? read_image(texture, {}) : nullptr;
 	if ((texture && !image) || p_material.get_flag(BaseMaterial3D::FLAG_UV1_USE_TRIPLANAR) ||
 			p_material.get_flag(BaseMaterial3D::FLAG_ALBEDO_TEXTURE_MSDF) ||
 			p_material.get_flag(BaseMaterial3D::FLAG_ALBEDO_FROM_VERTEX_COLOR)) {
 		return nullptr;
 	}
-	const Material current = make_material(p_material, image);
-	std::shared_ptr<const Material> &cached =
-			materials[godot::get_instance_id(p_material.get_object())];
-	if (!cached || *cached != current) {
-		cached = std::make_shared<const Material>(current);
-	}
-	return cached;
+	return share(p_material, make_material(p_material, image));
 }
 
-const std::shared_ptr<const Image> &CutOutMaterials::read_image(const godot::Texture2D &p_texture) {
+std::shared_ptr<const Material> CutOutMaterials::read(
+		const godot::ShaderMaterial &p_material, const ShaderText &p_text) {
+	const godot::Ref<godot::Shader> shader = p_material.get_shader();
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	const auto find_uniform = [&](const std::string &p_name) {
+		const std::vector<double> numbers =
+				to_numbers(p_material.get_shader_parameter(p_name.c_str()));
+		return numbers.empty()
+				? to_numbers(server.shader_get_parameter_default(shader.get_rid(), p_name.c_str()))
+				: numbers;
+	};
+	const std::optional<ShaderAlpha> alpha =
+			read_shader_alpha(p_text, find_uniform, DEFAULT_ALPHA_THRESHOLD);
+	if (!alpha) {
+		return nullptr;
+	}
+	Material current;
+	current.alpha_mode = AlphaMode::MASK;
+	current.alpha_cutoff = alpha->threshold;
+	if (alpha->sampler.empty()) {
+		return share(p_material, current);
+	}
+	godot::Ref<godot::Texture2D> texture =
+			godot::Ref<godot::Texture2D>::share(godot::cast<godot::Texture2D>(godot::ObjectHandle(
+					p_material.get_shader_parameter(alpha->sampler.c_str()).to_object())));
+	if (!texture) {
+		const godot::Ref<godot::Texture> by_default =
+				shader.get_default_texture_parameter(alpha->sampler.c_str(), /*index=*/0);
+		texture = godot::Ref<godot::Texture2D>::share(godot::cast<godot::Texture2D>(by_default));
+	}
+	const std::shared_ptr<const Image> image =
+			texture ? read_image(texture, { alpha->channel, alpha->is_inverted }) : nullptr;
+	if (!image) {
+		return nullptr;
+	}
+	Texture &base = current.base_color_texture;
+	base.image = image;
+	base.wrap_u = base.wrap_v = has_sampler_hint(p_text, alpha->sampler, "repeat_disable")
+			? TextureWrap::CLAMP
+			: TextureWrap::REPEAT;
+	base.is_magnified_nearest = has_sampler_hint(p_text, alpha->sampler, "filter_nearest");
+	base.transform = alpha->uv_from_mesh_uv;
+	return share(p_material, current);
+}
+
+std::shared_ptr<const Image> CutOutMaterials::read_image(
+		const godot::Texture2D &p_texture, const AlphaSource &p_source) {
 	CachedImage &cached = images[godot::get_instance_id(p_texture.get_object())];
-	const bool is_new = !cached.watched;
-	if (is_new) {
+	if (!cached.watched) {
 		cached.watched = std::make_unique<WatchedResource>(p_texture);
 	}
-	if (cached.watched->take_change() || is_new) {
-		cached.image = decode(p_texture);
+	if (cached.watched->take_change()) {
+		cached.images.clear();
 	}
-	return cached.image;
+	const auto [found, is_new] = cached.images.try_emplace(p_source);
+	if (is_new) {
+		found->second = decode(p_texture.get_image(), p_source);
+	}
+	return found->second;
+}
+
+ServerMaterial read_server_material(godot::RID p_material) {
+	ServerMaterial read;
+	if (!p_material.id) {
+		return read;
+	}
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	const std::vector<double> threshold =
+			to_numbers(server.material_get_param(p_material, "alpha_scissor_threshold"));
+	const std::vector<double> scale =
+			to_numbers(server.material_get_param(p_material, "uv1_scale"));
+	const std::vector<double> offset =
+			to_numbers(server.material_get_param(p_material, "uv1_offset"));
+	const std::vector<double> albedo = to_numbers(server.material_get_param(p_material, "albedo"));
+	const godot::RID texture = server.material_get_param(p_material, "texture_albedo").to_rid();
+	if (threshold.empty() || scale.size() < 2 || offset.size() < 2 || albedo.size() < 4 ||
+			!texture.id) {
+		return read;
+	}
+	const std::shared_ptr<const Image> image =
+			decode(server.texture_2d_get(texture), AlphaSource());
+	if (image) {
+		auto cut_out = std::make_shared<Material>();
+		cut_out->alpha_mode = AlphaMode::MASK;
+		cut_out->alpha = static_cast<float>(albedo[3]);
+		cut_out->alpha_cutoff = static_cast<float>(threshold[0]);
+		cut_out->base_color_texture.image = image;
+		cut_out->base_color_texture.transform =
+				glm::mat3x2(scale[0], 0, 0, scale[1], offset[0], offset[1]);
+		read.cut_out = cut_out;
+	}
+	return read;
 }
 
 void CutOutMaterials::forget_unused() {

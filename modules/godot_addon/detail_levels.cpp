@@ -37,6 +37,8 @@ std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot:
 						glm::uvec2(glm::ceil(read_size(p_viewport) * scale)),
 						p_viewport.get_msaa_3d() != 0,
 						godot::get_instance_id(p_viewport.get_object()),
+						glm::dmat4(p_camera.get_camera_projection()) *
+								glm::inverse(p_camera.get_camera_transform().to_matrix()),
 						compute_half_diagonal(p_camera, read_size(p_viewport)),
 						p_camera.get_projection() == godot::Camera3D::PROJECTION_ORTHOGONAL
 								? p_camera.get_path().to_utf8()

@@ -36,11 +36,12 @@ struct ViewDetail {
 	godot::Transform3D camera; // transform of the viewport's camera
 	float threshold_px = 1;	   // mesh_lod_threshold
 	float resolution_scale = 1;
-	glm::uvec2 size_px = glm::uvec2(0); // of the 3D image, after resolution_scale
-	bool is_multisampled = false;		// MSAA
-	uint64_t viewport_id = 0;			// of the node
-	float half_diagonal_rad = 1;		// half the camera's angle of view across the image
-	std::string orthogonal_camera;		// its path; empty: the camera is not orthogonal
+	glm::uvec2 size_px = glm::uvec2(0);			  // of the 3D image, after resolution_scale
+	bool is_multisampled = false;				  // MSAA
+	uint64_t viewport_id = 0;					  // of the node
+	glm::dmat4 clip_from_world = glm::dmat4(1.0); // of the camera
+	float half_diagonal_rad = 1;   // half the camera's angle of view across the image
+	std::string orthogonal_camera; // its path; empty: the camera is not orthogonal
 	/// Instances of the SceneSnapshot that the view does not draw, because of their visibility
 	/// ranges; they cast no shadow in it.
 	std::vector<size_t> hidden_instances;

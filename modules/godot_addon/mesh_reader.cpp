@@ -75,6 +75,32 @@ std::shared_ptr<const DetailLevels> read_levels(
 	return read->empty() ? nullptr : read;
 }
 
+/// Makes the mesh of a surface's arrays. p_attributes: its rig. Null: it has no triangles.
+std::shared_ptr<const Mesh> make_surface_mesh(const godot::Array &p_arrays, bool p_is_strip,
+		const std::string &p_name, MeshAttributes p_attributes) {
+	const godot::PackedVector3Array positions(p_arrays.get_value(godot::Mesh::ARRAY_VERTEX));
+	const godot::PackedVector3Array normals(p_arrays.get_value(godot::Mesh::ARRAY_NORMAL));
+	const godot::PackedVector2Array uvs(p_arrays.get_value(godot::Mesh::ARRAY_TEX_UV));
+	const godot::PackedInt32Array indices(p_arrays.get_value(godot::Mesh::ARRAY_INDEX));
+	const std::span<const glm::vec3> points = positions.get_values();
+	std::vector<uint32_t> order(indices.get_values().begin(), indices.get_values().end());
+	if (order.empty()) {
+		for (uint32_t vertex = 0; vertex < points.size(); ++vertex) {
+			order.push_back(vertex);
+		}
+	}
+	std::vector<uint32_t> triangles = make_triangles(order, p_is_strip);
+	if (triangles.empty()) {
+		return nullptr;
+	}
+	if (uvs.get_values().size() == points.size()) { // for alpha masks, see CutOutMaterials
+		p_attributes.uvs[0].assign(uvs.get_values().begin(), uvs.get_values().end());
+	}
+	return make_mesh(p_name, { points.begin(), points.end() },
+			{ normals.get_values().begin(), normals.get_values().end() }, std::move(triangles),
+			std::move(p_attributes));
+}
+
 ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
 	ReadSurface surface = { /*mesh=*/nullptr, p_surface, /*levels=*/nullptr };
 	const int64_t primitive = find_primitive(p_mesh, p_surface);
@@ -87,28 +113,12 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 		return surface;
 	}
 	const godot::PackedVector3Array positions(arrays.get_value(godot::Mesh::ARRAY_VERTEX));
-	const godot::PackedVector3Array normals(arrays.get_value(godot::Mesh::ARRAY_NORMAL));
-	const godot::PackedVector2Array uvs(arrays.get_value(godot::Mesh::ARRAY_TEX_UV));
-	const godot::PackedInt32Array indices(arrays.get_value(godot::Mesh::ARRAY_INDEX));
-	const std::span<const glm::vec3> points = positions.get_values();
-	std::vector<uint32_t> order(indices.get_values().begin(), indices.get_values().end());
-	if (order.empty()) {
-		for (uint32_t vertex = 0; vertex < points.size(); ++vertex) {
-			order.push_back(vertex);
-		}
-	}
-	std::vector<uint32_t> triangles = make_triangles(order, is_strip);
-	if (triangles.empty()) {
+	MeshAttributes attributes;
+	attributes.rig = read_rig(p_mesh, p_surface, arrays, positions.get_values(), p_name);
+	surface.mesh = make_surface_mesh(arrays, is_strip, p_name, std::move(attributes));
+	if (!surface.mesh) {
 		return surface;
 	}
-	MeshAttributes attributes;
-	if (uvs.get_values().size() == points.size()) { // for alpha masks, see CutOutMaterials
-		attributes.uvs[0].assign(uvs.get_values().begin(), uvs.get_values().end());
-	}
-	attributes.rig = read_rig(p_mesh, p_surface, arrays, points, p_name);
-	surface.mesh = make_mesh(p_name, { points.begin(), points.end() },
-			{ normals.get_values().begin(), normals.get_values().end() }, std::move(triangles),
-			std::move(attributes));
 	if (godot::cast<godot::ArrayMesh>(p_mesh)) { // others have no levels of detail
 		surface.levels = read_levels(p_mesh, p_surface, *surface.mesh, is_strip);
 	}
@@ -116,6 +126,27 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 }
 
 } // namespace
+
+std::vector<ReadSurface> read_server_mesh(godot::RID p_mesh, std::vector<godot::RID> &r_materials) {
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	std::vector<ReadSurface> surfaces;
+	for (int64_t index = 0; index < server.mesh_get_surface_count(p_mesh); ++index) {
+		const int64_t primitive =
+				server.mesh_get_surface(p_mesh, index).to_variant().get_keyed("primitive").to_int();
+		const bool is_strip = primitive == godot::Mesh::PRIMITIVE_TRIANGLE_STRIP;
+		const godot::Array arrays = server.mesh_surface_get_arrays(p_mesh, index);
+		if ((primitive != godot::Mesh::PRIMITIVE_TRIANGLES && !is_strip) ||
+				arrays.get_size() <= godot::Mesh::ARRAY_INDEX) {
+			continue;
+		}
+		if (std::shared_ptr<const Mesh> mesh =
+						make_surface_mesh(arrays, is_strip, "mesh of GnomonServer", {})) {
+			surfaces.push_back({ std::move(mesh), index, /*levels=*/nullptr });
+			r_materials.push_back(server.mesh_surface_get_material(p_mesh, index));
+		}
+	}
+	return surfaces;
+}
 
 const std::vector<ReadSurface> &MeshReader::read(
 		const godot::Mesh &p_mesh, const std::string &p_name) {
@@ -148,10 +179,16 @@ const std::vector<ReadSurface> &MeshReader::read(
 }
 
 bool MeshReader::is_cut_ready(const std::shared_ptr<const Mesh> &p_cut) {
-	if (cut_meshes.try_emplace(p_cut->id, p_cut).second) {
+	if (prepared.try_emplace(p_cut->id, p_cut).second) {
 		worker.prepare(p_cut);
 	}
 	return worker.is_ready(p_cut);
+}
+
+void MeshReader::prepare(const ReadSurface &p_surface) {
+	if (prepared.try_emplace(p_surface.mesh->id, p_surface.mesh).second) {
+		worker.prepare(p_surface.mesh);
+	}
 }
 
 std::shared_ptr<const Mesh> MeshReader::grow(const ReadSurface &p_surface, float p_grow_m) {
@@ -179,7 +216,7 @@ void MeshReader::forget_unused() {
 		return !p_entry.second.watched->is_alive() ||
 				frame - p_entry.second.last_use > MAX_UNUSED_MESH_FRAMES;
 	});
-	std::erase_if(cut_meshes, [](const auto &p_entry) { return p_entry.second.expired(); });
+	std::erase_if(prepared, [](const auto &p_entry) { return p_entry.second.expired(); });
 	worker.forget_unused();
 }
 

@@ -20,6 +20,10 @@ struct ReadSurface {
 	std::shared_ptr<const DetailLevels> levels;
 };
 
+/// Reads the surfaces with triangles of a mesh of the RenderingServer, without levels of detail and
+/// rigs. r_materials: gets their materials. Empty: p_mesh is no mesh, or has none.
+std::vector<ReadSurface> read_server_mesh(godot::RID p_mesh, std::vector<godot::RID> &r_materials);
+
 /// Reads the triangles of Godot's meshes, and caches them until the mesh changes. Main thread only.
 ///
 /// A read copies the mesh from the GPU and waits for it: a cost at load time, not in each frame.
@@ -34,6 +38,8 @@ public:
 	/// The same for p_cut, the mesh that the alpha test leaves of a surface. The first call passes
 	/// it to the worker.
 	bool is_cut_ready(const std::shared_ptr<const Mesh> &p_cut);
+	/// Passes a surface of read_server_mesh() to the worker, once; see is_ready().
+	void prepare(const ReadSurface &p_surface);
 	/// Returns the surface's mesh with each vertex moved along its normal. p_grow_m: the distance,
 	/// in mesh space.
 	std::shared_ptr<const Mesh> grow(const ReadSurface &p_surface, float p_grow_m);
@@ -49,7 +55,7 @@ private:
 	};
 
 	TopologyWorker worker;
-	std::map<uint64_t, std::weak_ptr<const Mesh>> cut_meshes; // given to the worker, by Mesh::id
+	std::map<uint64_t, std::weak_ptr<const Mesh>> prepared; // given to the worker, by Mesh::id
 	struct GrownMesh {
 		std::shared_ptr<const Mesh> mesh;
 		uint64_t last_use = 0;

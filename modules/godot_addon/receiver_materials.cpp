@@ -2,7 +2,6 @@
 
 #include "modules/core/log.h"
 #include "modules/godot_addon/shadow_node.h"
-#include "modules/godot_addon/vertex_motion.h"
 
 namespace gnomon {
 
@@ -97,7 +96,8 @@ ReceiverMaterials::Copy &ReceiverMaterials::find_copy(
 	return copy;
 }
 
-ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const godot::Node &p_owner) {
+ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const godot::Node &p_owner,
+		const std::string &p_unknown_reason) {
 	MaterialState &state = materials[godot::get_instance_id(p_material.get_object())];
 	state.is_used = true;
 	state.is_generated = bool(godot::cast<godot::BaseMaterial3D>(p_material));
@@ -106,18 +106,13 @@ ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const god
 		state.original = shader ? shader.get_rid() : godot::RID();
 	}
 	ReceiverKind kind = state.is_generated ? ReceiverKind::GODOT : ReceiverKind::UNLIT;
-	std::string moved_reason;
-	if (state.is_generated) {
-		moved_reason =
-				read_vertex_motion(godot::cast<godot::BaseMaterial3D>(p_material)).unknown_reason;
-	}
 	if (state.original.id) {
 		const Copy &copy = find_copy(state, p_material);
-		kind = copy.receiver.kind == ReceiverKind::PATCHED && !moved_reason.empty()
+		kind = copy.receiver.kind == ReceiverKind::PATCHED && !p_unknown_reason.empty()
 				? ReceiverKind::GODOT
 				: copy.receiver.kind;
 		const std::string &reason =
-				copy.receiver.reason.empty() ? moved_reason : copy.receiver.reason;
+				copy.receiver.reason.empty() ? p_unknown_reason : copy.receiver.reason;
 		if (kind == ReceiverKind::PATCHED && state.applied != state.original) {
 			server.material_set_shader(p_material.get_rid(), copy.shader);
 			state.applied = state.original;

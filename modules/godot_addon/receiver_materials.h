@@ -28,8 +28,10 @@ public:
 	void begin_frame();
 	/// Makes p_material, and its next passes, read masks if possible. p_owner: the node, for
 	/// messages. Returns GODOT if the material is not supported, with one warning, and while the
-	/// generated shader of a BaseMaterial3D is not known yet.
-	ReceiverKind use(const godot::Material &p_material, const godot::Node &p_owner);
+	/// generated shader of a BaseMaterial3D is not known yet. p_unknown_reason: why the drawn
+	/// surface is not known, see VertexMotion; empty: it is known.
+	ReceiverKind use(const godot::Material &p_material, const godot::Node &p_owner,
+			const std::string &p_unknown_reason = {});
 	/// The same for a surface of p_mesh without a material, which gets a default one.
 	ReceiverKind use_bare(const godot::Mesh &p_mesh, int64_t p_surface);
 	/// Call after all use() calls of a frame. Queries the generated shaders of the used

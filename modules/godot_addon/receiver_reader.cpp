@@ -22,12 +22,13 @@ bool reaches(const godot::Light3D &p_light, const std::vector<Receiver> &p_recei
 }
 
 void ReceiverReader::read(const SceneBody &p_body, const godot::Material &p_material,
-		const godot::Mesh &p_mesh, int64_t p_surface, const Bounds &p_bounds_world) {
+		const godot::Mesh &p_mesh, int64_t p_surface, const Bounds &p_bounds_world,
+		const std::string &p_unknown_reason) {
 	if (!p_body.is_drawn) {
 		return;
 	}
 	add_receiver(p_body,
-			p_material ? materials.use(p_material, p_body.node)
+			p_material ? materials.use(p_material, p_body.node, p_unknown_reason)
 					   : materials.use_bare(p_mesh, p_surface),
 			p_bounds_world);
 	const auto geometry = godot::cast<GeometryInstance3D>(p_body.node);
@@ -68,10 +69,15 @@ void ReceiverReader::read_other(const SceneBody &p_body, const Bounds &p_bounds_
 void ReceiverReader::add_receiver(
 		const SceneBody &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world) {
 	world.has_faded = world.has_faded || p_body.is_faded;
-	if (p_kind == ReceiverKind::GODOT || (p_body.is_faded && p_kind == ReceiverKind::PATCHED)) {
-		world.others.push_back({ p_bounds_world, p_body.layers });
+	add(p_body.is_faded && p_kind == ReceiverKind::PATCHED ? ReceiverKind::GODOT : p_kind,
+			p_bounds_world, p_body.layers);
+}
+
+void ReceiverReader::add(ReceiverKind p_kind, const Bounds &p_bounds_world, uint32_t p_layers) {
+	if (p_kind == ReceiverKind::GODOT) {
+		world.others.push_back({ p_bounds_world, p_layers });
 	} else if (p_kind != ReceiverKind::UNLIT) {
-		world.masked.push_back({ p_bounds_world, p_body.layers });
+		world.masked.push_back({ p_bounds_world, p_layers });
 	}
 }
 

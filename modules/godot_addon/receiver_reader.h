@@ -29,11 +29,15 @@ bool reaches(const godot::Light3D &p_light, const std::vector<Receiver> &p_recei
 class ReceiverReader {
 public:
 	explicit ReceiverReader(ReceiverMaterials &r_materials) : materials(r_materials) {}
-	/// Adds a surface of p_mesh. p_material: empty if the surface has none.
+	/// Adds a surface of p_mesh. p_material: empty if the surface has none. p_unknown_reason: see
+	/// ReceiverMaterials::use.
 	void read(const SceneBody &p_body, const godot::Material &p_material, const godot::Mesh &p_mesh,
-			int64_t p_surface, const Bounds &p_bounds_world);
+			int64_t p_surface, const Bounds &p_bounds_world,
+			const std::string &p_unknown_reason = {});
 	/// Adds a node whose triangles are not read, such as a sprite, a label or particles.
 	void read_other(const SceneBody &p_body, const Bounds &p_bounds_world);
+	/// Adds a surface that is no node's.
+	void add(ReceiverKind p_kind, const Bounds &p_bounds_world, uint32_t p_layers);
 	/// Returns the surfaces that were added since the last call.
 	WorldReceivers take() { return std::exchange(world, {}); }
 

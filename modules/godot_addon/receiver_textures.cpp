@@ -15,7 +15,7 @@ const char MASKS_GLOBAL[] = "gnomon_masks";
 const char DEPTH_GLOBAL[] = "gnomon_depth";
 const char LIGHTS_GLOBAL[] = "gnomon_lights";
 const char ALBEDO_GLOBAL[] = "gnomon_albedo";
-const float NO_FADE_M = 1e30f;		// depth from which the shadow of a light that does not fade fades
+const float NO_FADE_M = 1e30f; // depth from which the shadow of a light that does not fade fades
 const uint32_t MIN_LAYER_COUNT = 2; // Godot makes no arrays of one layer
 const uint32_t SIZE_STEP_PX = 64;	// no new array for each pixel of a window resize
 
@@ -38,8 +38,7 @@ ReceiverRow make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_vie
 	const float opacity = p_light.is_directional
 			? p_light.mask_opacity
 			: p_light.mask_opacity * compute_shadow_fade(p_light, p_camera_world);
-	return { glm::vec4(p_light.specular, float(p_light.mask), p_light.size_m,
-					 opacity + godot_shadow),
+	return { glm::vec4(p_light.specular, float(p_light.mask), p_light.size, opacity + godot_shadow),
 		glm::vec4(position, 1.0f / p_light.range_m), glm::vec4(direction, p_light.cone_cosine),
 		glm::vec4(p_light.distance_exponent, p_light.cone_exponent,
 				fades_by_depth ? p_light.fade_begin_m : NO_FADE_M,

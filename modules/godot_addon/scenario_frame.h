@@ -18,7 +18,9 @@ struct ReceiverLight {
 	float specular = 0; // of the light's StandInLight; its last bits are the row
 	int32_t mask = -1;	// layer of its mask; -1: none
 	float mask_opacity = 1;
-	float size_m = 0; // 0 for directional lights
+	/// In metres. For a directional light 1 - the cosine of light_angular_distance: with a shadow,
+	/// Godot lights surfaces as if the cosine to the light were larger by that.
+	float size = 0;
 	bool has_godot_shadow = false;
 	bool is_directional = false;
 	glm::dvec3 position_world = glm::dvec3(0.0);

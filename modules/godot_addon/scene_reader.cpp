@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/godot_addon/server_casters.h"
 #include "modules/scene/box_mesh.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 using godot::GeometryInstance3D;
 
 const float MAX_COORDINATE_M = 1e8f;  // nodes beyond are not found
+const size_t MAX_PASSES = 64;		  // of materials
 const double MIN_SCENE_SIZE_M = 1e-9; // it is a divisor, also in a world without casters
 // In a MultiMesh's buffer: floats of an instance's colour, and of its custom data.
 const size_t COLOR_FLOATS = 4;
@@ -46,6 +48,46 @@ glm::dmat4 read_instance_transform(std::span<const float> p_floats, bool p_is_3d
 bool has_fog_or_gi(const godot::Environment &p_environment) {
 	return p_environment &&
 			(p_environment.is_volumetric_fog_enabled() || p_environment.is_sdfgi_enabled());
+}
+
+/// Returns how often Godot draws a surface with the material.
+size_t count_passes(const godot::Ref<godot::Material> &p_material) {
+	size_t count = 1;
+	if (p_material) {
+		for (godot::Ref<godot::Material> next = p_material.get_next_pass();
+				next && count < MAX_PASSES; next = next.get_next_pass()) {
+			++count;
+		}
+	}
+	return count;
+}
+
+/// Returns how often Godot draws surfaces of a node's mesh, at most.
+size_t count_draws(const GeometryInstance3D &p_node, const godot::Mesh &p_mesh) {
+	const auto mesh_instance = godot::cast<godot::MeshInstance3D>(p_node);
+	const godot::Ref<godot::Material> override_material = p_node.get_material_override();
+	const godot::Ref<godot::Material> overlay = p_node.get_material_overlay();
+	const size_t overlay_count = overlay ? count_passes(overlay) : 0;
+	size_t count = 0;
+	for (int64_t index = 0; p_mesh && index < p_mesh.get_surface_count(); ++index) {
+		const godot::Ref<godot::Material> material = mesh_instance
+				? mesh_instance.get_active_material(index)
+				: override_material ? godot::Ref<godot::Material>::share(override_material)
+									: p_mesh.surface_get_material(index);
+		count += count_passes(material) + overlay_count;
+	}
+	return count;
+}
+
+size_t count_draws(const GeometryInstance3D &p_node) {
+	if (const auto mesh_instance = godot::cast<godot::MeshInstance3D>(p_node)) {
+		return count_draws(p_node, mesh_instance.get_mesh());
+	}
+	if (const auto multi = godot::cast<godot::MultiMeshInstance3D>(p_node)) {
+		const godot::Ref<godot::MultiMesh> multi_mesh = multi.get_multimesh();
+		return multi_mesh ? count_draws(p_node, multi_mesh.get_mesh()) : 0;
+	}
+	return MAX_PASSES; // few surfaces: CSG shapes, sprites, labels, particles
 }
 
 void set_casting(SceneBody &r_body, int64_t p_setting) {
@@ -154,13 +196,8 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		if (mesh_instance && drawn.mesh->attributes.rig) {
 			poses.pose(mesh_instance, drawn.mesh, surface.index, instance);
 		}
-		receivers.read(p_body, material, p_mesh, surface.index, instance.bounds_world);
-		if (instance.casts_shadow && shadow.kind == ShadowKind::CUT_OUT && !shadow.cut_out) {
-			add_notice(p_body,
-					"is cut out by alpha in a way that is not read, and casts the shadow of its "
-					"whole surface. Use a StandardMaterial3D with alpha scissor, without triplanar "
-					"coordinates, MSDF textures and albedo from vertex colours.");
-		}
+		receivers.read(p_body, material, p_mesh, surface.index, instance.bounds_world,
+				motion.unknown_reason);
 		if (instance.casts_shadow && !is_ready) {
 			instance.casts_shadow = false;
 			++pending_count;
@@ -348,6 +385,11 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		body.detail_bias = static_cast<float>(geometry.get_lod_bias());
 		body.is_faded = geometry.get_transparency() > 0 || visibility.is_faded(geometry);
 	}
+	if (grid_map) {
+		unknown_objects.add_everywhere(size_t(grid_map.get_meshes().get_size()) * MAX_PASSES);
+	} else {
+		unknown_objects.add(geometry, count_draws(geometry));
+	}
 	const size_t first_instance = r_scene.instances.size();
 	const size_t first_detail = details.size();
 	if (const auto mesh_instance = godot::cast<godot::MeshInstance3D>(object)) {
@@ -380,6 +422,30 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		visibility.hide(geometry, first_instance, r_scene.instances.size());
 	}
 	finish_details(body, first_detail, r_scene);
+}
+
+void SceneReader::read_server_casters(SceneSnapshot &r_scene) {
+	for (const auto &[rid, caster] : get_server_casters().get()) {
+		for (size_t surface = 0; surface < caster.surfaces.size(); ++surface) {
+			const ReadSurface &read = caster.surfaces[surface];
+			InstanceSnapshot instance = make_instance(read.mesh, caster.cut_outs[surface],
+					caster.world_from_mesh.to_matrix(), read.mesh->name);
+			instance.layers = caster.layers;
+			meshes.prepare(read);
+			const bool is_ready = meshes.is_ready(read) &&
+					(instance.caster_mesh == read.mesh ||
+							meshes.is_cut_ready(instance.caster_mesh));
+			instance.casts_shadow = instance.casts_shadow && caster.casts[surface];
+			if (instance.casts_shadow && !is_ready) {
+				instance.casts_shadow = false;
+				++pending_count;
+			}
+			// It keeps Godot's light and shadow: its material has no resource to be replaced by.
+			receivers.add(ReceiverKind::GODOT, instance.bounds_world, caster.layers);
+			unknown_objects.add(instance.bounds_world, MAX_PASSES);
+			r_scene.instances.push_back(std::move(instance));
+		}
+	}
 }
 
 LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_size_m) {
@@ -421,6 +487,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	world_frame = frame;
 	frame->views = find_view_details(p_tree, p_scenario);
 	visibility.begin_world(frame->views);
+	unknown_objects.begin_world(frame->views);
 	const bool has_masked_view = add_view_notices(frame->views);
 	std::vector<uint64_t> ids = find_instances(p_scenario);
 	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);
@@ -434,6 +501,11 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 			}
 		}
 	}
+	const godot::Ref<godot::World3D> main_world = p_tree.get_root().find_world_3d();
+	if (main_world && main_world.get_scenario() == p_scenario) {
+		read_server_casters(*scene);
+	}
+	world.unknown_object_count = unknown_objects.end_world();
 	scene->scene_size_m = std::max(MIN_SCENE_SIZE_M, scene->compute_caster_bounds().get_diagonal());
 	world.receivers = receivers.take();
 	for (ShadowNode *node : p_nodes) {
@@ -484,6 +556,7 @@ void SceneReader::end_frame() {
 	poses.end_frame();
 	materials.forget_unused();
 	visibility.forget_unused();
+	unknown_objects.forget_unused();
 	std::erase_if(warned,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
 }

@@ -7,6 +7,7 @@
 #include "modules/godot_addon/receiver_reader.h"
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/shadow_materials.h"
+#include "modules/godot_addon/unknown_objects.h"
 #include "modules/godot_addon/view_visibility.h"
 
 #include <span>
@@ -20,6 +21,8 @@ struct ReadWorld {
 	std::vector<godot::Light3D> other_lights;  // visible lights without a mask
 	WorldReceivers receivers;
 	bool uses_godot_shadows = false; // a part of the world, such as fog, needs Godot's shadows
+	/// How many objects that are no nodes a view drew in the last two frames.
+	int64_t unknown_object_count = 0;
 };
 
 /// Reads the casters, receivers and lights of Godot's scenes. Main thread only.
@@ -38,6 +41,8 @@ public:
 
 private:
 	void read_node(uint64_t p_id, SceneSnapshot &r_scene);
+	/// Adds the casters of GnomonServer.
+	void read_server_casters(SceneSnapshot &r_scene);
 	/// Sets bounds and scale of the details from p_first on, which belong to p_body. Godot chooses
 	/// one level of detail for the whole node.
 	void finish_details(const SceneBody &p_body, size_t p_first, const SceneSnapshot &p_scene);
@@ -64,6 +69,7 @@ private:
 	ReceiverReader receivers;
 	Notices &notices;
 	ViewVisibility visibility;
+	UnknownObjects unknown_objects;
 	ReadWorld world;
 	std::shared_ptr<ScenarioFrame> world_frame; // of `world`, while it is read
 	std::unique_ptr<GridMaps> grid_maps;

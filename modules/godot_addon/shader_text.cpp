@@ -129,6 +129,33 @@ const ShaderFunction *ShaderText::find_function(std::string_view p_name) const {
 	return found == functions.end() ? nullptr : &*found;
 }
 
+std::string_view ShaderText::get_body(const ShaderFunction &p_function) const {
+	return std::string_view(code_without_comments)
+			.substr(p_function.body_begin, p_function.body_end - p_function.body_begin);
+}
+
+std::string ShaderText::get_global_constants() const {
+	std::string constants;
+	size_t begin = 0;
+	const auto add_until = [&](size_t p_end) {
+		while (begin < p_end) {
+			const size_t end = std::min(code_without_comments.find(';', begin), p_end);
+			const std::string statement = code_without_comments.substr(begin, end - begin);
+			const size_t first = statement.find_first_not_of(" \t\r\n");
+			if (first != std::string::npos && statement.compare(first, 6, "const ") == 0) {
+				constants += statement + ";\n";
+			}
+			begin = end + 1;
+		}
+	};
+	for (const ShaderFunction &function : functions) {
+		add_until(function.begin);
+		begin = function.body_end + 1;
+	}
+	add_until(code_without_comments.size());
+	return constants;
+}
+
 bool ShaderText::may_assign(std::string_view p_function, std::string_view p_word) const {
 	const ShaderFunction *function = find_function(p_function);
 	if (!function || !has_word(*function, p_word)) {
@@ -138,9 +165,7 @@ bool ShaderText::may_assign(std::string_view p_function, std::string_view p_word
 	if (has_word("out") || has_word("inout")) {
 		return true;
 	}
-	const std::string_view body =
-			std::string_view(code_without_comments)
-					.substr(function->body_begin, function->body_end - function->body_begin);
+	const std::string_view body = get_body(*function);
 	bool assigns = false;
 	for_each_word(body, [&](std::string_view p_found) {
 		assigns = assigns ||
@@ -152,9 +177,7 @@ bool ShaderText::may_assign(std::string_view p_function, std::string_view p_word
 
 bool ShaderText::has_word(const ShaderFunction &p_function, std::string_view p_word) const {
 	bool has = false;
-	for_each_word(
-			std::string_view(code_without_comments)
-					.substr(p_function.body_begin, p_function.body_end - p_function.body_begin),
+	for_each_word(get_body(p_function),
 			[&](std::string_view p_found) { has = has || p_found == p_word; });
 	return has;
 }

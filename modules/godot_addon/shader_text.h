@@ -30,6 +30,10 @@ public:
 	const std::vector<ShaderFunction> &get_functions() const { return functions; }
 	/// Whether the body of the function has the identifier p_word.
 	bool has_word(const ShaderFunction &p_function, std::string_view p_word) const;
+	/// Returns the body of a function, without comments.
+	std::string_view get_body(const ShaderFunction &p_function) const;
+	/// Returns the definitions of constants outside of functions.
+	std::string get_global_constants() const;
 	/// Whether the function of that name, or one that has the identifier too, may change the
 	/// variable p_word: by an assignment, or as the argument of a function with out parameters.
 	bool may_assign(std::string_view p_function, std::string_view p_word) const;

@@ -34,10 +34,22 @@ ShadowKind find_shadow_kind(const ShaderText &p_shader) {
 			(p_shader.has_word("ALPHA") && p_shader.has_word("depth_prepass_alpha"))) {
 		return ShadowKind::CUT_OUT;
 	}
-	return p_shader.has_word("ALPHA") ? ShadowKind::NONE : ShadowKind::OPAQUE;
+	return p_shader.has_word("ALPHA")	   ? ShadowKind::NONE
+			: p_shader.has_word("discard") ? ShadowKind::CUT_OUT
+										   : ShadowKind::OPAQUE;
 }
 
-ShadowSurface ShadowMaterials::read(const godot::Material &p_material) {
+/// A material is read once per frame, however many instances it is on.
+const ShadowSurface &ShadowMaterials::read(const godot::Material &p_material) {
+	const auto [found, is_new] =
+			of_frame.try_emplace(godot::get_instance_id(p_material.get_object()));
+	if (is_new) {
+		found->second = read_now(p_material);
+	}
+	return found->second;
+}
+
+ShadowSurface ShadowMaterials::read_now(const godot::Material &p_material) {
 	ShadowSurface surface;
 	if (const auto base = godot::cast<godot::BaseMaterial3D>(p_material)) {
 		surface.kind = read_base_material(base);
@@ -45,13 +57,21 @@ ShadowSurface ShadowMaterials::read(const godot::Material &p_material) {
 		surface.motion = read_vertex_motion(base);
 	} else if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
 		if (const godot::Ref<godot::Shader> shader = custom.get_shader()) {
-			surface = read_shader(shader);
+			const Entry &entry = read_shader(shader);
+			surface = entry.surface;
+			if (surface.kind == ShadowKind::CUT_OUT) {
+				surface.cut_out = cut_outs.read(custom, entry.text);
+			}
 		}
+	}
+	if (surface.kind == ShadowKind::CUT_OUT && !surface.cut_out &&
+			surface.motion.unknown_reason.empty()) {
+		surface.motion.unknown_reason = "is cut out by alpha in a way that is not read";
 	}
 	return surface;
 }
 
-const ShadowSurface &ShadowMaterials::read_shader(const godot::Shader &p_shader) {
+const ShadowMaterials::Entry &ShadowMaterials::read_shader(const godot::Shader &p_shader) {
 	Entry &entry = shaders[godot::get_instance_id(p_shader.get_object())];
 	const bool is_new = !entry.watched;
 	if (is_new) {
@@ -60,14 +80,15 @@ const ShadowSurface &ShadowMaterials::read_shader(const godot::Shader &p_shader)
 	if (entry.watched->take_change() || is_new) {
 		// The RenderingServer's code has the text of #includes.
 		const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
-		const ShaderText text(server.shader_get_code(p_shader.get_rid()).to_utf8());
-		// The alpha that a shader computes cannot be read.
-		entry.surface = { find_shadow_kind(text), /*cut_out=*/nullptr, read_vertex_motion(text) };
+		entry.text = ShaderText(server.shader_get_code(p_shader.get_rid()).to_utf8());
+		entry.surface = { find_shadow_kind(entry.text), /*cut_out=*/nullptr,
+			read_vertex_motion(entry.text) };
 	}
-	return entry.surface;
+	return entry;
 }
 
 void ShadowMaterials::forget_unused() {
+	of_frame.clear();
 	cut_outs.forget_unused();
 	std::erase_if(shaders, [](const auto &p_entry) { return !p_entry.second.watched->is_alive(); });
 }

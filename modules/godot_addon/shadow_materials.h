@@ -13,11 +13,11 @@ namespace gnomon {
 /// How a surface casts, according to its material, as in Godot's own shadow passes.
 enum class ShadowKind {
 	OPAQUE,
-	CUT_OUT, // by alpha scissor, alpha hash or depth prepass
+	CUT_OUT, // by alpha scissor, alpha hash, depth prepass or discard
 	NONE,	 // casts nothing: blended, or drawn without depth test or depth writes
 };
 
-/// How a surface casts, with its alpha mask.
+/// How a surface casts, with its alpha mask. If that cannot be read, motion.unknown_reason is set.
 struct ShadowSurface {
 	ShadowKind kind = ShadowKind::OPAQUE;
 	/// If CUT_OUT: the alpha mask; null: it cannot be read.
@@ -28,19 +28,23 @@ struct ShadowSurface {
 /// Reads how Godot's materials cast. Main thread only.
 class ShadowMaterials {
 public:
-	ShadowSurface read(const godot::Material &p_material);
+	/// The reference is valid until forget_unused().
+	const ShadowSurface &read(const godot::Material &p_material);
 	/// Removes cached data of freed resources. Call once per frame.
 	void forget_unused();
 
 private:
 	struct Entry {
 		std::unique_ptr<WatchedResource> watched;
-		ShadowSurface surface;
+		ShaderText text{ "" };
+		ShadowSurface surface; // without the alpha mask, which depends on the material
 	};
-	const ShadowSurface &read_shader(const godot::Shader &p_shader);
+	ShadowSurface read_now(const godot::Material &p_material);
+	const Entry &read_shader(const godot::Shader &p_shader);
 
 	std::map<uint64_t, Entry> shaders; // by the resource's id
 	CutOutMaterials cut_outs;
+	std::map<uint64_t, ShadowSurface> of_frame; // by the material's id
 };
 
 /// Returns how a surface with this shader casts, by the built-ins and render modes in its code.

@@ -1,10 +1,8 @@
 // Registers the class GnomonShadow3D, its properties and its methods with GDExtension.
 
-#include "modules/core/error.h"
-#include "modules/core/log.h"
+#include "modules/godot_addon/extension_class.h"
 #include "modules/godot_addon/shadow_node.h"
 #include "modules/godot_addon/shadow_properties.h"
-#include "modules/rendering_device_godot/godot_interface.h"
 
 #include <algorithm>
 
@@ -28,8 +26,6 @@ const uint32_t HINT_NONE = 0;
 const uint32_t HINT_RANGE = 1;
 const uint32_t HINT_ENUM = 2;
 const uint32_t USAGE_STORAGE = 2;
-const uint32_t USAGE_DEFAULT = 6; // stored and shown
-const uint32_t USAGE_NIL_IS_VARIANT = 131072;
 const int32_t NOTIFICATION_POSTINITIALIZE = 0;
 const int32_t NOTIFICATION_ENTER_TREE = 10;
 const int32_t NOTIFICATION_EXIT_TREE = 11;
@@ -47,15 +43,6 @@ void call_listener(const std::function<void()> &p_listener) {
 
 ShadowNode &to_node(void *p_instance) {
 	return *static_cast<ShadowNode *>(p_instance);
-}
-
-/// Calls p_function and logs its exceptions, which must not reach Godot.
-template <typename Function> void log_failures(Function p_function) {
-	try {
-		p_function();
-	} catch (const std::exception &failure) {
-		log_error(describe_failure(failure));
-	}
 }
 
 Variant to_variant(const PropertyValue &p_value) {
@@ -171,61 +158,48 @@ GDExtensionClassCallVirtual get_virtual(void *, const void *p_name, uint32_t) {
 	return read_name(p_name) == "_get_configuration_warnings" ? &call_get_warnings : nullptr;
 }
 
-/// A method of the class, with arguments and result as variants.
-using Method = Variant (*)(ShadowNode &, std::span<const Variant>);
-
-Variant get_value(ShadowNode &p_node, std::span<const Variant> p_arguments) {
-	return to_variant(p_node.get_value(size_t(p_arguments[0].to_int())));
+Variant get_value(void *p_instance, std::span<const Variant> p_arguments) {
+	return to_variant(to_node(p_instance).get_value(size_t(p_arguments[0].to_int())));
 }
 
-Variant set_value(ShadowNode &r_node, std::span<const Variant> p_arguments) {
+Variant set_value(void *p_instance, std::span<const Variant> p_arguments) {
 	const size_t index = size_t(p_arguments[0].to_int());
 	const PropertyInfo &info = get_shadow_properties()[index].info;
-	r_node.set_value(index, to_property_value(info.type, p_arguments[1]));
+	ShadowNode &node = to_node(p_instance);
+	node.set_value(index, to_property_value(info.type, p_arguments[1]));
 	if (info.name == TECHNIQUE_PROPERTY) {
-		r_node.get_node().notify_property_list_changed(); // to show the new technique's
+		node.get_node().notify_property_list_changed(); // to show the new technique's
 	}
 	return {};
 }
 
-Variant read_masks(ShadowNode &r_node, std::span<const Variant> p_arguments) {
-	r_node.read_masks(p_arguments[0]);
+Variant read_masks(void *p_instance, std::span<const Variant> p_arguments) {
+	to_node(p_instance).read_masks(p_arguments[0]);
 	return {};
 }
 
-Variant inspect_shader(ShadowNode &, std::span<const Variant> p_arguments) {
+Variant inspect_shader(void *, std::span<const Variant> p_arguments) {
 	if (shader_listener) {
 		shader_listener(p_arguments[0].to_rid());
 	}
 	return {};
 }
 
-Variant count_pending_casters(ShadowNode &p_node, std::span<const Variant>) {
-	return p_node.pending_caster_count;
+Variant count_pending_casters(void *p_instance, std::span<const Variant>) {
+	return to_node(p_instance).pending_caster_count;
 }
 
-Variant makes_mask(ShadowNode &p_node, std::span<const Variant>) {
-	return p_node.makes_mask;
+Variant makes_mask(void *p_instance, std::span<const Variant>) {
+	return to_node(p_instance).makes_mask;
 }
 
-Variant get_warning(ShadowNode &p_node, std::span<const Variant>) {
+Variant get_warning(void *p_instance, std::span<const Variant>) {
 	std::string lines;
-	for (const std::string &warning : p_node.find_warnings()) {
+	for (const std::string &warning : to_node(p_instance).find_warnings()) {
 		lines += (lines.empty() ? "" : "\n") + warning;
 	}
 	return lines;
 }
-
-struct Argument {
-	const char *name;
-	BuiltInType type;
-};
-struct MethodEntry {
-	const char *name;
-	Method method;
-	std::vector<Argument> arguments;
-	std::optional<BuiltInType> result; // empty: it returns nothing
-};
 
 const std::vector<MethodEntry> &get_methods() {
 	static const std::vector<MethodEntry> methods = {
@@ -241,89 +215,10 @@ const std::vector<MethodEntry> &get_methods() {
 	return methods;
 }
 
-void call_method(void *p_entry, void *p_instance, const GDExtensionConstVariantPtr *p_arguments,
-		GDExtensionInt p_count, void *r_result, GDExtensionCallError *r_error) {
-	const MethodEntry &entry = *static_cast<const MethodEntry *>(p_entry);
-	const GDExtensionInt expected = static_cast<GDExtensionInt>(entry.arguments.size());
-	r_error->error = p_count == expected ? GDEXTENSION_CALL_OK
-			: p_count < expected		 ? GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS
-										 : GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS;
-	r_error->expected = static_cast<int32_t>(expected);
-	if (p_count != expected) {
-		return;
-	}
-	std::vector<Variant> arguments;
-	for (GDExtensionInt index = 0; index < p_count; ++index) {
-		arguments.push_back(Variant::copy_of(p_arguments[index]));
-	}
-	Variant result;
-	log_failures([&] { result = entry.method(to_node(p_instance), arguments); });
-	godot::copy_built_in(BuiltInType::VARIANT, r_result, result.get());
-}
-
-void call_method_typed(void *p_entry, void *p_instance, const GDExtensionConstTypePtr *p_arguments,
-		void *r_result) {
-	const MethodEntry &entry = *static_cast<const MethodEntry *>(p_entry);
-	std::vector<Variant> arguments;
-	for (size_t index = 0; index < entry.arguments.size(); ++index) {
-		arguments.push_back(Variant::of_type(entry.arguments[index].type, p_arguments[index]));
-	}
-	log_failures([&] {
-		const Variant result = entry.method(to_node(p_instance), arguments);
-		if (entry.result) {
-			result.store(*entry.result, r_result);
-		}
-	});
-}
-
-/// Owns the strings to which a GDExtensionPropertyInfo points.
-struct PropertyTexts {
-	StringName name;
-	StringName class_name;
-	String hint;
-
-	explicit PropertyTexts(const char *p_name, const std::string &p_hint = {}) :
-			name(p_name), hint(p_hint) {}
-	GDExtensionPropertyInfo make_info(
-			BuiltInType p_type, uint32_t p_hint = HINT_NONE, uint32_t p_usage = USAGE_DEFAULT) {
-		return { static_cast<GDExtensionVariantType>(p_type), name.get(), class_name.get(), p_hint,
-			hint.get(), p_type == BuiltInType::VARIANT ? p_usage | USAGE_NIL_IS_VARIANT : p_usage };
-	}
-};
-
-void register_method(const StringName &p_class, const MethodEntry &p_entry) {
-	const StringName name(p_entry.name);
-	std::vector<PropertyTexts> texts;
-	for (const Argument &argument : p_entry.arguments) {
-		texts.emplace_back(argument.name);
-	}
-	std::vector<GDExtensionPropertyInfo> arguments;
-	for (size_t index = 0; index < texts.size(); ++index) {
-		arguments.push_back(texts[index].make_info(p_entry.arguments[index].type));
-	}
-	std::vector<GDExtensionClassMethodArgumentMetadata> metadata(arguments.size());
-	PropertyTexts result_texts("");
-	GDExtensionPropertyInfo result =
-			result_texts.make_info(p_entry.result.value_or(BuiltInType::VARIANT));
-	GDExtensionClassMethodInfo info = {};
-	info.name = name.get();
-	info.method_userdata = const_cast<MethodEntry *>(&p_entry);
-	info.call_func = &call_method;
-	info.ptrcall_func = &call_method_typed;
-	info.method_flags = GDEXTENSION_METHOD_FLAGS_DEFAULT;
-	info.has_return_value = p_entry.result.has_value();
-	info.return_value_info = &result;
-	info.argument_count = static_cast<uint32_t>(arguments.size());
-	info.arguments_info = arguments.data();
-	info.arguments_metadata = metadata.data();
-	get_interface().classdb_register_extension_class_method(
-			get_interface().extension, p_class.get(), &info);
-}
-
 void register_property(const StringName &p_class, const PropertyInfo &p_info, size_t p_index) {
 	const bool is_number = p_info.type == PropertyType::INT || p_info.type == PropertyType::FLOAT;
 	const bool is_enum = p_info.type == PropertyType::ENUM;
-	PropertyTexts texts(p_info.name.c_str(),
+	const PropertyTexts texts(p_info.name.c_str(),
 			is_number && !p_info.hint.empty() ? make_range_hint(p_info)
 					: is_enum				  ? p_info.hint
 											  : std::string());

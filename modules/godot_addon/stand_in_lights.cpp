@@ -17,7 +17,7 @@ namespace {
 using godot::RenderingServer;
 
 const float MAX_FADE_START = 0.999f; // of directional_shadow_fade_start, as in Godot
-const float MIN_SPECULAR = 1e-6f; // instead of 0, which with a row would be denormal
+const float MIN_SPECULAR = 1e-6f;	 // instead of 0, which with a row would be denormal
 
 RenderingServer find_server() {
 	return RenderingServer(godot::find_singleton("RenderingServer"));
@@ -65,6 +65,7 @@ ReceiverLight make_receiver_light(const NeededStandIn &p_needed, uint32_t p_row)
 	light.has_godot_shadow = p_needed.needs_godot_shadow && node.has_shadow();
 	if (godot::cast<godot::DirectionalLight3D>(node)) {
 		light.is_directional = true;
+		light.size = 1.0f - std::cos(glm::radians(get_param(node, godot::Light3D::PARAM_SIZE)));
 		light.fade_end_m = get_param(node, godot::Light3D::PARAM_SHADOW_MAX_DISTANCE);
 		light.fade_begin_m = light.fade_end_m *
 				std::min(get_param(node, godot::Light3D::PARAM_SHADOW_FADE_START), MAX_FADE_START);
@@ -72,11 +73,10 @@ ReceiverLight make_receiver_light(const NeededStandIn &p_needed, uint32_t p_row)
 	}
 	if (node.is_distance_fade_enabled()) {
 		light.fade_begin_m = static_cast<float>(node.get_distance_fade_shadow());
-		light.fade_end_m =
-				light.fade_begin_m + static_cast<float>(node.get_distance_fade_length());
+		light.fade_end_m = light.fade_begin_m + static_cast<float>(node.get_distance_fade_length());
 	}
 	const glm::dmat4 world_from_light = get_drawn_transform(node).to_matrix();
-	light.size_m = get_param(node, godot::Light3D::PARAM_SIZE);
+	light.size = get_param(node, godot::Light3D::PARAM_SIZE);
 	light.position_world = glm::dvec3(world_from_light[3]);
 	light.direction_world = -glm::normalize(glm::dvec3(world_from_light[2]));
 	light.range_m = get_param(node, godot::Light3D::PARAM_RANGE);

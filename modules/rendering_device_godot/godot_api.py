@@ -65,9 +65,10 @@ USED = {
             get_rendering_device create_local_rendering_device get_current_rendering_method call_on_render_thread
             compositor_effect_create compositor_effect_set_callback compositor_effect_set_flag
             compositor_effect_set_enabled compositor_create compositor_set_compositor_effects scenario_set_compositor
-            shader_create shader_get_code shader_set_code get_shader_parameter_list
+            shader_create shader_get_code shader_set_code get_shader_parameter_list shader_get_parameter_default
             shader_get_default_texture_parameter shader_set_default_texture_parameter material_create material_set_shader
-            mesh_surface_get_material mesh_surface_set_material
+            mesh_surface_get_material mesh_surface_set_material mesh_surface_get_arrays mesh_get_surface_count
+            material_get_param texture_2d_get
             global_shader_parameter_add global_shader_parameter_remove global_shader_parameter_set
             texture_2d_create texture_rd_create
             directional_light_create omni_light_create spot_light_create light_set_color light_set_param
@@ -86,7 +87,7 @@ USED = {
     "RenderSceneBuffers": {"methods": ""},
     "RenderSceneBuffersRD": {"methods": "get_depth_texture get_color_texture get_internal_size get_texture_samples get_view_count"},
     "RenderSceneData": {"methods": "get_cam_transform get_cam_projection get_view_count"},
-    "Engine": {"methods": "is_editor_hint get_main_loop"},
+    "Engine": {"methods": "is_editor_hint get_main_loop register_singleton unregister_singleton"},
     "MainLoop": {"methods": ""},
     "Node": {
         "methods": """get_parent get_path is_inside_tree get_tree update_configuration_warnings find_children
@@ -101,7 +102,7 @@ USED = {
     "ReflectionProbe": {"methods": ""},
     "VoxelGI": {"methods": ""},
     "GeometryInstance3D": {
-        "methods": """get_cast_shadows_setting get_material_override get_material_overlay get_lod_bias get_custom_aabb
+        "methods": """get_cast_shadows_setting get_material_override get_material_overlay get_lod_bias get_custom_aabb get_extra_cull_margin
             get_transparency get_visibility_range_begin get_visibility_range_end get_visibility_range_begin_margin
             get_visibility_range_end_margin get_visibility_range_fade_mode""",
         "enums": "ShadowCastingSetting VisibilityRangeFadeMode",
@@ -126,14 +127,18 @@ USED = {
     "OmniLight3D": {"methods": "get_shadow_mode"},
     "SpotLight3D": {"methods": ""},
     "DirectionalLight3D": {"methods": "get_shadow_mode get_sky_mode is_blend_splits_enabled"},
-    "Viewport": {"methods": "get_camera_3d get_mesh_lod_threshold get_msaa_3d get_scaling_3d_scale get_texture"},
+    "Viewport": {
+        "methods": "get_camera_3d get_mesh_lod_threshold get_msaa_3d get_scaling_3d_scale get_texture get_render_info find_world_3d",
+        "enums": "RenderInfo RenderInfoType",
+    },
     "Window": {"methods": "get_size get_content_scale_mode", "enums": "ContentScaleMode"},
     "Texture2D": {"methods": "get_width get_height get_image"},
     "ViewportTexture": {"methods": ""},
+    "Texture": {"methods": ""},
     "Environment": {"methods": "is_volumetric_fog_enabled is_sdfgi_enabled"},
     "ProjectSettings": {"methods": "has_setting get_setting_with_override"},
     "Camera3D": {
-        "methods": "get_compositor get_environment get_projection get_camera_transform get_fov get_keep_aspect_mode",
+        "methods": "get_compositor get_environment get_projection get_camera_transform get_camera_projection get_fov get_keep_aspect_mode",
         "enums": "ProjectionType KeepAspect",
     },
     "WorldEnvironment": {"methods": "get_compositor"},
@@ -159,8 +164,8 @@ USED = {
             is_grow_enabled get_grow""",
         "enums": "BillboardMode Transparency DepthDrawMode Flags BlendMode TextureParam TextureFilter",
     },
-    "ShaderMaterial": {"methods": "get_shader"},
-    "Shader": {"methods": "get_code"},
+    "ShaderMaterial": {"methods": "get_shader get_shader_parameter"},
+    "Shader": {"methods": "get_default_texture_parameter"},
     "Image": {
         "methods": "create_from_data get_width get_height is_empty is_compressed decompress convert get_data",
         "enums": "Format",

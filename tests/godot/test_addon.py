@@ -21,6 +21,12 @@ EXPECTED = (
     ("has an orthogonal projection", 1),
     ('RIDs of type "Texture" were leaked', 1),  # a leak of Godot itself, for each reflection probe that was drawn
     ("is cut out by alpha", 1),
+    ("in view are no nodes", 1),
+    ("is an empty RID", 2),
+    ("is no mesh with triangles", 1),
+    ("the transform has the value nan", 1),
+    ("layers is 0, must be", 1),
+    ("is no caster. Add it", 2),
     ("that cover more of the view have it", 1),
     ("moves its vertices in vertex()", 1),
     ("moves its vertices in a way that is not read", 1),

@@ -116,7 +116,7 @@ func test_changes_of_cut_out_materials_update_the_mask() -> void:
 
 
 ## test_addon.py checks the warning.
-func test_cut_out_shaders_cast_whole_with_a_warning() -> void:
+func test_shaders_that_cut_out_nothing_cast_whole() -> void:
 	var shader := func(scene: StudyScene) -> void:
 		var material := ShaderMaterial.new()
 		material.shader = Shader.new()

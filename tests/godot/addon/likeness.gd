@@ -2,7 +2,7 @@ extends AddonTest
 ## Small scenes as games have them, in which Gnomon's shadow must be where Godot's is. Brightness is compared at points of the
 ## world that are well inside or outside of the shadow.
 
-const SIZE := Vector2i(480, 270)
+const SIZE := Vector2i(288, 162)
 const TOLERANCE := 0.1
 
 var _viewport: SubViewport
@@ -11,10 +11,10 @@ var _camera: Camera3D
 var _sun: DirectionalLight3D
 
 
-func _begin() -> void:
+func _begin(has_own_world := true) -> void:
 	_viewport = SubViewport.new()
 	_viewport.size = SIZE
-	_viewport.own_world_3d = true
+	_viewport.own_world_3d = has_own_world
 	_viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
 	add_child(_viewport)
 	_root = Node3D.new()
@@ -66,7 +66,7 @@ func _floor_below(point: Vector3) -> Vector3:
 
 
 func _take() -> Image:
-	await draw_frames(8)
+	await draw_frames(5)
 	return _viewport.get_texture().get_image()
 
 
@@ -303,4 +303,186 @@ func test_lights_that_cover_more_of_the_view_have_masks() -> void:
 	masked = shadows.map(func(shadow: Node3D) -> bool: return shadow.makes_mask())
 	check(masked == [true, false, true, true, false], "the camera turned round: %s" % [masked])
 	ProjectSettings.set_setting("rendering/gnomon/most_lights", null)
+	await _end()
+
+
+## A card of which the middle quarter is opaque in the given channel of its texture.
+func _add_card(shader: String, channel := 3, inverted := false, parameters := {}) -> MeshInstance3D:
+	var image := Image.create(64, 64, false, Image.FORMAT_RGBA8)
+	var other := Color(0.3, 0.8, 0.4, 1)
+	var middle := other
+	other[channel] = 1.0 if inverted else 0.0
+	middle[channel] = 0.0 if inverted else 1.0
+	image.fill(other)
+	image.fill_rect(Rect2i(24, 0, 16, 64), middle)
+	var mesh := PlaneMesh.new()
+	mesh.size = Vector2(2, 2)
+	var material := _make_shader("render_mode cull_disabled;\n" + shader)
+	material.set_shader_parameter("leaf", ImageTexture.create_from_image(image))
+	for parameter: String in parameters:
+		material.set_shader_parameter(parameter, parameters[parameter])
+	return _add(mesh, Vector3(0, 1, 0), material)
+
+
+func _compare_card(label: String) -> void:
+	var points: Array[Vector3] = []
+	for x: float in [-0.8, -0.4, 0.4, 0.8]:
+		points.append(_floor_below(Vector3(x, 1, 0)))
+		points.append(Vector3(x, 0, 1))
+	points.append(_floor_below(Vector3(0, 1, -0.4)))
+	points.append(Vector3(0.1, 1, 0.3))
+	await _compare(label, points)
+
+
+func test_cards_cut_out_by_a_shader_cast_their_opaque_part() -> void:
+	const LEAF := "uniform sampler2D leaf : source_color;\n"
+	const FORMS := [
+		["void fragment() { vec4 c = texture(leaf, UV); ALBEDO = c.rgb; ALPHA = c.a; ALPHA_SCISSOR_THRESHOLD = 0.5; }", 3],
+		["void fragment() { ALPHA = texture(leaf, UV).a; ALPHA_SCISSOR_THRESHOLD = 0.3; }", 3],
+		["const float LIMIT = 0.4; // of alpha\nvoid fragment() { if (texture(leaf, UV).a < LIMIT) { discard; } }", 3],
+		["void fragment() { vec4 c = texture(leaf, UV); if (0.5 >= c.r) discard; ALBEDO = vec3(0.3); }", 0],
+		["uniform float limit = 0.5;\nuniform vec4 tint : source_color = vec4(1.0);\nvoid fragment() { vec4 c = tint * texture(leaf, UV); ALBEDO = c.rgb; ALPHA = c.a; ALPHA_SCISSOR_THRESHOLD = limit; }", 3],
+		["void fragment() { ALPHA = 1.0 - texture(leaf, UV).g; ALPHA_SCISSOR_THRESHOLD = 0.5; }", 1, true],
+		["uniform vec2 size = vec2(2.0, 1.0);\nvarying vec2 base;\nvoid vertex() { UV = UV * size; base = UV; }\nvoid fragment() { vec2 uv = base / size; float a = texture(leaf, uv).a; ALPHA = clamp(a, 0.0, 1.0); ALPHA_SCISSOR_THRESHOLD = 0.5; }", 3],
+		["void fragment() {\n// Texture:2\n\tvec4 n_out2p0 = texture(leaf, UV);\n\tfloat n_out2p4 = n_out2p0.a;\n\n// FloatConstant:3\n\tfloat n_out3p0 = 0.500000;\n\n\tALBEDO = vec3(n_out2p0.xyz);\n\tALPHA = n_out2p4;\n\tALPHA_SCISSOR_THRESHOLD = n_out3p0;\n}", 3],
+		["uniform bool dim = true;\nvoid fragment() { vec4 c = texture(leaf, UV); ALBEDO = c.rgb; if (dim) { ALBEDO *= 0.8; } for (int i = 0; i < 2; i++) { ROUGHNESS *= 0.9; } ALPHA = c.a; ALPHA_SCISSOR_THRESHOLD = 0.5; }", 3],
+	]
+	for index in FORMS.size():
+		var form: Array = FORMS[index]
+		_begin()
+		_add_card(LEAF + form[0], form[1], form.size() > 2 and form[2])
+		await _compare_card("cut out %d" % index)
+		await _end()
+
+
+func test_cards_cut_out_in_a_way_that_is_not_read_do_not_shadow_themselves() -> void:
+	const FORMS: Array[String] = [
+		"uniform sampler2D leaf;\nfloat wave(float x) { return sin(x); }\nvoid fragment() { ALPHA = wave(UV.x * 30.0); ALPHA_SCISSOR_THRESHOLD = 0.5; }",
+		"void fragment() { if (fract(UV.x * 4.0) < 0.5) discard; }",
+		"uniform sampler2D leaf;\nvoid fragment() { ALPHA = texture(leaf, UV).a * texture(leaf, UV.yx).a; ALPHA_SCISSOR_THRESHOLD = 0.5; }",
+		"uniform sampler2D leaf;\nvoid fragment() { vec4 c = texture(leaf, UV); if (UV.x > 0.5) { c.a = 0.0; } ALPHA = c.a; ALPHA_SCISSOR_THRESHOLD = 0.5; }",
+	]
+	for index in FORMS.size():
+		_begin()
+		_add_card(FORMS[index])
+		await _compare("not read %d" % index, [Vector3(0.05, 1, 0.3), Vector3(0.06, 1, -0.3), Vector3(0.2, 1, 0), Vector3(2, 0, 2)])
+		await _end()
+
+
+## Terrain and voxel add-ons draw through the RenderingServer. Their material may move the vertices by a height map.
+func test_objects_that_are_no_nodes_keep_the_shadow_of_godot() -> void:
+	for moves: bool in [false, true]:
+		_begin()
+		for floor_node in _root.find_children("*", "MeshInstance3D", true, false):
+			floor_node.free()
+		_add_box(Vector3(0, 0.5, 0))
+		var tile := PlaneMesh.new()
+		tile.size = Vector2(5, 5)
+		if moves:
+			tile.material = _make_shader("void vertex() { VERTEX.y = 0.0; }")
+			tile.center_offset = Vector3(0, -0.5, 0)
+		else:
+			tile.material = StandardMaterial3D.new()
+		var instances: Array[RID] = []
+		for x in [-1, 0, 1]:
+			for z in [-1, 0, 1]:
+				instances.append(RenderingServer.instance_create2(tile.get_rid(), _viewport.find_world_3d().scenario))
+				RenderingServer.instance_set_transform(instances.back(), Transform3D(Basis(), Vector3(5 * x, 0, 5 * z)))
+		await _compare("terrain %s" % moves, [_floor_below(Vector3(-0.3, 0.8, -0.3)), Vector3(2, 0, 2), Vector3(0, 1, 0)])
+		for instance in instances:
+			RenderingServer.free_rid(instance)
+		await _end()
+
+
+func test_the_server_makes_objects_cast_that_are_no_nodes() -> void:
+	_begin(false)
+	var server: Object = Engine.get_singleton("GnomonServer")
+	var mesh := BoxMesh.new()
+	mesh.material = StandardMaterial3D.new()
+	var at := Transform3D(Basis(), Vector3(0, 0.5, 0))
+	var instance := RenderingServer.instance_create2(mesh.get_rid(), _viewport.find_world_3d().scenario)
+	RenderingServer.instance_set_transform(instance, at)
+	server.add_caster(instance, mesh.get_rid(), at, 1, RID())
+	var points: Array[Vector3] = [_floor_below(Vector3(-0.3, 0.8, -0.3)), _floor_below(Vector3(1.7, 0.8, -0.3)), Vector3(2, 0, 2)]
+	await _compare("server added", points)
+	at.origin.x = 2
+	RenderingServer.instance_set_transform(instance, at)
+	server.move_caster(instance, at)
+	await _compare("server moved", points)
+	server.remove_caster(instance)
+	RenderingServer.free_rid(instance)
+	await _compare("server removed", points)
+	check(server.count_casters() == 0, "no casters are left")
+	await _end()
+
+
+## A leaf whose material exists only on the RenderingServer.
+func test_the_server_reads_cut_out_materials() -> void:
+	_begin(false)
+	var server: Object = Engine.get_singleton("GnomonServer")
+	var image := Image.create(64, 64, false, Image.FORMAT_RGBA8)
+	image.fill_rect(Rect2i(24, 0, 16, 64), Color.WHITE)
+	var material := StandardMaterial3D.new()
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR
+	material.albedo_texture = ImageTexture.create_from_image(image)
+	material.cull_mode = BaseMaterial3D.CULL_DISABLED
+	var mesh := PlaneMesh.new()
+	var at := Transform3D(Basis(), Vector3(0, 1, 0))
+	var instance := RenderingServer.instance_create2(mesh.get_rid(), _viewport.find_world_3d().scenario)
+	RenderingServer.instance_set_transform(instance, at)
+	RenderingServer.instance_geometry_set_material_override(instance, material.get_rid())
+	server.add_caster(instance, mesh.get_rid(), at, 1, material.get_rid())
+	await _compare_card("server leaf")
+	server.remove_caster(instance)
+	RenderingServer.free_rid(instance)
+	await _end()
+
+
+## test_addon.py counts the messages.
+func test_the_server_refuses_what_it_cannot_cast() -> void:
+	_begin(false)
+	var server: Object = Engine.get_singleton("GnomonServer")
+	var mesh := BoxMesh.new()
+	var scenario := _viewport.find_world_3d().scenario
+	var instance := RenderingServer.instance_create2(mesh.get_rid(), scenario)
+	server.add_caster(RID(), mesh.get_rid(), Transform3D(), 1, RID())
+	server.add_caster(instance, RID(), Transform3D(), 1, RID())
+	var empty := RenderingServer.mesh_create()  # without surfaces
+	server.add_caster(instance, empty, Transform3D(), 1, RID())
+	RenderingServer.free_rid(empty)
+	server.add_caster(instance, mesh.get_rid(), Transform3D(Basis(), Vector3(NAN, 0, 0)), 1, RID())
+	server.add_caster(instance, mesh.get_rid(), Transform3D(), 0, RID())
+	server.move_caster(instance, Transform3D())
+	server.remove_caster(instance)
+	check(server.count_casters() == 0, "nothing was added")
+	server.add_caster(instance, mesh.get_rid(), Transform3D(), 1, RID())
+	server.add_caster(instance, mesh.get_rid(), Transform3D(Basis(), Vector3(1, 0.5, 0)), 1, RID()) # replaces it
+	check(server.count_casters() == 1, "one caster")
+	RenderingServer.free_rid(instance)
+	mesh = null  # the mesh is freed too, before its caster
+	_sun.add_child(ClassDB.instantiate("GnomonShadow3D"))
+	await draw_frames(3)
+	server.remove_caster(instance)
+	await draw_frames(2)
+	await _end()
+
+
+func test_the_server_takes_ten_thousand_calls_a_frame() -> void:
+	_begin(false)
+	var server: Object = Engine.get_singleton("GnomonServer")
+	var mesh := BoxMesh.new()
+	var instances: Array[RID] = []
+	for index in 200:
+		instances.append(RenderingServer.instance_create2(mesh.get_rid(), _viewport.find_world_3d().scenario))
+		server.add_caster(instances.back(), mesh.get_rid(), Transform3D(Basis().scaled(Vector3.ONE * 0.1), Vector3(index % 20 * 0.3 - 3.0, 0.2, index / 20 * 0.3 - 2.0)), 1, RID())
+	_sun.add_child(ClassDB.instantiate("GnomonShadow3D"))
+	for frame in 3:
+		for call in 10000:
+			var index := call % 200
+			server.move_caster(instances[index], Transform3D(Basis().scaled(Vector3.ONE * 0.1), Vector3(index % 20 * 0.3 - 3.0, 0.2 + 0.01 * frame, index / 20 * 0.3 - 2.0)))
+		await draw_frames(1)
+	for instance in instances:
+		server.remove_caster(instance)
+		RenderingServer.free_rid(instance)
+	check(server.count_casters() == 0, "no casters are left")
 	await _end()
