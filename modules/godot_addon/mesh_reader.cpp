@@ -179,15 +179,13 @@ const std::vector<ReadSurface> &MeshReader::read(
 }
 
 bool MeshReader::is_cut_ready(const std::shared_ptr<const Mesh> &p_cut) {
-	if (prepared.try_emplace(p_cut->id, p_cut).second) {
-		worker.prepare(p_cut);
-	}
+	prepare(p_cut);
 	return worker.is_ready(p_cut);
 }
 
-void MeshReader::prepare(const ReadSurface &p_surface) {
-	if (prepared.try_emplace(p_surface.mesh->id, p_surface.mesh).second) {
-		worker.prepare(p_surface.mesh);
+void MeshReader::prepare(const std::shared_ptr<const Mesh> &p_mesh) {
+	if (prepared.try_emplace(p_mesh->id, p_mesh).second) {
+		worker.prepare(p_mesh);
 	}
 }
 

@@ -34,12 +34,13 @@ public:
 	const std::vector<ReadSurface> &read(const godot::Mesh &p_mesh, const std::string &p_name);
 	/// False while the worker thread computes the surface's edges. Until then it cannot cast a
 	/// shadow.
-	bool is_ready(const ReadSurface &p_surface) { return worker.is_ready(p_surface.mesh); }
+	bool is_ready(const ReadSurface &p_surface) { return is_ready(p_surface.mesh); }
+	bool is_ready(const std::shared_ptr<const Mesh> &p_mesh) { return worker.is_ready(p_mesh); }
 	/// The same for p_cut, the mesh that the alpha test leaves of a surface. The first call passes
 	/// it to the worker.
 	bool is_cut_ready(const std::shared_ptr<const Mesh> &p_cut);
-	/// Passes a surface of read_server_mesh() to the worker, once; see is_ready().
-	void prepare(const ReadSurface &p_surface);
+	/// Passes a mesh that was not read here to the worker, once; see is_ready().
+	void prepare(const std::shared_ptr<const Mesh> &p_mesh);
 	/// Returns the surface's mesh with each vertex moved along its normal. p_grow_m: the distance,
 	/// in mesh space.
 	std::shared_ptr<const Mesh> grow(const ReadSurface &p_surface, float p_grow_m);

@@ -14,9 +14,10 @@ struct SceneBody {
 	std::string name;
 	uint32_t layers = 1;
 	bool casts_shadow = true;
-	bool is_drawn = true;  // false: it only casts a shadow
-	bool is_faded = false; // a view draws it transparent, whatever its materials are
-	float detail_bias = 1; // lod_bias
+	bool is_double_sided = false; // casts with all faces, whatever its materials cull
+	bool is_drawn = true;		  // false: it only casts a shadow
+	bool is_faded = false;		  // a view draws it transparent, whatever its materials are
+	float detail_bias = 1;		  // lod_bias
 };
 
 /// Returns the transform with which Godot draws a node in this frame, with physics interpolation.

@@ -92,6 +92,7 @@ size_t count_draws(const GeometryInstance3D &p_node) {
 
 void set_casting(SceneBody &r_body, int64_t p_setting) {
 	r_body.casts_shadow = p_setting != GeometryInstance3D::SHADOW_CASTING_SETTING_OFF;
+	r_body.is_double_sided = p_setting == GeometryInstance3D::SHADOW_CASTING_SETTING_DOUBLE_SIDED;
 	r_body.is_drawn = p_setting != GeometryInstance3D::SHADOW_CASTING_SETTING_SHADOWS_ONLY;
 }
 
@@ -211,6 +212,11 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 				turned.casts_shadow = instance.casts_shadow;
 				view.billboards.emplace_back(r_scene.instances.size(), std::move(turned));
 			}
+		}
+		if (instance.casts_shadow && shadow.culling != ShadowCulling::NONE &&
+				!p_body.is_double_sided && !is_billboard && !instance.pose &&
+				instance.caster_mesh == drawn.mesh) {
+			culled.push_back({ r_scene.instances.size(), shadow.culling });
 		}
 		if (surface.levels && !is_moved) {
 			details.push_back({ r_scene.instances.size(), surface.levels, /*bounds_world=*/{},
@@ -431,7 +437,7 @@ void SceneReader::read_server_casters(SceneSnapshot &r_scene) {
 			InstanceSnapshot instance = make_instance(read.mesh, caster.cut_outs[surface],
 					caster.world_from_mesh.to_matrix(), read.mesh->name);
 			instance.layers = caster.layers;
-			meshes.prepare(read);
+			meshes.prepare(read.mesh);
 			const bool is_ready = meshes.is_ready(read) &&
 					(instance.caster_mesh == read.mesh ||
 							meshes.is_cut_ready(instance.caster_mesh));
@@ -472,6 +478,28 @@ LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_s
 	return light;
 }
 
+void SceneReader::cull_faces(const ShadowNode &p_node, SceneSnapshot &r_scene) {
+	if (p_node.casts_back_faces()) {
+		return;
+	}
+	const LightSnapshot &light = r_scene.lights.back();
+	const bool is_reversed = p_node.find_light().get_shadow_reverse_cull_face();
+	const glm::dvec4 light_world = light.type == LightType::DIRECTIONAL
+			? glm::dvec4(-light.get_direction_world(), 0.0)
+			: glm::dvec4(light.position_world, 1.0);
+	for (const CulledInstance &entry : culled) {
+		InstanceSnapshot &instance = r_scene.instances[entry.instance];
+		const bool is_back = (entry.culling == ShadowCulling::BACK) != is_reversed;
+		const std::shared_ptr<const Mesh> mesh =
+				facing.select(instance.caster_mesh, text(light.name, " ", entry.instance),
+						glm::inverse(instance.world_from_node) * light_world,
+						is_back ? ShadowCulling::BACK : ShadowCulling::FRONT);
+		if (mesh != instance.caster_mesh) {
+			instance.caster_meshes_of_lights[light.name] = mesh;
+		}
+	}
+}
+
 ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tree,
 		std::span<ShadowNode *const> p_nodes, std::vector<godot::Light3D> p_hidden_lights) {
 	if (!grid_maps) {
@@ -484,6 +512,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	frame->number = frame_number;
 	pending_count = 0;
 	details.clear();
+	culled.clear();
 	world_frame = frame;
 	frame->views = find_view_details(p_tree, p_scenario);
 	visibility.begin_world(frame->views);
@@ -527,6 +556,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 			node->makes_mask = false;
 			continue;
 		}
+		cull_faces(*node, *scene);
 		world.masked_lights.push_back(node->find_light());
 		if (node->shows_mask()) {
 			frame->shown_lights.insert(scene->lights.back().name);
@@ -557,6 +587,7 @@ void SceneReader::end_frame() {
 	materials.forget_unused();
 	visibility.forget_unused();
 	unknown_objects.forget_unused();
+	facing.forget_unused();
 	std::erase_if(warned,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
 }

@@ -41,6 +41,8 @@ public:
 
 private:
 	void read_node(uint64_t p_id, SceneSnapshot &r_scene);
+	/// Leaves out the faces that Godot's shadow of the last light in r_scene leaves out.
+	void cull_faces(const ShadowNode &p_node, SceneSnapshot &r_scene);
 	/// Adds the casters of GnomonServer.
 	void read_server_casters(SceneSnapshot &r_scene);
 	/// Sets bounds and scale of the details from p_first on, which belong to p_body. Godot chooses
@@ -74,9 +76,15 @@ private:
 	std::shared_ptr<ScenarioFrame> world_frame; // of `world`, while it is read
 	std::unique_ptr<GridMaps> grid_maps;
 	MeshReader meshes;
+	FacingCasters facing{ meshes };
 	PoseReader poses;
 	ShadowMaterials materials;
 	std::set<std::pair<uint64_t, std::string>> warned; // id of the node, warning
+	struct CulledInstance {
+		size_t instance = 0; // in the SceneSnapshot
+		ShadowCulling culling = ShadowCulling::BACK;
+	};
+	std::vector<CulledInstance> culled;
 	int64_t pending_count = 0;
 	std::vector<InstanceDetail> details;
 	uint64_t frame_number = 0;

@@ -21,6 +21,23 @@ ShadowKind read_base_material(const godot::BaseMaterial3D &p_material) {
 	}
 }
 
+ShadowCulling read_culling(const godot::BaseMaterial3D &p_material) {
+	switch (p_material.get_cull_mode()) {
+		case godot::BaseMaterial3D::CULL_BACK:
+			return ShadowCulling::BACK;
+		case godot::BaseMaterial3D::CULL_FRONT:
+			return ShadowCulling::FRONT;
+		default:
+			return ShadowCulling::NONE;
+	}
+}
+
+ShadowCulling read_culling(const ShaderText &p_shader) {
+	return p_shader.has_word("cull_disabled") ? ShadowCulling::NONE
+			: p_shader.has_word("cull_front") ? ShadowCulling::FRONT
+											  : ShadowCulling::BACK;
+}
+
 } // namespace
 
 ShadowKind find_shadow_kind(const ShaderText &p_shader) {
@@ -55,6 +72,7 @@ ShadowSurface ShadowMaterials::read_now(const godot::Material &p_material) {
 		surface.kind = read_base_material(base);
 		surface.cut_out = surface.kind == ShadowKind::CUT_OUT ? cut_outs.read(base) : nullptr;
 		surface.motion = read_vertex_motion(base);
+		surface.culling = read_culling(base);
 	} else if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
 		if (const godot::Ref<godot::Shader> shader = custom.get_shader()) {
 			const Entry &entry = read_shader(shader);
@@ -82,7 +100,7 @@ const ShadowMaterials::Entry &ShadowMaterials::read_shader(const godot::Shader &
 		const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
 		entry.text = ShaderText(server.shader_get_code(p_shader.get_rid()).to_utf8());
 		entry.surface = { find_shadow_kind(entry.text), /*cut_out=*/nullptr,
-			read_vertex_motion(entry.text) };
+			read_vertex_motion(entry.text), read_culling(entry.text) };
 	}
 	return entry;
 }

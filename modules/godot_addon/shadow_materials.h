@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/godot_addon/cut_out_materials.h"
+#include "modules/godot_addon/facing_casters.h"
 #include "modules/godot_addon/shader_text.h"
 #include "modules/godot_addon/vertex_motion.h"
 #include "modules/godot_addon/watched_resource.h"
@@ -23,6 +24,7 @@ struct ShadowSurface {
 	/// If CUT_OUT: the alpha mask; null: it cannot be read.
 	std::shared_ptr<const Material> cut_out;
 	VertexMotion motion;
+	ShadowCulling culling = ShadowCulling::BACK;
 };
 
 /// Reads how Godot's materials cast. Main thread only.

@@ -41,6 +41,10 @@ bool ShadowNode::shows_mask() const {
 	return values.contains(SHOW_MASK_PROPERTY); // only if it differs from the default, false
 }
 
+bool ShadowNode::casts_back_faces() const {
+	return values.contains(BACK_FACES_PROPERTY);
+}
+
 PropertyValue ShadowNode::get_value(size_t p_property) const {
 	const PropertyInfo &info = get_info(p_property);
 	const auto found = values.find(info.name);
@@ -73,6 +77,7 @@ PropertyValues ShadowNode::make_light_properties(bool p_is_directional) const {
 	}
 	properties.erase(TECHNIQUE_PROPERTY);
 	properties.erase(SHOW_MASK_PROPERTY);
+	properties.erase(BACK_FACES_PROPERTY);
 	properties["shadow_technique"] = get_technique();
 	const double size = find_light().get_param(godot::Light3D::PARAM_SIZE);
 	properties[p_is_directional ? "light_angular_distance" : "light_size"] = size;

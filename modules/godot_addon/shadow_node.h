@@ -41,6 +41,7 @@ public:
 	/// Returns the technique's id; the project's if the node is set to DEFAULT_TECHNIQUE.
 	const std::string &get_technique() const;
 	bool shows_mask() const;
+	bool casts_back_faces() const;
 	/// p_property: index in get_shadow_properties().
 	PropertyValue get_value(size_t p_property) const;
 	/// Throws an Error that names the node, and changes nothing, if the value is out of range.

@@ -104,6 +104,15 @@ std::vector<ShadowProperty> make_properties() {
 		properties.push_back({ *Light3D::get_property_list().find(name), "" });
 		properties.back().info.group.clear(); // shown above all groups
 	}
+	PropertyInfo back_faces;
+	back_faces.name = BACK_FACES_PROPERTY;
+	back_faces.type = PropertyType::BOOL;
+	back_faces.default_value = false;
+	back_faces.tooltip = "Surfaces cast with all of their faces, as they hide light. Off: the cull "
+						 "mode of a material and the light's shadow_reverse_cull_face decide which "
+						 "faces cast, as in Godot's own shadow: of single-sided walls those that "
+						 "face the light.";
+	properties.push_back({ back_faces, "" });
 	for (const ShadowTechniqueInfo *technique : find_offered()) {
 		for (const PropertyInfo &info :
 				ShadowRegistry::get_light_properties(technique->id).get_properties()) {

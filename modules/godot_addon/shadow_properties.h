@@ -15,6 +15,7 @@ struct ShadowProperty {
 };
 
 inline constexpr char TECHNIQUE_PROPERTY[] = "technique";
+inline constexpr char BACK_FACES_PROPERTY[] = "cast_back_faces";
 inline constexpr char SHOW_MASK_PROPERTY[] = "show_mask";
 
 /// Value of the property "technique": the technique of the project setting below.

@@ -161,8 +161,8 @@ USED = {
     "BaseMaterial3D": {
         "methods": """get_transparency get_depth_draw_mode get_flag get_blend_mode get_texture get_albedo
             get_alpha_scissor_threshold get_uv1_scale get_uv1_offset get_texture_filter get_billboard_mode
-            is_grow_enabled get_grow""",
-        "enums": "BillboardMode Transparency DepthDrawMode Flags BlendMode TextureParam TextureFilter",
+            is_grow_enabled get_grow get_cull_mode""",
+        "enums": "CullMode BillboardMode Transparency DepthDrawMode Flags BlendMode TextureParam TextureFilter",
     },
     "ShaderMaterial": {"methods": "get_shader get_shader_parameter"},
     "Shader": {"methods": "get_default_texture_parameter"},

@@ -178,9 +178,8 @@ void LightSnapshot::decide_settings(double p_scene_size_m) {
 	technique_id = std::get<std::string>(read_property(*this, "shadow_technique"));
 	// May exceed the range of explicit widths: a scene of any size has the penumbra of its light's
 	// angle.
-	size_m = type == LightType::DIRECTIONAL
-			? get_disc_radius() * static_cast<float>(p_scene_size_m)
-			: light_size_m;
+	size_m = type == LightType::DIRECTIONAL ? get_disc_radius() * static_cast<float>(p_scene_size_m)
+											: light_size_m;
 	penumbra_outer_width_m = read_float(*this, "penumbra_outer_width");
 	penumbra_inner_width_m = read_float(*this, "penumbra_inner_width");
 	is_outer_width_derived = penumbra_outer_width_m < 0;
@@ -280,9 +279,13 @@ std::shared_ptr<const SceneSnapshot> SceneSnapshot::select_casters(
 		if (!instance.casts_shadow) {
 			continue;
 		}
-		const bool casts = (instance.layers & p_light.caster_layers) != 0;
-		const std::shared_ptr<const Mesh> mesh =
-				casts ? choose_caster_mesh(instance, p_light, bounds) : instance.caster_mesh;
+		const auto of_light = instance.caster_meshes_of_lights.find(p_light.name);
+		const bool has_own = of_light != instance.caster_meshes_of_lights.end();
+		const bool casts =
+				(instance.layers & p_light.caster_layers) != 0 && (!has_own || of_light->second);
+		const std::shared_ptr<const Mesh> mesh = !casts ? instance.caster_mesh
+				: has_own								? of_light->second
+						  : choose_caster_mesh(instance, p_light, bounds);
 		if (casts && mesh == instance.caster_mesh) {
 			continue;
 		}
@@ -291,6 +294,9 @@ std::shared_ptr<const SceneSnapshot> SceneSnapshot::select_casters(
 		}
 		selected->instances[index].casts_shadow = casts;
 		selected->instances[index].caster_mesh = mesh;
+		if (casts && has_own) {
+			selected->instances[index].cut_hash = mesh->content_hash;
+		}
 	}
 	return selected;
 }

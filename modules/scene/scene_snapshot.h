@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -97,6 +98,9 @@ struct InstanceSnapshot {
 	uint32_t cut_block_size_px = 0; // see CutMesh::block_size_px
 	uint64_t cut_hash = 0;			// see CutMesh::content_hash
 	bool casts_shadow = true;
+	/// Meshes that cast the shadows of single lights instead of caster_mesh, by the light's name;
+	/// null: it casts none of that light.
+	std::map<std::string, std::shared_ptr<const Mesh>> caster_meshes_of_lights;
 	bool is_planar_receiver = false;
 	uint32_t layers = 1; // see LightSnapshot::caster_layers
 
@@ -147,9 +151,9 @@ struct SceneSnapshot {
 	}
 	/// Returns the matrix from node to camera-relative space, composed in double.
 	glm::mat4 get_camera_relative_from_node(const InstanceSnapshot &p_instance) const;
-	/// Returns the scene in which only instances on the light's layers cast shadows, and cut-out
-	/// instances cast them with the level of detail that suits the light's penumbra. Null if that
-	/// equals this scene.
+	/// Returns the scene in which only instances on the light's layers cast shadows, with the
+	/// meshes of caster_meshes_of_lights, and cut-out instances cast them with the level of detail
+	/// that suits the light's penumbra. Null if that equals this scene.
 	std::shared_ptr<const SceneSnapshot> select_casters(const LightSnapshot &p_light) const;
 	/// Returns null if there is no light of that name.
 	const LightSnapshot *find_light(const std::string &p_name) const;

@@ -175,3 +175,25 @@ TEST_CASE("[SceneSnapshot] a mirroring transform is detected") {
 	instance.world_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));
 	CHECK(instance.is_mirrored());
 }
+
+TEST_CASE("[SceneSnapshot] an instance casts with another mesh, or nothing, for single lights") {
+	SmallScene small;
+	SceneSnapshot scene = *small.build();
+	CHECK_FALSE(scene.select_casters(scene.lights[0]));
+	const auto other = make_mesh("o", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 2, 0 } }, {}, { 0, 1, 2 });
+	InstanceSnapshot &instance = scene.instances[0];
+	const uint64_t hash = instance.compute_hash(1);
+	instance.caster_meshes_of_lights = { { "Lamp", other }, { "Sun", nullptr } };
+	const auto of_lamp = scene.select_casters(scene.lights[0]);
+	REQUIRE(of_lamp);
+	CHECK(of_lamp->instances[0].caster_mesh == other);
+	CHECK(of_lamp->instances[0].casts_shadow);
+	CHECK(of_lamp->instances[0].compute_hash(1) != hash);
+	LightSnapshot light = scene.lights[0];
+	light.name = "Sun";
+	const auto of_sun = scene.select_casters(light);
+	REQUIRE(of_sun);
+	CHECK_FALSE(of_sun->instances[0].casts_shadow);
+	light.name = "Moon";
+	CHECK_FALSE(scene.select_casters(light));
+}
