@@ -1,5 +1,6 @@
-# shellcheck shell=bash
-# Finds or installs a Godot 4 for the add-on's build, demo and tests. Source it after install_packages.sh; see doc/godot.md.
+#!/usr/bin/env bash
+# Finds or installs a Godot 4 for the add-on's build, demo and tests; see doc/godot.md. Run it by itself, or source it after
+# install_packages.sh and call install_godot.
 
 GODOT_SUITE=sid # Debian 12 has no Godot 4
 GODOT_PACKAGES=(
@@ -48,14 +49,17 @@ _make_godot_root() {
         echo "ERROR: apt names no mirror to get Godot from. Run apt-get update, or set \$GODOT to a Godot 4.5 or later." >&2
         return 1
     fi
-    echo "Setting up Godot in $folder (1.2 GB)"
+    echo "Setting up Godot in $folder (1.2 GB, 3 minutes on a fast connection)"
     rm -rf "$folder/root.part"
     mkdir -p "$folder/root.part"
+    echo "1/3 base system of Debian $GODOT_SUITE"
     # Check-Valid-Until=false accepts a mirror whose index has expired, such as a snapshot.
     if ! unshare --mount debootstrap --variant=minbase --include=ca-certificates "$GODOT_SUITE" "$folder/root.part" \
         "$mirror" >"$folder/log" 2>&1 ||
         ! cp /etc/resolv.conf "$folder/root.part/etc/" ||
+        ! echo "2/3 package lists" ||
         ! _run_in "$folder/root.part" apt-get -o Acquire::Check-Valid-Until=false update >>"$folder/log" 2>&1 ||
+        ! echo "3/3 Godot, its graphics driver and a virtual display" ||
         ! _run_in "$folder/root.part" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
             "${GODOT_PACKAGES[@]}" >>"$folder/log" 2>&1; then
         tail -n 5 "$folder/log" >&2
@@ -66,16 +70,26 @@ _make_godot_root() {
     mv "$folder/root.part" "$folder/root"
     cat >"$folder/run" <<TEXT
 #!/bin/bash
-# Runs a program in a root directory of its own, in which this project has the path that it has here.
-# GODOT_DISPLAY=virtual gives it a display, which a RenderingDevice needs.
+# Runs a program in a root directory of its own, in which this project and the user's home have the paths that they have here.
+# GODOT_DISPLAY=virtual gives it a display, which a RenderingDevice needs, and a home of its own, which tests need.
 exec unshare --mount bash -c 'set -e
     S=$folder/root
+    home=/root
+    if [ "\${GODOT_DISPLAY:-}" != virtual ] && [ -d "\${HOME:-}" ] && [ "\$HOME" != / ]; then
+        home=\$HOME
+        mkdir -p "\$S\$home"
+        mount --bind "\$home" "\$S\$home"
+        if [ -d /tmp/.X11-unix ]; then
+            mkdir -p "\$S/tmp/.X11-unix"
+            mount --bind /tmp/.X11-unix "\$S/tmp/.X11-unix"
+        fi
+    fi
     mkdir -p "\$S$root"
     mount --bind "$root" "\$S$root"
     mount --bind /proc "\$S/proc"
     mount --bind /dev "\$S/dev"
     here=\$PWD
-    exec chroot "\$S" env HOME=/root XDG_RUNTIME_DIR=/run bash -c "cd \"\$here\" 2>/dev/null || cd /
+    exec chroot "\$S" env HOME="\$home" XDG_RUNTIME_DIR=/run bash -c "cd \"\$here\" 2>/dev/null || cd /
         if [ \"\${GODOT_DISPLAY:-}\" = virtual ]; then
             exec xvfb-run -a -s \"-screen 0 1280x1024x24\" \"\\\$@\"
         fi
@@ -92,3 +106,12 @@ _run_in() {
     # shellcheck disable=SC2016
     unshare --mount bash -c 'mount --bind /proc "$0/proc" && mount --bind /dev "$0/dev" && exec chroot "$0" "$@"' "$folder" "$@"
 }
+
+if [ "${BASH_SOURCE[0]}" = "$0" ]; then
+    root=$(cd "$(dirname "$0")/.." && pwd)
+    # shellcheck source=demo_project/install_packages.sh
+    . "$root/demo_project/install_packages.sh"
+    install_godot "$root" || exit 1
+    echo "Godot $("$GODOT" --version 2>/dev/null | tail -n 1): $GODOT"
+    echo "To build the add-on with it: scons addon_zip=yes"
+fi

@@ -50,16 +50,21 @@ install_packages() {
         fi
         as_root=(sudo)
     fi
-    # env sets the variable, because sudo would drop it.
-    local install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends
-        install "${missing[@]}")
+    # env sets the variable, because sudo would drop it. Another apt or dpkg that runs is waited for.
+    local errors install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=60 -qq -y
+        --no-install-recommends install "${missing[@]}")
     if "${install[@]}" >/dev/null 2>&1; then
         return 0
     fi
     # The package lists may be absent or old.
     "${as_root[@]}" apt-get -qq update >/dev/null || true
-    if "${install[@]}" >/dev/null; then
+    if errors=$("${install[@]}" 2>&1 >/dev/null); then
         return 0
+    fi
+    echo "$errors" >&2
+    if [[ $errors == *"Could not get lock"* || $errors == *"Unable to acquire the dpkg"* ]]; then
+        echo "ERROR: apt is busy: another program installs packages. Wait until it has ended, then run this again." >&2
+        return 1
     fi
     echo "ERROR: apt-get could not install: ${missing[*]}. Check the network connection, and that this is Debian 12." >&2
     return 1

@@ -12,14 +12,16 @@ from SCons.Script import Action
 
 NO_GODOT_ERROR = (
     "ERROR: no Godot was found. Set $GODOT to a Godot 4.5 or later, or have `godot` in PATH.\n"
-    "demo_project/run_godot_demo.sh sets one up on Debian 12, below build/godot_program/."
+    "demo_project/install_godot.sh sets one up on Debian 12, below build/godot_program/, which is then found."
 )
 ADDON_LIBRARY = "#demo_project/godot/addons/gnomon/bin/libgnomon.linux.x86_64.so"
 
 
 def find_godot():
-    """Return the path of Godot, from $GODOT or PATH, or None."""
-    return os.environ.get("GODOT") or shutil.which("godot")
+    """Return the path of Godot: $GODOT, `godot` in PATH, or that of demo_project/install_godot.sh; None if there is none."""
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    installed = os.path.join(root, "build", "godot_program", "godot")
+    return os.environ.get("GODOT") or shutil.which("godot") or (installed if os.path.exists(installed) else None)
 
 
 def _dump(target, source, env):

@@ -48,8 +48,8 @@ float compute_coverage(const godot::Light3D &p_light, std::span<const ViewDetail
 	return coverage;
 }
 
-void choose_lights(std::vector<ShadowNode *> &r_nodes, std::span<const ViewDetail> p_views,
-		size_t p_count) {
+void choose_lights(
+		std::vector<ShadowNode *> &r_nodes, std::span<const ViewDetail> p_views, size_t p_count) {
 	if (r_nodes.size() <= p_count) {
 		return;
 	}

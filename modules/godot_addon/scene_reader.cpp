@@ -386,14 +386,16 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 	if (visual) {
 		body.layers = static_cast<uint32_t>(visual.get_layer_mask());
 	}
+	const bool has_range = geometry && ViewVisibility::has_range(geometry);
 	if (geometry) {
 		set_casting(body, geometry.get_cast_shadows_setting());
 		body.detail_bias = static_cast<float>(geometry.get_lod_bias());
-		body.is_faded = geometry.get_transparency() > 0 || visibility.is_faded(geometry);
+		body.is_faded =
+				geometry.get_transparency() > 0 || (has_range && visibility.is_faded(geometry));
 	}
-	if (grid_map) {
+	if (unknown_objects.is_checking() && grid_map) {
 		unknown_objects.add_everywhere(size_t(grid_map.get_meshes().get_size()) * MAX_PASSES);
-	} else {
+	} else if (unknown_objects.is_checking()) {
 		unknown_objects.add(geometry, count_draws(geometry));
 	}
 	const size_t first_instance = r_scene.instances.size();
@@ -424,7 +426,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		}
 		read_box(body, visual, r_scene);
 	}
-	if (geometry) {
+	if (has_range) {
 		visibility.hide(geometry, first_instance, r_scene.instances.size());
 	}
 	finish_details(body, first_detail, r_scene);
@@ -516,7 +518,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	world_frame = frame;
 	frame->views = find_view_details(p_tree, p_scenario);
 	visibility.begin_world(frame->views);
-	unknown_objects.begin_world(frame->views);
+	unknown_objects.begin_world(frame->views, frame_number);
 	const bool has_masked_view = add_view_notices(frame->views);
 	std::vector<uint64_t> ids = find_instances(p_scenario);
 	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);

@@ -8,6 +8,11 @@ namespace gnomon {
 
 namespace {
 
+// Reading the boxes of all nodes takes time, so that later frames are checked in groups: one to
+// compare with the next, and two that must agree.
+const uint64_t CHECK_INTERVAL = 60;
+const uint64_t CHECKED_FRAMES = 3;
+
 /// Whether a part of the box may be in view; the near and far planes are ignored.
 bool may_see(const glm::dmat4 &p_clip_from_world, const Bounds &p_bounds) {
 	int outside[5] = {};
@@ -27,8 +32,13 @@ bool may_see(const glm::dmat4 &p_clip_from_world, const Bounds &p_bounds) {
 
 } // namespace
 
-void UnknownObjects::begin_world(const std::vector<ViewDetail> &p_views) {
+void UnknownObjects::begin_world(const std::vector<ViewDetail> &p_views, uint64_t p_frame_number) {
+	checks = p_frame_number < CHECK_INTERVAL || p_frame_number % CHECK_INTERVAL < CHECKED_FRAMES;
 	viewports.clear();
+	if (!checks) {
+		counts.clear();
+		return;
+	}
 	for (const ViewDetail &view : p_views) {
 		viewports.push_back(view.viewport_id);
 		ViewCount &count = counts[view.viewport_id];

@@ -14,8 +14,11 @@ namespace gnomon {
 /// thread only.
 class UnknownObjects {
 public:
-	/// Call once per frame and world. p_views: of the frame about to be drawn.
-	void begin_world(const std::vector<ViewDetail> &p_views);
+	/// Call once per frame and world. p_views: of the frame about to be drawn. p_frame_number:
+	/// counts frames; all of the first are checked, later ones three in a second.
+	void begin_world(const std::vector<ViewDetail> &p_views, uint64_t p_frame_number);
+	/// Whether the nodes of this frame are to be added.
+	bool is_checking() const { return checks; }
 	/// Adds a node that Godot draws with p_count draw calls if its box is in view.
 	void add(const godot::GeometryInstance3D &p_node, size_t p_count);
 	/// Adds a box in the world.
@@ -36,7 +39,8 @@ private:
 		int64_t last_unknown = 0; // in that frame
 	};
 	std::map<uint64_t, ViewCount> counts; // by viewport
-	std::vector<uint64_t> viewports;	  // of the world
+	std::vector<uint64_t> viewports;	  // of the world; empty if this frame is not checked
+	bool checks = false;
 };
 
 } // namespace gnomon

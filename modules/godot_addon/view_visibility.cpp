@@ -27,12 +27,12 @@ GeometryInstance3D find_parent(const GeometryInstance3D &p_node) {
 								  : godot::cast<GeometryInstance3D>(p_node.get_node_or_null(path));
 }
 
-bool has_range(const GeometryInstance3D &p_node) {
+} // namespace
+
+bool ViewVisibility::has_range(const GeometryInstance3D &p_node) {
 	return p_node.get_visibility_range_begin() > 0 || p_node.get_visibility_range_end() > 0 ||
 			!p_node.get_visibility_parent().to_utf8().empty();
 }
-
-} // namespace
 
 RangeState ViewVisibility::find_state(const GeometryInstance3D &p_node, const ViewDetail &p_view) {
 	const double begin_m = p_node.get_visibility_range_begin();
@@ -84,16 +84,12 @@ RangeState ViewVisibility::find_state_with_parent(
 }
 
 bool ViewVisibility::is_faded(const GeometryInstance3D &p_node) {
-	return has_range(p_node) &&
-			std::any_of(views->begin(), views->end(), [&](const ViewDetail &p_view) {
-				return find_state_with_parent(p_node, p_view) == RangeState::FADED;
-			});
+	return std::any_of(views->begin(), views->end(), [&](const ViewDetail &p_view) {
+		return find_state_with_parent(p_node, p_view) == RangeState::FADED;
+	});
 }
 
 void ViewVisibility::hide(const GeometryInstance3D &p_node, size_t p_first, size_t p_last) {
-	if (!has_range(p_node)) {
-		return;
-	}
 	for (ViewDetail &view : *views) {
 		const RangeState state = find_state_with_parent(p_node, view);
 		if (state == RangeState::NEARER || state == RangeState::FARTHER) {

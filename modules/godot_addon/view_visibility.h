@@ -21,6 +21,9 @@ class ViewVisibility {
 public:
 	/// Call once per frame and world, with its views.
 	void begin_world(std::vector<ViewDetail> &r_views) { views = &r_views; }
+	/// Whether the node has a visibility range or parent. The other functions need not be called
+	/// for nodes that have none.
+	static bool has_range(const godot::GeometryInstance3D &p_node);
 	/// Whether a view draws the node transparent.
 	bool is_faded(const godot::GeometryInstance3D &p_node);
 	/// Makes the instances from p_first to p_last - 1, which are the node's, cast nothing in the

@@ -54,4 +54,5 @@ static func _add_shadow(light: Light3D, described: Dictionary) -> void:
 	light.shadow_enabled = true
 	var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
 	shadow.name = "Shadow"
+	shadow.cast_back_faces = true # as in `gnomon`
 	light.add_child(shadow)

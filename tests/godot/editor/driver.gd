@@ -46,9 +46,12 @@ func _run() -> void:
 	_report_saved()
 	EditorInterface.set_plugin_enabled("gnomon", false)
 	await _draw(SETTLED_FRAMES)
+	_report("switching_the_plugin_off_brings_godots_shadow_back", _count_darker(before, await _look()) > 500)
+	_light.shadow_enabled = false
 	var off := await _look()
 	off.save_png("res://off.png")
 	_report("switching_the_plugin_off_restores_all", _count_darker(before, off) == 0)
+	_light.shadow_enabled = true
 	EditorInterface.set_plugin_enabled("gnomon", true)
 	await _draw(SETTLED_FRAMES)
 	_report("switching_it_on_brings_it_back", _count_darker(before, await _look()) > 500)

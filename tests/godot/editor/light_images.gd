@@ -9,15 +9,14 @@ const SETTLED_FRAMES := 12
 ## Stores linear float32 images of the red channel, rows from the top: NAME_shadow.f32, NAME_lit.f32 without the shadow, NAME_dark.f32
 ## without the light. NAME.gltf is the scene with a camera ViewCamera that sees what the view does.
 static func store(name: String, viewport: Viewport, scene: Node, light: Light3D) -> void:
-	var shadow: Node3D = light.get_node("GnomonShadow3D")
 	viewport.use_hdr_2d = true
 	await _store_image(name + "_shadow", viewport)
-	shadow.visible = false
+	light.shadow_enabled = false
 	await _store_image(name + "_lit", viewport)
 	light.visible = false
 	await _store_image(name + "_dark", viewport)
 	light.visible = true
-	shadow.visible = true
+	light.shadow_enabled = true
 	viewport.use_hdr_2d = false
 	await _settle(viewport)
 	var copy := scene.duplicate(0)  # includes unsaved changes; 0: no signals, groups or scripts
