@@ -26,4 +26,10 @@ inline godot::Transform3D get_drawn_transform(const godot::Node3D &p_node) {
 														: p_node.get_global_transform();
 }
 
+/// Returns the node's box, in its own space, by which Godot culls it, without extra_cull_margin.
+inline godot::AABB get_culling_box(const godot::GeometryInstance3D &p_node) {
+	const godot::AABB custom = p_node.get_custom_aabb();
+	return custom.size == glm::vec3(0.0f) ? p_node.get_aabb() : custom;
+}
+
 } // namespace gnomon

@@ -518,7 +518,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	world_frame = frame;
 	frame->views = find_view_details(p_tree, p_scenario);
 	visibility.begin_world(frame->views);
-	unknown_objects.begin_world(frame->views, frame_number);
+	unknown_objects.begin_world(p_scenario, frame->views, frame_number);
 	const bool has_masked_view = add_view_notices(frame->views);
 	std::vector<uint64_t> ids = find_instances(p_scenario);
 	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);

@@ -32,14 +32,18 @@ bool may_see(const glm::dmat4 &p_clip_from_world, const Bounds &p_bounds) {
 
 } // namespace
 
-void UnknownObjects::begin_world(const std::vector<ViewDetail> &p_views, uint64_t p_frame_number) {
-	checks = p_frame_number < CHECK_INTERVAL || p_frame_number % CHECK_INTERVAL < CHECKED_FRAMES;
+void UnknownObjects::begin_world(
+		godot::RID p_scenario, const std::vector<ViewDetail> &p_views, uint64_t p_frame_number) {
+	World &world = worlds.try_emplace(p_scenario, World{ p_frame_number, true }).first->second;
+	world.is_used = true;
+	const uint64_t age = p_frame_number - world.first_frame;
+	checks = age < CHECK_INTERVAL || age % CHECK_INTERVAL < CHECKED_FRAMES;
 	viewports.clear();
-	if (!checks) {
-		counts.clear();
-		return;
-	}
 	for (const ViewDetail &view : p_views) {
+		if (!checks) {
+			counts.erase(view.viewport_id);
+			continue;
+		}
 		viewports.push_back(view.viewport_id);
 		ViewCount &count = counts[view.viewport_id];
 		count.clip_from_world = view.clip_from_world;
@@ -57,8 +61,7 @@ void UnknownObjects::add(const Bounds &p_bounds_world, size_t p_count) {
 }
 
 void UnknownObjects::add(const godot::GeometryInstance3D &p_node, size_t p_count) {
-	const godot::AABB custom = p_node.get_custom_aabb();
-	const godot::AABB box = custom.size == glm::vec3(0.0f) ? p_node.get_aabb() : custom;
+	const godot::AABB box = get_culling_box(p_node);
 	const glm::vec3 margin(static_cast<float>(p_node.get_extra_cull_margin()));
 	add(transform_bounds({ box.position - margin, box.position + box.size + margin },
 				get_drawn_transform(p_node).to_matrix()),
@@ -87,6 +90,10 @@ int64_t UnknownObjects::end_world() {
 }
 
 void UnknownObjects::forget_unused() {
+	std::erase_if(worlds, [](const auto &p_entry) { return !p_entry.second.is_used; });
+	for (auto &[scenario, world] : worlds) {
+		world.is_used = false;
+	}
 	std::erase_if(counts,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
 }

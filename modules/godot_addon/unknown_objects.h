@@ -15,8 +15,9 @@ namespace gnomon {
 class UnknownObjects {
 public:
 	/// Call once per frame and world. p_views: of the frame about to be drawn. p_frame_number:
-	/// counts frames; all of the first are checked, later ones three in a second.
-	void begin_world(const std::vector<ViewDetail> &p_views, uint64_t p_frame_number);
+	/// counts frames; a world's first 60 are checked, later three of 60.
+	void begin_world(
+			godot::RID p_scenario, const std::vector<ViewDetail> &p_views, uint64_t p_frame_number);
 	/// Whether the nodes of this frame are to be added.
 	bool is_checking() const { return checks; }
 	/// Adds a node that Godot draws with p_count draw calls if its box is in view.
@@ -28,7 +29,7 @@ public:
 	/// Returns how many unknown objects were drawn in two frames in a row, in the view that has the
 	/// most of them.
 	int64_t end_world();
-	/// Forgets viewports that were freed. Call once per frame.
+	/// Forgets viewports that were freed, and worlds that were not read. Call once per frame.
 	void forget_unused();
 
 private:
@@ -41,6 +42,11 @@ private:
 	std::map<uint64_t, ViewCount> counts; // by viewport
 	std::vector<uint64_t> viewports;	  // of the world; empty if this frame is not checked
 	bool checks = false;
+	struct World {
+		uint64_t first_frame = 0;
+		bool is_used = false; // in this frame
+	};
+	std::map<godot::RID, World> worlds; // by scenario
 };
 
 } // namespace gnomon

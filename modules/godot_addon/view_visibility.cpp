@@ -14,8 +14,7 @@ const int MAX_PARENTS = 64; // of visibility; more are a cycle
 
 /// Returns the point whose distance to the camera Godot compares with the range.
 glm::dvec3 find_center(const GeometryInstance3D &p_node) {
-	const godot::AABB custom = p_node.get_custom_aabb();
-	const godot::AABB box = custom.size == glm::vec3(0.0f) ? p_node.get_aabb() : custom;
+	const godot::AABB box = get_culling_box(p_node);
 	const glm::dmat4 world_from_node = get_drawn_transform(p_node).to_matrix();
 	return glm::dvec3(
 			world_from_node * glm::dvec4(glm::dvec3(box.position + 0.5f * box.size), 1.0));
