@@ -80,11 +80,11 @@ AddonSettings read_addon_settings() {
 			[](const godot::Variant &p_value) { return p_value.to_utf8(); });
 	settings.mask_resolution_scale = static_cast<float>(read_checked<double>(
 			resolution, [](const godot::Variant &p_value) { return p_value.to_float(); }));
-	const std::string kept = read_checked<std::string>(
+	const std::string shadows = read_checked<std::string>(
 			keep, [](const godot::Variant &p_value) { return p_value.to_utf8(); });
-	settings.keep_godot_shadows = kept == "always" ? KeepGodotShadows::ALWAYS
-			: kept == "never"					   ? KeepGodotShadows::NEVER
-												   : KeepGodotShadows::AUTO;
+	settings.keep_godot_shadows = shadows == "always" ? KeepGodotShadows::ALWAYS
+			: shadows == "never"					  ? KeepGodotShadows::NEVER
+													  : KeepGodotShadows::AUTO;
 	return settings;
 }
 

@@ -194,10 +194,9 @@ std::shared_ptr<const Image> CutOutMaterials::read_image(
 	return found->second;
 }
 
-ServerMaterial read_server_material(godot::RID p_material) {
-	ServerMaterial read;
+std::shared_ptr<const Material> read_server_cut_out(godot::RID p_material) {
 	if (!p_material.id) {
-		return read;
+		return nullptr;
 	}
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
 	const std::vector<double> threshold =
@@ -210,21 +209,21 @@ ServerMaterial read_server_material(godot::RID p_material) {
 	const godot::RID texture = server.material_get_param(p_material, "texture_albedo").to_rid();
 	if (threshold.empty() || scale.size() < 2 || offset.size() < 2 || albedo.size() < 4 ||
 			!texture.id) {
-		return read;
+		return nullptr;
 	}
 	const std::shared_ptr<const Image> image =
 			decode(server.texture_2d_get(texture), AlphaSource());
-	if (image) {
-		auto cut_out = std::make_shared<Material>();
-		cut_out->alpha_mode = AlphaMode::MASK;
-		cut_out->alpha = static_cast<float>(albedo[3]);
-		cut_out->alpha_cutoff = static_cast<float>(threshold[0]);
-		cut_out->base_color_texture.image = image;
-		cut_out->base_color_texture.transform =
-				glm::mat3x2(scale[0], 0, 0, scale[1], offset[0], offset[1]);
-		read.cut_out = cut_out;
+	if (!image) {
+		return nullptr;
 	}
-	return read;
+	auto cut_out = std::make_shared<Material>();
+	cut_out->alpha_mode = AlphaMode::MASK;
+	cut_out->alpha = static_cast<float>(albedo[3]);
+	cut_out->alpha_cutoff = static_cast<float>(threshold[0]);
+	cut_out->base_color_texture.image = image;
+	cut_out->base_color_texture.transform =
+			glm::mat3x2(scale[0], 0, 0, scale[1], offset[0], offset[1]);
+	return cut_out;
 }
 
 void CutOutMaterials::forget_unused() {

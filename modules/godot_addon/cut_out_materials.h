@@ -16,14 +16,9 @@ struct AlphaSource {
 	auto operator<=>(const AlphaSource &) const = default;
 };
 
-/// How a material of the RenderingServer casts.
-struct ServerMaterial {
-	bool casts = true;						 // false: it is blended
-	std::shared_ptr<const Material> cut_out; // null: opaque
-};
-/// Reads a material that may have no resource: the parameters that Godot's generated shaders of
-/// base materials with alpha scissor have. Others are opaque.
-ServerMaterial read_server_material(godot::RID p_material);
+/// Reads the alpha mask of a material that may have no resource, from the parameters that Godot's
+/// generated shaders of base materials with alpha scissor have. Null: it has none, and casts whole.
+std::shared_ptr<const Material> read_server_cut_out(godot::RID p_material);
 
 /// Reads the alpha masks of Godot's base materials with alpha scissor, alpha hash or depth prepass:
 /// the alpha and the texture of the albedo, the threshold, and how the texture is mapped to the

@@ -8,13 +8,13 @@ namespace gnomon {
 
 namespace {
 
-/// Returns which faces of the topology are left.
-std::vector<bool> find_left(const Mesh &p_mesh, const MeshTopology &p_topology,
+/// Returns which faces cast.
+std::vector<bool> find_casting_faces(const Mesh &p_mesh, const MeshTopology &p_topology,
 		const glm::dvec4 &p_light_mesh, ShadowCulling p_culling) {
-	std::vector<bool> is_left(p_topology.get_face_count());
+	std::vector<bool> casts(p_topology.get_face_count());
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
 		if (p_topology.get_part(face).is_solid()) {
-			is_left[face] = true;
+			casts[face] = true;
 			continue;
 		}
 		glm::dvec3 corners[3];
@@ -25,20 +25,20 @@ std::vector<bool> find_left(const Mesh &p_mesh, const MeshTopology &p_topology,
 		const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
 		const glm::dvec3 to_light = glm::dvec3(p_light_mesh) - p_light_mesh.w * corners[0];
 		const double facing = glm::dot(normal, to_light);
-		is_left[face] = p_culling == ShadowCulling::BACK ? facing > 0 : facing < 0;
+		casts[face] = p_culling == ShadowCulling::BACK ? facing > 0 : facing < 0;
 	}
-	return is_left;
+	return casts;
 }
 
-/// Makes a mesh of the faces that are left, with the vertices that they use.
-std::shared_ptr<const Mesh> make_left_mesh(
-		const Mesh &p_mesh, const MeshTopology &p_topology, const std::vector<bool> &p_is_left) {
+/// Makes a mesh of the faces that cast, with the vertices that they use.
+std::shared_ptr<const Mesh> make_casting_mesh(
+		const Mesh &p_mesh, const MeshTopology &p_topology, const std::vector<bool> &p_casts) {
 	std::vector<uint32_t> new_vertices(p_mesh.positions_node.size(), NO_VERTEX);
 	std::vector<glm::vec3> positions;
 	std::vector<glm::vec3> normals;
 	std::vector<uint32_t> indices;
-	for (uint32_t face = 0; face < p_is_left.size(); ++face) {
-		for (uint32_t corner = 0; p_is_left[face] && corner < 3; ++corner) {
+	for (uint32_t face = 0; face < p_casts.size(); ++face) {
+		for (uint32_t corner = 0; p_casts[face] && corner < 3; ++corner) {
 			const uint32_t vertex =
 					p_mesh.indices[size_t(3) * p_topology.source_triangles[face] + corner];
 			if (new_vertices[vertex] == NO_VERTEX) {
@@ -75,16 +75,16 @@ std::shared_ptr<const Mesh> FacingCasters::select(const std::shared_ptr<const Me
 	const bool is_same_mesh = entry.source.lock() == p_mesh && entry.culling == p_culling;
 	if (!is_same_mesh || entry.light_mesh != p_light_mesh) {
 		const std::shared_ptr<const MeshTopology> topology = get_topology(p_mesh);
-		std::vector<bool> is_left = find_left(*p_mesh, *topology, p_light_mesh, p_culling);
-		if (!is_same_mesh || is_left != entry.is_left) {
-			const size_t count = size_t(std::count(is_left.begin(), is_left.end(), true));
-			entry.next = count == 0			  ? nullptr
-					: count == is_left.size() ? p_mesh
-											  : make_left_mesh(*p_mesh, *topology, is_left);
+		std::vector<bool> casts = find_casting_faces(*p_mesh, *topology, p_light_mesh, p_culling);
+		if (!is_same_mesh || casts != entry.casts) {
+			const size_t count = size_t(std::count(casts.begin(), casts.end(), true));
+			entry.next = count == 0			? nullptr
+					: count == casts.size() ? p_mesh
+											: make_casting_mesh(*p_mesh, *topology, casts);
 			if (entry.next && entry.next != p_mesh) {
 				meshes.prepare(entry.next);
 			}
-			entry.is_left = std::move(is_left);
+			entry.casts = std::move(casts);
 			if (!is_same_mesh) {
 				entry.mesh = entry.next;
 			}

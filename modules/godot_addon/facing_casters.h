@@ -6,14 +6,14 @@
 
 namespace gnomon {
 
-/// Which faces of a surface Godot leaves out of shadow maps.
+/// Which faces of a surface Godot culls in its shadow maps.
 enum class ShadowCulling {
 	NONE,
 	BACK, // those that face away from the light
 	FRONT,
 };
 
-/// Leaves out the faces of meshes that Godot culls in its shadow passes. Parts that are closed and
+/// Culls the faces of meshes that Godot culls in its shadow passes. Parts that are closed and
 /// not inside out remain whole, because that does not change their shadow. Main thread only.
 class FacingCasters {
 public:
@@ -32,7 +32,7 @@ private:
 		std::weak_ptr<const Mesh> source;
 		glm::dvec4 light_mesh = glm::dvec4(0.0);
 		ShadowCulling culling = ShadowCulling::NONE;
-		std::vector<bool> is_left; // per face
+		std::vector<bool> casts; // per face
 		std::shared_ptr<const Mesh> mesh;
 		std::shared_ptr<const Mesh> next; // not ready yet
 		bool is_used = false;

@@ -9,13 +9,13 @@ namespace gnomon {
 
 namespace {
 
-const float KEPT_FACTOR = 1.25f; // of the coverage of lights that have a mask
-const float SIZE_RANK = 2.0f;	 // above each coverage: lights without a size come last
+const float CURRENT_FACTOR = 1.25f; // of the coverage of lights that have a mask
+const float SIZE_RANK = 2.0f;		// above each coverage: lights without a size come last
 
 float rank(const ShadowNode &p_node, std::span<const ViewDetail> p_views) {
 	const godot::Light3D light = p_node.find_light();
 	const float coverage =
-			compute_coverage(light, p_views) * (p_node.makes_mask ? KEPT_FACTOR : 1.0f);
+			compute_coverage(light, p_views) * (p_node.makes_mask ? CURRENT_FACTOR : 1.0f);
 	// Hard shadows are as good without a mask.
 	const bool has_size = light.get_param(godot::Light3D::PARAM_SIZE) > 0;
 	return coverage + (has_size ? SIZE_RANK : 0.0f);

@@ -63,7 +63,7 @@ public:
 	glm::uvec2 get_size_px() const { return space.size_px; }
 	/// Returns the texture for near / z of the surface at each pixel's centre, R32_SFLOAT, by which
 	/// fragments find whether the mask is of their surface, and in multisampled views which
-	/// neighbour's is. Null if reserve() was not told to have it.
+	/// neighbour's is. Null before a reserve() with has_depth.
 	TextureRID get_depth() const { return depth.get(); }
 	/// Writes the table of lights, which also identifies the view of the masks. Call it before the
 	/// view's opaque objects are drawn.

@@ -443,7 +443,6 @@ void SceneReader::read_server_casters(SceneSnapshot &r_scene) {
 			const bool is_ready = meshes.is_ready(read) &&
 					(instance.caster_mesh == read.mesh ||
 							meshes.is_cut_ready(instance.caster_mesh));
-			instance.casts_shadow = instance.casts_shadow && caster.casts[surface];
 			if (instance.casts_shadow && !is_ready) {
 				instance.casts_shadow = false;
 				++pending_count;

@@ -62,13 +62,11 @@ void ServerCasters::add(godot::RID p_instance, godot::RID p_mesh,
 				") is no mesh with triangles. Add the caster after its mesh has surfaces, and "
 				"before the mesh is freed.");
 	}
-	ServerCaster caster = { p_mesh, p_material, shared.surfaces, {}, {}, p_world_from_mesh,
+	ServerCaster caster = { p_mesh, p_material, shared.surfaces, {}, p_world_from_mesh,
 		static_cast<uint32_t>(p_layers) };
 	for (size_t surface = 0; surface < shared.surfaces.size(); ++surface) {
-		const ServerMaterial material =
-				read_server_material(p_material.id ? p_material : shared.materials[surface]);
-		caster.casts.push_back(material.casts);
-		caster.cut_outs.push_back(material.cut_out);
+		caster.cut_outs.push_back(
+				read_server_cut_out(p_material.id ? p_material : shared.materials[surface]));
 	}
 	casters[p_instance] = std::move(caster);
 }

@@ -10,9 +10,8 @@ namespace gnomon {
 /// A caster that exists only on the RenderingServer, such as a tile of a terrain.
 struct ServerCaster {
 	godot::RID mesh;
-	godot::RID material;			   // empty: those of the mesh's surfaces
-	std::vector<ReadSurface> surfaces; // of the mesh
-	std::vector<bool> casts;		   // by surface: false if its material is blended
+	godot::RID material;								   // empty: those of the mesh's surfaces
+	std::vector<ReadSurface> surfaces;					   // of the mesh
 	std::vector<std::shared_ptr<const Material>> cut_outs; // by surface; null: opaque
 	godot::Transform3D world_from_mesh;
 	uint32_t layers = 1;

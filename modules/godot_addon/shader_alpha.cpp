@@ -376,14 +376,11 @@ private:
 	}
 
 	Value read_unary() {
-		if (accept("-")) {
-			Value value = read_unary();
-			for (Linear &component : value) {
-				component = scale(component, -1);
-			}
-			return value;
+		double sign = 1;
+		while (peek() == "-" || peek() == "+") {
+			sign = peek() == "-" ? -sign : sign;
+			++position;
 		}
-		accept("+");
 		Value value = read_primary();
 		while (accept(".")) {
 			const std::vector<size_t> swizzle = read_swizzle(peek());
@@ -393,6 +390,9 @@ private:
 		if (peek() == "[") {
 			skip_brackets();
 			value.clear();
+		}
+		for (Linear &component : value) {
+			component = scale(component, sign);
 		}
 		return value;
 	}
@@ -484,19 +484,19 @@ private:
 	std::map<std::string, Value> variables;
 };
 
-/// Reads the condition p_kept >= 0.
+/// Reads the condition under which a pixel is drawn: p_visible >= 0.
 std::optional<ShaderAlpha> read_condition(
-		const Linear &p_kept, const std::vector<Tracer::Sample> &p_samples) {
+		const Linear &p_visible, const std::vector<Tracer::Sample> &p_samples) {
 	ShaderAlpha alpha;
-	if (p_kept.is_constant()) {
-		alpha.threshold = p_kept.constant >= 0 ? 0.0f : 2.0f;
+	if (p_visible.is_constant()) {
+		alpha.threshold = p_visible.constant >= 0 ? 0.0f : 2.0f;
 		return alpha;
 	}
-	if (!p_kept.is_known || p_kept.terms.size() != 1 ||
-			p_kept.terms.begin()->first < FIRST_CHANNEL) {
+	if (!p_visible.is_known || p_visible.terms.size() != 1 ||
+			p_visible.terms.begin()->first < FIRST_CHANNEL) {
 		return std::nullopt;
 	}
-	const auto &[basis, factor] = *p_kept.terms.begin();
+	const auto &[basis, factor] = *p_visible.terms.begin();
 	const Tracer::Sample &sample = p_samples[size_t(basis - FIRST_CHANNEL) / size_t(CHANNEL_COUNT)];
 	if (sample.uv.size() != 2) {
 		return std::nullopt;
@@ -506,7 +506,7 @@ std::optional<ShaderAlpha> read_condition(
 	alpha.is_inverted = factor < 0;
 	// factor * channel + constant >= 0; inverted: |factor| * (1 - channel) >= |factor| - constant.
 	const double threshold =
-			factor > 0 ? -p_kept.constant / factor : 1.0 + p_kept.constant / factor;
+			factor > 0 ? -p_visible.constant / factor : 1.0 + p_visible.constant / factor;
 	alpha.threshold = static_cast<float>(threshold);
 	for (int row = 0; row < 2; ++row) {
 		const Linear &coordinate = sample.uv[size_t(row)];
