@@ -101,14 +101,24 @@ uint64_t sum_max_overlapped_texels(const ShadowTechnique::Inputs &p_inputs, uint
 	return sum;
 }
 
-/// True if the instance's bounds come within R of the light's centre.
-bool is_near_light(
-		const InstanceSnapshot &p_instance, const LightView &p_view, double p_disc_radius) {
-	const double WIDENING = 1.01; // for rounding
-	const Bounds bounds = transform_bounds(p_instance.bounds_world, p_view.view_from_world);
-	const glm::dvec3 nearest =
-			glm::clamp(glm::dvec3(0.0), glm::dvec3(bounds.minimum), glm::dvec3(bounds.maximum));
-	return glm::length(nearest) <= WIDENING * p_disc_radius;
+/// Lower bound of the distance of a point from the instance's casters: from their box along the
+/// world's axes, and from the planes of their box along the node's axes.
+double compute_min_distance_m(const InstanceSnapshot &p_instance, const glm::dvec3 &p_point_world) {
+	const auto find_gap = [](const Bounds &p_box, const glm::dvec3 &p_point) {
+		const glm::dvec3 minimum(p_box.minimum);
+		const glm::dvec3 maximum(p_box.maximum);
+		return glm::max(glm::max(minimum - p_point, p_point - maximum), glm::dvec3(0.0));
+	};
+	const glm::dmat4 node_from_world = glm::inverse(p_instance.world_from_node);
+	const glm::dmat3 rows = glm::transpose(glm::dmat3(node_from_world));
+	const glm::dvec3 point_node(node_from_world * glm::dvec4(p_point_world, 1.0));
+	const glm::dvec3 gap_node = find_gap(p_instance.caster_bounds_node, point_node);
+	double distance_m = glm::length(find_gap(p_instance.bounds_world, p_point_world));
+	for (int axis = 0; axis < 3; ++axis) {
+		const double node_per_m = glm::length(rows[axis]);
+		distance_m = std::max(distance_m, gap_node[axis] / node_per_m);
+	}
+	return distance_m;
 }
 
 /// A mesh that casts an instance's shadow, one of two if the instance has levels of detail.
@@ -217,6 +227,8 @@ CountCasters build_count_casters(
 		const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, CasterOrder &r_order) {
 	const LightView &first = p_inputs.views.front();
 	const bool is_directional = first.is_orthographic;
+	const double WIDENING = 1.01; // for rounding
+	const glm::dvec3 light_world(glm::inverse(first.view_from_world)[3]);
 	std::vector<uint32_t> view_indices(p_inputs.views.size());
 	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
@@ -272,7 +284,8 @@ CountCasters build_count_casters(
 			is_deformed = is_deformed || instance.pose;
 			result.may_cut_disc = result.may_cut_disc ||
 					(!is_directional && p_disc_radius > 0 &&
-							is_near_light(instance, first, p_disc_radius));
+							compute_min_distance_m(instance, light_world) <=
+									WIDENING * p_disc_radius);
 		}
 	}
 	result.empty_views = ~views_with_faces & ~0u >> (32 - view_indices.size());

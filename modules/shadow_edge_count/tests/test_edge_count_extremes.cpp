@@ -231,6 +231,34 @@ TEST_CASE(
 	}
 }
 
+TEST_CASE("[GPU][EdgeCount] a large ground or roof away from the light does not cut its disc") {
+	MaskFixture fixture;
+	const auto slab = make_box_mesh("slab", { 40.0f, 0.02f, 40.0f });
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		for (const double turn : { 0.0, 0.6 }) {
+			for (const double offset : { -0.4, 0.4 }) {
+				CAPTURE(std::string(get_light_type_name(type)));
+				CAPTURE(turn);
+				CAPTURE(offset);
+				SmallScene scene(type); // its light is aimed obliquely
+				scene.light->properties["light_size"] = 0.15;
+				// Its box along the world's axes contains the light if it is turned.
+				const glm::dmat4 turned =
+						glm::rotate(glm::translate(glm::dmat4(1.0),
+											glm::dvec3(scene.light->parent_from_node[3])),
+								turn, glm::dvec3(0.3, 0.1, 0.9));
+				MeshInstance3D &node = add_mesh(scene.scene, "Slab", slab, glm::dvec3(0.0));
+				node.parent_from_node = glm::translate(turned, glm::dvec3(0.0, offset, 0.0));
+				const FramePlan plan = render_frame(fixture, scene).plan;
+				CHECK(plan.is_skipped("Light", "faces that cut the light's disc"));
+				node.parent_from_node = glm::translate(turned, glm::dvec3(0.0, offset / 4, 0.0));
+				const FramePlan near_plan = render_frame(fixture, scene).plan;
+				CHECK_FALSE(near_plan.is_skipped("Light", "faces that cut the light's disc"));
+			}
+		}
+	}
+}
+
 TEST_CASE("[GPU][EdgeCount] a beam extending far behind the light's plane casts a correct shadow") {
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
