@@ -116,10 +116,11 @@ void ReceiverTextures::reserve(const ReceiverSpace &p_space) {
 	space.add({ (p_space.size_px + SIZE_STEP_PX - 1u) / SIZE_STEP_PX * SIZE_STEP_PX,
 			glm::max(p_space.mask_count, MIN_LAYER_COUNT), p_space.has_depth });
 	OwnedTexture new_masks(device,
-			device.create_texture({ "Gnomon's masks", Format::R16_SFLOAT, space.size_px,
-					space.mask_count,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
-					/*is_array=*/true }));
+			device.create_texture(
+					{ "Gnomon's masks", Format::R16_SFLOAT, space.size_px, space.mask_count,
+							TextureUsage::STORAGE | TextureUsage::SAMPLED |
+									TextureUsage::COPY_SOURCE | TextureUsage::COPY_TARGET,
+							/*is_array=*/true }));
 	published_masks.publish(server, MASKS_GLOBAL, device.get_rid(new_masks.get()));
 	masks = std::move(new_masks);
 	if (space.has_depth && (!depth.get() || space.size_px != old_size_px)) {

@@ -55,7 +55,8 @@ RGTexture ScaledMasks::create_target(RGTexture p_result) {
 	}
 	target = graph.create_texture(
 			{ "scaled masks", Format::R16_SFLOAT, size_px, std::max(count, MIN_LAYER_COUNT),
-					TextureUsage::STORAGE | TextureUsage::SAMPLED, /*is_array=*/true });
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_TARGET,
+					/*is_array=*/true });
 	return target;
 }
 

@@ -19,4 +19,16 @@ void add_fill_pass(RenderGraph &r_graph, RenderingDevice &p_device, const std::s
 			bytes_of(std::span(&push, 1)));
 }
 
+void add_clear_pass(RenderGraph &r_graph, const std::string &p_name, RGTexture p_texture,
+		float p_value, uint32_t p_layer) {
+	r_graph.add_pass(p_name)
+			.writes(p_texture, Access::COPY_WRITE,
+					p_layer == Binding::ALL_LAYERS ? PassBuilder::Content::FRESH
+												   : PassBuilder::Content::UPDATE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.clear_color(
+						p_context.get(p_texture), glm::vec4(p_value), p_layer);
+			});
+}
+
 } // namespace gnomon

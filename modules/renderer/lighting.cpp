@@ -71,7 +71,7 @@ RGTexture add_ambient_pass(const LitImage &p_image) {
 
 void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGTexture p_radiance) {
 	const GBuffer &gbuffer = p_image.gbuffer;
-	add_compute_pass(p_image.graph, "lighting",
+	add_tile_pass(p_image.graph, "lighting",
 			p_image.device.get_compute_pipeline({ "lighting", "renderer/lighting.comp",
 					make_mask_constants(p_image.graph, p_shadow.mask) }),
 			{
@@ -86,7 +86,7 @@ void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGT
 					PassBinding::write(
 							RENDERER_BINDING_RADIANCE, p_radiance, PassBuilder::Content::UPDATE),
 			},
-			p_image.size_px, make_exposure(p_image));
+			p_shadow.tiles, RENDERER_BINDING_TILES, make_push_bytes(make_exposure(p_image)));
 }
 
 RGTexture create_output_image(RenderGraph &r_graph, glm::uvec2 p_size_px) {

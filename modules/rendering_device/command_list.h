@@ -89,9 +89,10 @@ public:
 			uint32_t p_layer = 0, uint64_t p_source_offset_bytes = 0) = 0;
 	/// Both textures must have the same size and format.
 	virtual void copy_texture(TextureRID p_source, TextureRID p_target) = 0;
-	/// Clears all layers of a colour texture, which must be in Access::COPY_WRITE. For R32_UINT and
-	/// RG32_UINT the value is converted to integers. RGBA32_UINT is not supported.
-	virtual void clear_color(TextureRID p_texture, glm::vec4 p_value) = 0;
+	/// Clears a colour texture, which must be in Access::COPY_WRITE: one layer, or all. For
+	/// R32_UINT and RG32_UINT the value is converted to integers. RGBA32_UINT is not supported.
+	virtual void clear_color(
+			TextureRID p_texture, glm::vec4 p_value, uint32_t p_layer = Binding::ALL_LAYERS) = 0;
 
 protected:
 	CommandList() = default;

@@ -169,20 +169,17 @@ void GodotDevice::end_conditional() {
 }
 
 void GodotDevice::bind_pipeline(PipelineRID p_pipeline) {
-	bound = &get_pipeline(p_pipeline);
-	if (std::holds_alternative<ComputePipelineDesc>(bound->desc)) {
+	GodotPipeline &pipeline = pipelines[get_index(p_pipeline)];
+	bound = &pipeline;
+	if (std::holds_alternative<ComputePipelineDesc>(pipeline.desc)) {
+		const godot::RID rid = compile(pipeline, /*p_framebuffer_format=*/0);
 		begin_compute_list();
-		rd.compute_list_bind_compute_pipeline(
-				compute_list, bound->by_framebuffer_format.begin()->second);
+		rd.compute_list_bind_compute_pipeline(compute_list, rid);
 		return;
 	}
-	GNOMON_ASSERT(draw_list >= 0, "raster pipeline '", bound->name,
+	GNOMON_ASSERT(draw_list >= 0, "raster pipeline '", pipeline.name,
 			"' is bound outside begin_rendering .. end_rendering");
-	godot::RID &rid = pipelines[p_pipeline.id - 1].by_framebuffer_format[framebuffer_format];
-	if (!rid) {
-		rid = make_raster_pipeline(*bound, framebuffer_format);
-	}
-	rd.draw_list_bind_render_pipeline(draw_list, rid);
+	rd.draw_list_bind_render_pipeline(draw_list, compile(pipeline, framebuffer_format));
 }
 
 godot::RID GodotDevice::get_uniform_set(
@@ -399,12 +396,13 @@ void GodotDevice::copy_texture(TextureRID p_source, TextureRID p_target) {
 			/*p_src_mipmap=*/0, /*p_dst_mipmap=*/0, /*p_src_layer=*/0, /*p_dst_layer=*/0);
 }
 
-void GodotDevice::clear_color(TextureRID p_texture, glm::vec4 p_value) {
+void GodotDevice::clear_color(TextureRID p_texture, glm::vec4 p_value, uint32_t p_layer) {
 	end_compute_list();
 	const GodotTexture &texture = textures.get(p_texture);
+	const bool is_one = p_layer != Binding::ALL_LAYERS;
 	rd.texture_clear(texture.rid, to_godot_clear_value(texture.desc.format, p_value),
-			/*p_base_mipmap=*/0, /*p_mipmap_count=*/1, /*p_base_layer=*/0,
-			texture.desc.layer_count);
+			/*p_base_mipmap=*/0, /*p_mipmap_count=*/1, is_one ? p_layer : 0,
+			is_one ? 1 : texture.desc.layer_count);
 }
 
 void GodotDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {

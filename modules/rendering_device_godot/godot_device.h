@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <variant>
 
 namespace gnomon {
@@ -37,15 +38,23 @@ struct GodotSampler {
 struct GodotPipeline {
 	std::string name;
 	std::variant<ComputePipelineDesc, RasterPipelineDesc> desc;
-	godot::RID shader;
+	std::vector<std::string> shader_names;
+	godot::RID shader;						// empty until the pipeline is compiled
 	std::vector<ReflectedBinding> bindings; // ordered by binding
 	std::vector<uint32_t> boolean_constants;
 	uint32_t push_constant_bytes = 0;
 	glm::uvec3 local_size = glm::uvec3(1);
 	int64_t vertex_format = -1; // -1: no vertex attributes
-	/// Godot's pipelines. Compute pipelines have one entry, with key 0; raster pipelines have one
-	/// per framebuffer format.
+	/// Godot's pipelines, each compiled when it is bound for the first time. Compute pipelines have
+	/// one entry, with key 0; raster pipelines have one per framebuffer format.
 	std::map<int64_t, godot::RID> by_framebuffer_format;
+};
+
+/// Thrown when a pipeline is bound that may not be compiled yet, see
+/// GodotDevice::limit_compilations. The commands after it are not recorded.
+class PipelinesPending : public std::runtime_error {
+public:
+	PipelinesPending() : std::runtime_error("pipelines are not compiled yet") {}
 };
 
 /// A device on top of one of Godot's RenderingDevices: MAIN, the one that draws Godot's frames,
@@ -67,6 +76,11 @@ public:
 	bool has_two_samples();
 	/// Lists the live resources: "texture 'albedo'", "buffer 'edges'".
 	std::vector<std::string> list_live_resources();
+	/// Limits how many pipelines may be compiled until the next call. Binding a further one throws
+	/// PipelinesPending. A pipeline is compiled, and some drivers compile it again when they
+	/// execute it, when it is bound for the first time.
+	void limit_compilations(uint32_t p_count) { compilations_left = p_count; }
+	static constexpr uint32_t UNLIMITED = ~0u;
 	uint32_t get_pipeline_count() const { return static_cast<uint32_t>(pipelines.size()); }
 	/// Returns Godot's RID, for use with Godot itself, such as in materials.
 	godot::RID get_rid(TextureRID p_texture) const { return textures.get(p_texture).rid; }
@@ -140,7 +154,7 @@ private:
 	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer,
 			uint64_t p_source_offset_bytes) override;
 	void copy_texture(TextureRID p_source, TextureRID p_target) override;
-	void clear_color(TextureRID p_texture, glm::vec4 p_value) override;
+	void clear_color(TextureRID p_texture, glm::vec4 p_value, uint32_t p_layer) override;
 
 	/// Key of a Godot object that is made from several resources: their ids, and other numbers.
 	/// Ids are above 2^32, so that remove_dependents cannot mistake another number for an id.
@@ -158,7 +172,9 @@ private:
 	godot::RID get_layer(GodotTexture &r_texture, uint32_t p_layer);
 	PipelineRID add_pipeline(GodotPipeline &&p_pipeline, std::span<const std::string> p_shaders);
 	godot::RID get_shader(std::span<const std::string> p_names);
-	const GodotPipeline &get_pipeline(PipelineRID p_pipeline) const;
+	size_t get_index(PipelineRID p_pipeline) const; // in `pipelines`
+	/// Returns Godot's pipeline, compiled now if it is bound for the first time.
+	godot::RID compile(GodotPipeline &r_pipeline, int64_t p_framebuffer_format);
 	godot::RID make_raster_pipeline(const GodotPipeline &p_pipeline, int64_t p_framebuffer_format);
 	godot::RID get_uniform_set(
 			const GodotPipeline &p_pipeline, std::span<const Binding> p_bindings);
@@ -221,6 +237,7 @@ private:
 	int64_t draw_list = -1;
 	int64_t framebuffer_format = -1;
 	const GodotPipeline *bound = nullptr; // the bound pipeline
+	uint32_t compilations_left = UNLIMITED;
 	std::vector<BufferRID> vertex_buffers;
 	BufferRID index_buffer;
 };

@@ -126,7 +126,7 @@ godot::RID GodotDevice::get_shader(std::span<const std::string> p_names) {
 
 PipelineRID GodotDevice::add_pipeline(
 		GodotPipeline &&p_pipeline, std::span<const std::string> p_shaders) {
-	p_pipeline.shader = get_shader(p_shaders);
+	p_pipeline.shader_names.assign(p_shaders.begin(), p_shaders.end());
 	const auto &constants = std::visit(
 			[](const auto &p_desc) -> const std::vector<SpecializationConstant> & {
 				return p_desc.constants;
@@ -146,10 +146,10 @@ PipelineRID GodotDevice::add_pipeline(
 	return { pipelines.size() };
 }
 
-const GodotPipeline &GodotDevice::get_pipeline(PipelineRID p_pipeline) const {
+size_t GodotDevice::get_index(PipelineRID p_pipeline) const {
 	GNOMON_ASSERT(p_pipeline.id >= 1 && p_pipeline.id <= pipelines.size(), "pipeline handle ",
 			p_pipeline.id);
-	return pipelines[p_pipeline.id - 1];
+	return p_pipeline.id - 1;
 }
 
 PipelineRID GodotDevice::get_compute_pipeline(const ComputePipelineDesc &p_desc) {
@@ -160,17 +160,28 @@ PipelineRID GodotDevice::get_compute_pipeline(const ComputePipelineDesc &p_desc)
 	GodotPipeline pipeline;
 	pipeline.name = p_desc.name.empty() ? p_desc.shader : p_desc.name;
 	pipeline.desc = p_desc;
-	const PipelineRID handle = add_pipeline(std::move(pipeline), { &p_desc.shader, 1 });
-	GodotPipeline &added = pipelines.back();
-	const godot::RID rid =
-			rd.compute_pipeline_create(added.shader, make_constants(added, p_desc.constants));
-	if (!rid) {
-		fail("Pipeline '", added.name,
-				"' is refused by Godot: its log has the reason. Set another "
-				"shadow technique.");
+	return compute_pipelines[p_desc] = add_pipeline(std::move(pipeline), { &p_desc.shader, 1 });
+}
+
+godot::RID GodotDevice::compile(GodotPipeline &r_pipeline, int64_t p_framebuffer_format) {
+	godot::RID &rid = r_pipeline.by_framebuffer_format[p_framebuffer_format];
+	if (rid) {
+		return rid;
 	}
-	added.by_framebuffer_format[0] = rid;
-	return compute_pipelines[p_desc] = handle;
+	if (compilations_left == 0) {
+		throw PipelinesPending();
+	}
+	compilations_left -= compilations_left == UNLIMITED ? 0 : 1;
+	r_pipeline.shader = get_shader(r_pipeline.shader_names);
+	const auto *compute = std::get_if<ComputePipelineDesc>(&r_pipeline.desc);
+	rid = compute ? rd.compute_pipeline_create(
+							r_pipeline.shader, make_constants(r_pipeline, compute->constants))
+				  : make_raster_pipeline(r_pipeline, p_framebuffer_format);
+	if (!rid) {
+		fail("Pipeline '", r_pipeline.name,
+				"' is refused by Godot: its log has the reason. Set another shadow technique.");
+	}
+	return rid;
 }
 
 PipelineRID GodotDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
@@ -240,16 +251,11 @@ godot::RID GodotDevice::make_raster_pipeline(
 		attachments.append(Variant::of_object(attachment.get_object()));
 	}
 	blend.set_attachments(attachments);
-	const godot::RID made = rd.render_pipeline_create(p_pipeline.shader, p_framebuffer_format,
+	return rd.render_pipeline_create(p_pipeline.shader, p_framebuffer_format,
 			p_pipeline.vertex_format, RD::RENDER_PRIMITIVE_TRIANGLES, rasterization,
 			Ref<godot::RDPipelineMultisampleState>::create(), depth_stencil, blend,
 			/*p_dynamic_state_flags=*/0, /*p_for_render_pass=*/0,
 			make_constants(p_pipeline, desc.constants));
-	if (!made) {
-		fail("Pipeline '", p_pipeline.name,
-				"' is refused by Godot: its log has the reason. Set another shadow technique.");
-	}
-	return made;
 }
 
 void GodotDevice::replace_shaders(const std::map<std::string, std::vector<uint32_t>> &) {

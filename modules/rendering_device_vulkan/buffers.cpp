@@ -70,8 +70,8 @@ BufferResource VulkanDevice::make_buffer(const BufferDesc &p_desc) {
 				"vkBindBufferMemory");
 		// Memory that the host cannot reach is not filled: tests use a software driver.
 		if (uint8_t *const mapped = buffer.memory.block->mapped; memory_pattern && mapped) {
-			fill_memory({ mapped + buffer.memory.offset_bytes, p_desc.size_bytes },
-					*memory_pattern, random_memory);
+			fill_memory({ mapped + buffer.memory.offset_bytes, p_desc.size_bytes }, *memory_pattern,
+					random_memory);
 		}
 		set_name(VK_OBJECT_TYPE_BUFFER, buffer.buffer, p_desc.name);
 		if (has_usage(p_desc.usage, BufferUsage::TEXEL)) {

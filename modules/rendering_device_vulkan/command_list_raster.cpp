@@ -254,15 +254,17 @@ void VulkanCommandList::end_conditional() {
 	device->end_conditional_rendering(commands);
 }
 
-void VulkanCommandList::clear_color(TextureRID p_texture, glm::vec4 p_value) {
+void VulkanCommandList::clear_color(TextureRID p_texture, glm::vec4 p_value, uint32_t p_layer) {
 	check_copy("clear_color");
 	const TextureResource &texture = device->textures.get(p_texture);
 	GNOMON_ASSERT(!is_depth_format(texture.desc.format), "clear_color of depth texture '",
 			texture.desc.name, "'");
 	const VkClearColorValue value = make_clear_value(texture.desc.format, p_value);
+	const bool is_one = p_layer != Binding::ALL_LAYERS;
 	const VkImageSubresourceRange range = { .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT,
 		.levelCount = 1,
-		.layerCount = texture.desc.layer_count };
+		.baseArrayLayer = is_one ? p_layer : 0,
+		.layerCount = is_one ? 1 : texture.desc.layer_count };
 	vkCmdClearColorImage(
 			commands, texture.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/rendering_device/rendering_device.h"
 #include "modules/rendering_device/range_allocator.h"
+#include "modules/rendering_device/rendering_device.h"
 #include "modules/rendering_device_vulkan/vulkan_handles.h"
 
 #include <memory>

@@ -52,8 +52,8 @@ std::optional<MemoryPattern> parse_memory_pattern(const std::string &p_written) 
 void fill_memory(std::span<uint8_t> r_bytes, MemoryPattern p_pattern, uint32_t &r_random) {
 	for (size_t offset = 0; offset < r_bytes.size(); offset += sizeof(uint32_t)) {
 		const uint32_t word = next_word(p_pattern, r_random);
-		std::memcpy(r_bytes.data() + offset, &word,
-				std::min(sizeof(word), r_bytes.size() - offset));
+		std::memcpy(
+				r_bytes.data() + offset, &word, std::min(sizeof(word), r_bytes.size() - offset));
 	}
 }
 

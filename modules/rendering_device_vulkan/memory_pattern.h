@@ -7,10 +7,10 @@
 
 namespace gnomon {
 
-/// What new buffers contain before anything is written to them, for tests: a pass that reads what no
-/// pass wrote then shows. ONE: words of 1, which as the next item of a list is a cycle. NAN_FLOAT:
-/// words that are NaN as floats and the largest index as integers. RANDOM: different words, the same
-/// in each run.
+/// What new buffers contain before anything is written to them, for tests: a pass that reads what
+/// no pass wrote then shows. ONE: words of 1, which as the next item of a list is a cycle.
+/// NAN_FLOAT: words that are NaN as floats and the largest index as integers. RANDOM: different
+/// words, the same in each run.
 enum class MemoryPattern { ONE, DEADBEEF, NAN_FLOAT, RANDOM };
 
 /// Parses $GNOMON_MEMORY_PATTERN: "1", "deadbeef", "nan" or "random"; empty: nothing. Another value

@@ -47,7 +47,7 @@ public:
 	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) override;
 	void begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes) override;
 	void end_conditional() override;
-	void clear_color(TextureRID p_texture, glm::vec4 p_value) override;
+	void clear_color(TextureRID p_texture, glm::vec4 p_value, uint32_t p_layer) override;
 
 	// command_list_copies.cpp
 	void clear_buffer(BufferRID p_buffer) override;

@@ -1,9 +1,12 @@
 #include "modules/shadow_edge_count/block_passes.h"
 
 #include "modules/core/text.h"
+#include "modules/render_graph/fill_pass.h"
 #include "modules/shadows/fetched_buffers.h"
 #include "modules/shadows/mask.h"
 #include "modules/shadows/nearest_caster.h"
+
+#include "shared/lit_tiles_shared.h"
 
 #include <algorithm>
 #include <bit>
@@ -144,7 +147,6 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 			make_count_light_constants({ p_inputs.views.begin(), p_inputs.views.end() },
 					p_settings.disc_radius, p_inputs.scene.scene_size_m);
 	constants.block_count = divide_up(p_inputs.size_px, EDGE_COUNT_BLOCK_PX);
-	constants.tile_count = divide_up(constants.block_count, EDGE_COUNT_BLOCKS_PER_TILE_SIDE);
 	constants.empty_views = p_empty_views;
 	constants.chunk_capacity = choose_chunk_capacity(p_inputs.size_px, p_capacities.edge_count);
 	constants.budget = p_settings.budget;
@@ -205,8 +207,6 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			p_context.commands.clear_buffer(p_context.get(buffer));
 		}
 	});
-	// Each work group is one subgroup.
-	const uint32_t subgroup_size = inputs.device.get_features().subgroup_size;
 	const auto get_pipeline = [&](const std::string &p_shader) {
 		return inputs.device.get_compute_pipeline(
 				{ p_shader, p_shader, make_pipeline_constants(p_passes) });
@@ -216,11 +216,11 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	bindings.push_back(PassBinding::write(COUNT_BINDING_BOXES, boxes));
 	bindings.push_back(PassBinding::write(COUNT_BINDING_BLOCK_RECEIVERS, blocks.block_receivers));
 	bindings.push_back(PassBinding::write(COUNT_BINDING_CHAINS, blocks.chains));
-	add_compute_pass(r_graph, "receiver boxes",
-			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings),
-			{ constants.block_count.x * subgroup_size, constants.block_count.y, 1 });
+	add_map_resolve_pass(r_graph, "receiver boxes",
+			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings), inputs);
 	const CountFrameBuffers &light = p_passes.light;
-	add_compute_pass(r_graph, "list blocks",
+	static_assert(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCKS_PER_TILE_SIDE == LIT_TILE_PX);
+	add_tile_pass(r_graph, "list blocks",
 			get_pipeline(
 					choose_fetching_shader(inputs.device, "shadow_edge_count/list_blocks.comp")),
 			{ PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants),
@@ -242,7 +242,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 							COUNT_BINDING_STATUS, blocks.status, PassBuilder::Content::UPDATE),
 					PassBinding::write(COUNT_BINDING_DISPATCHES, blocks.dispatches,
 							PassBuilder::Content::UPDATE) },
-			{ constants.tile_count.x * subgroup_size, constants.tile_count.y, 1 });
+			inputs.tiles, MAP_RESOLVE_BINDING_TILES, /*p_push=*/{}, TileDispatch::TILES);
 	return blocks;
 }
 
@@ -251,11 +251,12 @@ RGTexture add_count_passes(
 	const auto choose = [&](const char *p_shader) {
 		return choose_fetching_shader(p_passes.inputs.device, p_shader);
 	};
-	const RGTexture mask = create_mask(r_graph, p_passes.inputs.size_px);
+	const RGTexture mask = create_tiled_mask(r_graph, p_passes.inputs.size_px);
 	std::vector<PassBinding> bindings = make_block_bindings(p_blocks);
-	bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, mask));
-	add_kind_pass(r_graph, p_passes, p_blocks, "resolve even",
-			"shadow_edge_count/resolve_even.comp", EDGE_COUNT_BLOCKS_EVEN, std::move(bindings));
+	bindings.push_back(
+			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
+	add_kind_pass(r_graph, p_passes, p_blocks, "resolve dark",
+			"shadow_edge_count/resolve_dark.comp", EDGE_COUNT_BLOCKS_DARK, std::move(bindings));
 	bindings = make_plain_bindings(p_passes, p_blocks);
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
@@ -290,12 +291,14 @@ RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	const RGTexture output = r_graph.create_texture(
 			{ "counted", Format::R16_SFLOAT, p_passes.inputs.size_px, EDGE_COUNT_DEBUG_LAYERS,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE |
+							TextureUsage::COPY_TARGET,
 					/*is_array=*/true });
+	add_clear_pass(r_graph, "clear debug", output, 0.0f); // of blocks that are all lit
 	for (uint32_t kind = 0; kind < EDGE_COUNT_BLOCK_KINDS; ++kind) {
 		std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_blocks);
-		bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, output,
-				kind == 0 ? PassBuilder::Content::FRESH : PassBuilder::Content::UPDATE));
+		bindings.push_back(
+				PassBinding::write(COUNT_BINDING_OUTPUT, output, PassBuilder::Content::UPDATE));
 		add_kind_pass(r_graph, p_passes, p_blocks, text("debug ", kind),
 				choose_fetching_shader(p_passes.inputs.device, "shadow_edge_count/debug.comp"),
 				kind, std::move(bindings));

@@ -26,6 +26,18 @@ double compute_disc_radius(const LightSnapshot &p_light, const SceneSnapshot &p_
 	return 0.5 * (outer + inner);
 }
 
+/// Returns edge_count_map_size if it is -1. Large faces have an entry in each texel that they
+/// cover, in each of an omni light's maps, which together serve no more pixels than one spot
+/// light's.
+uint32_t derive_map_size(const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
+	const uint64_t MAX_FEW_TRIANGLES = 20'000;
+	uint64_t triangle_count = 0;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		triangle_count += instance.casts_shadow ? instance.caster_mesh->get_triangle_count() : 0;
+	}
+	return p_light.type == LightType::OMNI && triangle_count <= MAX_FEW_TRIANGLES ? 128 : 256;
+}
+
 } // namespace
 
 void add_count_properties(PropertyList &r_list) {
@@ -34,10 +46,12 @@ void add_count_properties(PropertyList &r_list) {
 			"Points of the light that are counted where several casters overlap. More have finer "
 			"steps there and cost time.",
 			"", group });
-	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(256), "16,1024,16",
+	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(-1), "16,1024,16",
 			"Width and height of each map whose texels list the faces above them. It changes time "
-			"and memory, and the mask only by rounding: more texels have shorter lists.",
-			"px", group });
+			"and memory, and the mask only by rounding: more texels have shorter lists. -1: 128 "
+			"for an omni light, whose six maps share the image, if at most 20,000 triangles cast "
+			"shadows, else 256.",
+			"px", group, /*special=*/"-1", "derived" });
 	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(-1), "0,65536,1",
 			"Edges that one block of 8 x 8 pixels may have. Blocks with more are filtered with 64 "
 			"taps, which is faster and less exact. -1: no limit; 0: every block that has an edge "
@@ -57,8 +71,9 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 	CountSettings settings;
 	settings.sample_count =
 			std::get<std::string>(p_properties.at("edge_count_quality")) == "256" ? 256 : 64;
+	const int64_t map_size = std::get<int64_t>(p_properties.at("edge_count_map_size"));
 	settings.map_size_px =
-			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("edge_count_map_size")));
+			map_size < 0 ? derive_map_size(p_light, p_scene) : static_cast<uint32_t>(map_size);
 	settings.interpolation =
 			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));

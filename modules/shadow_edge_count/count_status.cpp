@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 /// By bit of a fault: kinds of blocks that are resolved, then EDGE_COUNT_PASS_LIST_BLOCKS.
-const char *const PASS_NAMES[] = { "resolve even", "resolve plain", "resolve",
+const char *const PASS_NAMES[] = { "resolve dark", "resolve plain", "resolve",
 	"resolve without lists", "filter", "resolve smooth", "list blocks" };
 
 struct FaultKind {
@@ -68,10 +68,8 @@ void CountStatus::add_read_back(
 
 void CountStatus::get_counters(std::vector<WorkCounter> &r_counters) const {
 	if (latest->words) {
-		r_counters.push_back(
-				{ "listed_edges", (*latest->words)[EDGE_COUNT_STATUS_LISTED_EDGES] });
-		r_counters.push_back(
-				{ "longest_list", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_LIST] });
+		r_counters.push_back({ "listed_edges", (*latest->words)[EDGE_COUNT_STATUS_LISTED_EDGES] });
+		r_counters.push_back({ "longest_list", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_LIST] });
 	}
 }
 

@@ -174,9 +174,9 @@ void ShadowEdgeCount::at_light_view(
 				make_block_constants(
 						p_inputs, settings, buffers.get_capacities(), /*p_empty_views=*/0));
 	}
-	const CountFindPasses passes = { cached.casters,
-		p_inputs.meshes.get_shared<CountMeshPools>(), buffers.get_capacities(),
-		buffers.import(r_graph), constants, p_inputs.views.front().is_orthographic,
+	const CountFindPasses passes = { cached.casters, p_inputs.meshes.get_shared<CountMeshPools>(),
+		buffers.get_capacities(), buffers.import(r_graph), constants,
+		p_inputs.views.front().is_orthographic,
 		/*has_edges=*/settings.disc_radius > 0,
 		/*may_overflow=*/!do_face_lists_fit() || !p_inputs.may_skip };
 	if (!are_casters_found) {
@@ -278,7 +278,7 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name : { "bound_bundles.comp", "clear_faces.comp", "retry_faces.comp",
-				 "receiver_boxes.comp", "resolve_even.comp", "filter_blocks.comp" }) {
+				 "receiver_boxes.comp", "resolve_dark.comp", "filter_blocks.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",

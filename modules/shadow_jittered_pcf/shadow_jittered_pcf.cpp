@@ -3,6 +3,7 @@
 #include "modules/core/files.h"
 #include "modules/core/text.h"
 #include "modules/shadow_jittered_pcf/jitter_offsets.h"
+#include "modules/shadows/mask.h"
 
 #include "shadow_jittered_pcf/shadow_jittered_pcf_shared.h"
 
@@ -55,9 +56,9 @@ void ShadowJitteredPcf::filter(RenderGraph &r_graph, const Inputs &p_inputs, uin
 	push.radius_uv =
 			static_cast<float>(std::get<double>(p_inputs.properties.at("jittered_pcf_radius_uv")));
 	push.has_early_out = std::get<bool>(p_inputs.properties.at("jittered_pcf_early_out")) ? 1 : 0;
-	add_compute_pass(r_graph, "resolve",
+	add_map_resolve_pass(r_graph, "resolve",
 			p_inputs.device.get_compute_pipeline({ "jittered_pcf resolve", shader, {} }),
-			p_bindings, p_inputs.size_px, push);
+			std::move(p_bindings), p_inputs, make_push_bytes(push));
 }
 
 } // namespace gnomon

@@ -1,5 +1,7 @@
 #include "modules/shadow_map/shadow_map.h"
 
+#include "modules/shadows/mask.h"
+
 #include "shadow_map/shadow_map_shared.h"
 
 namespace gnomon {
@@ -34,7 +36,8 @@ void ShadowMap::filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_
 			{ { SHADOW_MAP_CONSTANT_FILTER_WIDTH, get_filter_width(p_inputs.properties) } } });
 	const shader::ShadowMapPush push = { p_empty_views, /*point_index=*/0, /*point_count=*/1,
 		/*padding=*/0 };
-	add_compute_pass(r_graph, "resolve", pipeline, p_bindings, p_inputs.size_px, push);
+	add_map_resolve_pass(
+			r_graph, "resolve", pipeline, std::move(p_bindings), p_inputs, make_push_bytes(push));
 }
 
 } // namespace gnomon

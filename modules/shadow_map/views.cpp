@@ -74,7 +74,7 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	}
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "views accumulate", "shadow_map/accumulate.comp", {} });
-	const RGTexture mask = create_mask(r_graph, p_inputs.size_px, Format::R32_SFLOAT);
+	const RGTexture mask = create_tiled_mask(r_graph, p_inputs.size_px, Format::R32_SFLOAT);
 	const RGTexture map = r_graph.create_texture({ "map of one light point", Format::D32_SFLOAT,
 			p_inputs.views[0].size_px, views_per_point,
 			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true });
@@ -102,14 +102,13 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 			is_map_written = true;
 		}
 		const LightSnapshot point = make_light_point(p_inputs.light, point_index, count, nearest_m);
-		const PassBuilder::Content content =
-				point_index == 0 ? PassBuilder::Content::FRESH : PassBuilder::Content::UPDATE;
 		std::vector<PassBinding> bindings =
 				make_map_resolve_bindings(r_graph, p_inputs, point, views);
 		bindings.push_back(PassBinding::read(DEPTH_MAP_BINDING_MAP, map));
-		bindings.push_back(PassBinding::write(DEPTH_MAP_BINDING_MASK, mask, content));
-		add_compute_pass(r_graph, text("accumulate point ", point_index), pipeline, bindings,
-				p_inputs.size_px, push);
+		bindings.push_back(
+				PassBinding::write(DEPTH_MAP_BINDING_MASK, mask, PassBuilder::Content::UPDATE));
+		add_map_resolve_pass(r_graph, text("accumulate point ", point_index), pipeline,
+				std::move(bindings), p_inputs, make_push_bytes(push));
 	}
 	return mask;
 }

@@ -1,6 +1,7 @@
 #include "modules/shadow_pcss/shadow_pcss.h"
 
 #include "modules/core/text.h"
+#include "modules/shadows/mask.h"
 #include "modules/shadows/nearest_caster.h"
 
 #include "shadow_pcss/shadow_pcss_shared.h"
@@ -37,9 +38,9 @@ void ShadowPcss::filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p
 	for (uint32_t view = 0; view < p_inputs.views.size(); ++view) {
 		push.nearest_w[view] = compute_nearest_w(p_inputs, view);
 	}
-	add_compute_pass(r_graph, "resolve",
-			p_inputs.device.get_compute_pipeline({ "pcss resolve", shader, {} }), p_bindings,
-			p_inputs.size_px, push);
+	add_map_resolve_pass(r_graph, "resolve",
+			p_inputs.device.get_compute_pipeline({ "pcss resolve", shader, {} }),
+			std::move(p_bindings), p_inputs, make_push_bytes(push));
 }
 
 } // namespace gnomon

@@ -164,11 +164,12 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 		RenderGraph &r_graph, const Inputs &p_inputs, const std::string &p_shader) {
 	ComputePipelineDesc desc = { id + " " + p_shader,
 		text("shadow_penumbra_fins/", p_shader, ".comp"), {} };
-	const RGTexture output = create_mask(r_graph, p_inputs.size_px);
+	const RGTexture output = create_tiled_mask(r_graph, p_inputs.size_px);
 	const FinTargets targets = maps.get_targets();
 	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
 	bindings.push_back(PassBinding::read(RESOLVE_BINDING_LAYER_1, targets.layer_1));
-	bindings.push_back(PassBinding::write(RESOLVE_BINDING_OUTPUT, output));
+	bindings.push_back(
+			PassBinding::write(RESOLVE_BINDING_OUTPUT, output, PassBuilder::Content::UPDATE));
 	if (draws_fins) {
 		desc.constants = { { FINS_CONSTANT_HAS_INNER, settings.inner_width_m > 0 ? 1u : 0u },
 			{ FINS_CONSTANT_LAYER_COUNT, settings.layer_count },
@@ -185,8 +186,8 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 				PassBinding::read(RESOLVE_BINDING_PENUMBRA_DEPTH, targets.penumbra_depth));
 	}
 	const shader::FinsResolvePush push = { views.get_empty_views(), 0, 0, 0 };
-	add_compute_pass(r_graph, p_shader, p_inputs.device.get_compute_pipeline(desc), bindings,
-			p_inputs.size_px, push);
+	add_map_resolve_pass(r_graph, p_shader, p_inputs.device.get_compute_pipeline(desc),
+			std::move(bindings), p_inputs, make_push_bytes(push));
 	return output;
 }
 

@@ -46,14 +46,16 @@ void ShadowTemplate::at_light_view(
 RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "template resolve", "shadow_template/resolve.comp", {} });
-	const RGTexture mask = create_mask(r_graph, p_inputs.size_px);
+	const RGTexture mask = create_tiled_mask(r_graph, p_inputs.size_px);
 	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
 	bindings.push_back(PassBinding::read(DEPTH_MAP_BINDING_MAP, map));
-	bindings.push_back(PassBinding::write(DEPTH_MAP_BINDING_MASK, mask));
+	bindings.push_back(
+			PassBinding::write(DEPTH_MAP_BINDING_MASK, mask, PassBuilder::Content::UPDATE));
 	const auto strength =
 			static_cast<float>(std::get<double>(p_inputs.properties.at("template_strength")));
 	const shader::ShadowTemplatePush push = { strength, 0, 0, 0 };
-	add_compute_pass(r_graph, "resolve", pipeline, bindings, p_inputs.size_px, push);
+	add_map_resolve_pass(
+			r_graph, "resolve", pipeline, std::move(bindings), p_inputs, make_push_bytes(push));
 	return mask;
 }
 

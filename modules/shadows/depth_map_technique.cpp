@@ -59,10 +59,11 @@ RGTexture DepthMapTechnique::resolve(RenderGraph &r_graph, const Inputs &p_input
 	if (is_all_empty()) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
 	}
-	const RGTexture mask = create_mask(r_graph, p_inputs.size_px);
+	const RGTexture mask = create_tiled_mask(r_graph, p_inputs.size_px);
 	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
 	bindings.push_back(PassBinding::read(DEPTH_MAP_BINDING_MAP, import(r_graph)));
-	bindings.push_back(PassBinding::write(DEPTH_MAP_BINDING_MASK, mask));
+	bindings.push_back(
+			PassBinding::write(DEPTH_MAP_BINDING_MASK, mask, PassBuilder::Content::UPDATE));
 	filter(r_graph, p_inputs, views.get_empty_views(), std::move(bindings));
 	return mask;
 }

@@ -1,6 +1,7 @@
 #include "modules/shadows/mask.h"
 
 #include "modules/core/error.h"
+#include "modules/render_graph/fill_pass.h"
 #include "modules/render_graph/read_back.h"
 
 #include "shared/map_resolve_shared.h"
@@ -27,14 +28,18 @@ RGTexture create_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, Format p_forma
 			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 }
 
+RGTexture create_tiled_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, Format p_format) {
+	const RGTexture mask = r_graph.create_texture({ "visibility mask", p_format, p_size_px, 1,
+			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE |
+					TextureUsage::COPY_TARGET });
+	add_clear_pass(r_graph, "clear mask", mask, 1.0f);
+	return mask;
+}
+
 RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility) {
 	const RGTexture mask = r_graph.create_texture({ "constant mask", Format::R16_SFLOAT, p_size_px,
 			1, TextureUsage::COPY_TARGET | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
-	r_graph.add_pass("constant mask")
-			.writes(mask, Access::COPY_WRITE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.clear_color(p_context.get(mask), glm::vec4(p_visibility));
-			});
+	add_clear_pass(r_graph, "constant mask", mask, p_visibility);
 	return mask;
 }
 
@@ -70,6 +75,13 @@ std::vector<PassBinding> make_map_resolve_bindings(RenderGraph &r_graph,
 		PassBinding::read(MAP_RESOLVE_BINDING_NORMAL, p_inputs.geometric_normal),
 		PassBinding::read(MAP_RESOLVE_BINDING_RECEIVERS, p_inputs.receivers),
 	};
+}
+
+void add_map_resolve_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
+		std::vector<PassBinding> p_bindings, const ShadowTechnique::Inputs &p_inputs,
+		std::vector<uint8_t> p_push) {
+	add_tile_pass(r_graph, p_name, p_pipeline, std::move(p_bindings), p_inputs.tiles,
+			MAP_RESOLVE_BINDING_TILES, std::move(p_push));
 }
 
 RGTexture create_drawn_mask(RenderGraph &r_graph, glm::uvec2 p_size_px) {

@@ -13,6 +13,10 @@ namespace gnomon {
 /// Creates a mask that a compute pass writes; see ShadowTechnique::resolve for the formats.
 RGTexture create_mask(
 		RenderGraph &r_graph, glm::uvec2 p_size_px, Format p_format = Format::R16_SFLOAT);
+/// Creates a mask that passes over the light's tiles write (add_map_resolve_pass). Other pixels are
+/// fully lit. Bind it with PassBuilder::Content::UPDATE.
+RGTexture create_tiled_mask(
+		RenderGraph &r_graph, glm::uvec2 p_size_px, Format p_format = Format::R16_SFLOAT);
 /// Adds a mask with the same value in each pixel, for example for lights without a shadow.
 RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility);
 
@@ -36,6 +40,12 @@ std::vector<PassBinding> make_map_resolve_bindings(
 std::vector<PassBinding> make_map_resolve_bindings(RenderGraph &r_graph,
 		const ShadowTechnique::Inputs &p_inputs, const LightSnapshot &p_light,
 		const std::vector<LightView> &p_views);
+/// Adds a pass over the pixels that the light may reach, for a shader that finds its pixel with
+/// find_pixel of common/map_resolve_inc.glsl. p_bindings: those of make_map_resolve_bindings and
+/// the technique's own. p_push: see make_push_bytes.
+void add_map_resolve_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
+		std::vector<PassBinding> p_bindings, const ShadowTechnique::Inputs &p_inputs,
+		std::vector<uint8_t> p_push = {});
 
 // For masks that are drawn with a stencil test.
 

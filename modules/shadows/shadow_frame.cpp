@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/render_graph/fill_pass.h"
 #include "modules/shadows/camera_view.h"
 #include "modules/shadows/light_properties.h"
 #include "modules/shadows/mask.h"
@@ -146,6 +147,7 @@ void ShadowFrame::set_surfaces(const HostSurfaces &p_surfaces) {
 		surfaces.geometric_normal = add_normals_pass();
 		plan.run("normals from depth");
 	}
+	tile_depths = add_tile_depths_pass(graph, system.device, constants, surfaces.depth, size_px);
 }
 
 RGTexture ShadowFrame::add_normals_pass() {
@@ -163,20 +165,24 @@ RGTexture ShadowFrame::add_normals_pass() {
 	return normals;
 }
 
-RGTexture ShadowFrame::add_receivers_pass(RGBuffer p_light_constants) {
-	const RGTexture result = graph.create_texture({ "receivers", Format::R8_UNORM, size_px, 1,
-			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
-	add_compute_pass(graph, "receivers",
+void ShadowFrame::add_receivers_pass(LightShadow &r_shadow, bool p_lists_all_tiles) {
+	r_shadow.tiles = add_lit_tiles_pass(graph, system.device, constants, r_shadow.light_constants,
+			tile_depths, size_px, p_lists_all_tiles);
+	r_shadow.receivers = graph.create_texture({ "receivers", Format::R8_UNORM, size_px, 1,
+			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE |
+					TextureUsage::COPY_TARGET });
+	add_clear_pass(graph, "clear receivers", r_shadow.receivers, 0.0f);
+	add_tile_pass(graph, "receivers",
 			system.device.get_compute_pipeline({ "receivers", "shadows/receivers.comp", {} }),
 			{
 					PassBinding::constants(SURFACE_BINDING_FRAME, constants),
-					PassBinding::constants(SURFACE_BINDING_LIGHT, p_light_constants),
+					PassBinding::constants(SURFACE_BINDING_LIGHT, r_shadow.light_constants),
 					PassBinding::read(SURFACE_BINDING_DEPTH, surfaces.depth),
 					PassBinding::read(SURFACE_BINDING_NORMAL, surfaces.geometric_normal),
-					PassBinding::write(SURFACE_BINDING_RESULT, result),
+					PassBinding::write(SURFACE_BINDING_RESULT, r_shadow.receivers,
+							PassBuilder::Content::UPDATE),
 			},
-			glm::uvec3(size_px, 1u));
-	return result;
+			r_shadow.tiles, SURFACE_BINDING_TILES);
 }
 
 std::string ShadowFrame::describe_unlit(const LightSnapshot &p_light) const {
@@ -196,7 +202,7 @@ LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_de
 	LightShadow shadow;
 	shadow.light_constants = graph.upload_constants(
 			"light constants", compute_light_constants(p_light, scene->camera));
-	shadow.receivers = add_receivers_pass(shadow.light_constants);
+	add_receivers_pass(shadow, !options.may_skip || p_wants_debug_views);
 	plan.run("receivers");
 	const VisibleReceivers lit = find_lit_receivers(p_light, receivers);
 	if (!p_light.casts_shadow) {
@@ -235,7 +241,8 @@ void ShadowFrame::hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t 
 	shader::HoldPush push = {};
 	push.layer = p_layer;
 	push.no_receiver_value = p_no_receiver_value;
-	add_compute_pass(graph, "hold mask",
+	add_clear_pass(graph, "clear held mask", p_array, p_no_receiver_value, p_layer);
+	add_tile_pass(graph, "hold mask",
 			system.device.get_compute_pipeline(
 					{ "hold mask", has_color ? "shadows/hold_color.comp" : "shadows/hold_gray.comp",
 							make_mask_constants(graph, p_shadow.mask) }),
@@ -244,7 +251,7 @@ void ShadowFrame::hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t 
 					PassBinding::read(HOLD_BINDING_RECEIVERS, p_shadow.receivers),
 					PassBinding::write(HOLD_BINDING_RESULT, p_array, PassBuilder::Content::UPDATE),
 			},
-			size_px, push);
+			p_shadow.tiles, HOLD_BINDING_TILES, make_push_bytes(push));
 }
 
 ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
@@ -264,6 +271,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.geometric_normal = surfaces.geometric_normal,
 		.material = surfaces.material,
 		.receivers = p_work.shadow.receivers,
+		.tiles = p_work.shadow.tiles,
 		.frame = constants,
 		.light_constants = p_work.shadow.light_constants,
 		.may_skip = options.may_skip,

@@ -31,6 +31,7 @@ struct LightShadow {
 	/// RGBA16_SFLOAT or RGBA32_SFLOAT (is_colored_mask). Valid only where `receivers` is 1.
 	RGTexture mask;
 	RGTexture receivers; // R8_UNORM: 1 where the light can reach: faces it, inside cone and range
+	LitTiles tiles;		 // contain all receivers
 	RGBuffer light_constants; // shader::LightConstants
 	/// The debug views of the light's technique, when they were requested.
 	std::vector<ShadowTechnique::DebugView> debug_views;
@@ -80,9 +81,9 @@ public:
 	/// Calls add_light for all lights of the snapshot, for a host that uses their masks together.
 	std::vector<LightShadow> add_all_lights();
 	/// Copies a light's mask into a layer of a texture array that outlives the frame: R16_SFLOAT
-	/// (gets the luminance of a coloured mask) or RGBA16_SFLOAT, usage STORAGE, at least of the
-	/// frame's size, with TextureDesc::is_array. p_no_receiver_value: the value of pixels without a
-	/// receiver: background, out of the light's reach, or facing away from it.
+	/// (gets the luminance of a coloured mask) or RGBA16_SFLOAT, usage STORAGE and COPY_TARGET, at
+	/// least of the frame's size, with TextureDesc::is_array. p_no_receiver_value: the value of
+	/// pixels without a receiver: background, out of the light's reach, or facing away from it.
 	void hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer,
 			float p_no_receiver_value = 0.0f);
 
@@ -92,7 +93,8 @@ public:
 private:
 	/// Data that the runs of one technique for one light share.
 	struct Work;
-	RGTexture add_receivers_pass(RGBuffer p_light_constants);
+	/// Sets the tiles and the receivers of a light.
+	void add_receivers_pass(LightShadow &r_shadow, bool p_lists_all_tiles);
 	RGTexture add_normals_pass();
 	RGTexture add_shadow(const LightSnapshot &p_light, const VisibleReceivers &p_lit,
 			LightShadow &r_shadow, bool p_wants_debug_views);
@@ -113,6 +115,7 @@ private:
 	ShadowFrameOptions options;
 	RGBuffer constants;
 	HostSurfaces surfaces;
+	RGBuffer tile_depths;		// see add_tile_depths_pass
 	VisibleReceivers receivers; // for all lights
 	/// Copies of lights, with the widths that their technique derives.
 	std::deque<LightSnapshot> lights;

@@ -5,6 +5,7 @@
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadows/frame_plan.h"
 #include "modules/shadows/light_view.h"
+#include "modules/shadows/lit_tiles.h"
 #include "modules/shadows/visible_receivers.h"
 
 #include <limits>
@@ -102,6 +103,8 @@ public:
 		RGTexture material;
 		/// R8_UNORM: 1 where the light can reach. Other pixels of the mask are not used.
 		RGTexture receivers;
+		/// Contain all receivers. Passes over pixels need to process only these.
+		LitTiles tiles;
 		RGBuffer frame;			  // FrameConstants
 		RGBuffer light_constants; // LightConstants
 		/// False: nothing may be skipped. A test compares the masks of both cases bit for bit.
@@ -173,8 +176,8 @@ public:
 	/// Returns the standard error of the last mask, for a technique that samples at random and can
 	/// estimate it, otherwise 0. Called after the frame was executed.
 	virtual float get_standard_error() const { return 0.0f; }
-	/// Appends the work that the technique counted on the GPU in the last frame whose submission has
-	/// finished. Called after the frame was executed.
+	/// Appends the work that the technique counted on the GPU in the last frame whose submission
+	/// has finished. Called after the frame was executed.
 	virtual void get_counters(std::vector<WorkCounter> & /*r_counters*/) const {}
 	/// Entry points under shaders/; compiled by the tests and watched for hot reload.
 	virtual std::vector<std::string> get_shader_files() const = 0;

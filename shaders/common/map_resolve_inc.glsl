@@ -4,18 +4,15 @@
 #define MAP_RESOLVE_INC_GLSL
 
 #include "common/receiver_pixels_inc.glsl"
-#include "common/work_rows_inc.glsl"
+#define LIT_TILES_BINDING MAP_RESOLVE_BINDING_TILES
+#include "common/lit_tiles_inc.glsl"
 
 layout(local_size_x = MAP_RESOLVE_GROUP_SIZE, local_size_y = MAP_RESOLVE_GROUP_SIZE) in;
 
-/// Index of the group of pixels that this work group processes.
-uvec2 find_group() {
-	return uvec2(gl_WorkGroupID.x, find_work_row());
-}
-
-/// The pixel that this invocation processes.
+/// The pixel that this invocation processes; outside the image if there is none. For add_map_resolve_pass of
+/// modules/shadows/mask.h, which dispatches the tiles that the light may reach.
 ivec2 find_pixel() {
-	return ivec2(find_group() * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy);
+	return find_lit_pixel(frame.size_px);
 }
 
 /// Projects a pixel's receiver into the view that contains it. r_view: that view's index. Call it only for pixels for

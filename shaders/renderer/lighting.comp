@@ -8,6 +8,9 @@
 #include "renderer/renderer_shared.h"
 #include "shared/mask_shared.h"
 
+#define LIT_TILES_BINDING RENDERER_BINDING_TILES
+#include "common/lit_tiles_inc.glsl"
+
 // Adds one light, times its visibility mask and the exposure, to the frame's radiance.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
 layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
@@ -29,7 +32,7 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 pixel = find_lit_pixel(frame.size_px);
 	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
 		return;
 	}

@@ -15,6 +15,7 @@
 #define RENDERER_BINDING_RADIANCE 10
 #define RENDERER_BINDING_OUTPUT 11
 #define RENDERER_BINDING_REFERENCE 12
+#define RENDERER_BINDING_TILES 13
 #define RENDERER_GROUP_SIZE 8
 // Upper limit of the exposed radiance, just below the largest half float, 65504.
 #define RENDERER_MAX_RADIANCE 6e4

@@ -21,22 +21,17 @@ layout(push_constant) uniform Push {
 	CountBlockPush push;
 };
 
-/// The work group's entry in the list of blocks. Even entries come first, then odd ones (see interleave_work):
-/// neighbours in the list are neighbours in the image and take about the same time, so both halves of the dispatch take
-/// about the same time too.
-uint load_block_entry() {
-	const uint index = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
-	return blocks[push.first_block + index];
+/// Limits an index to the blocks of the image.
+uint limit_block(uint p_block) {
+	return min(p_block, light.block_count.x * light.block_count.y - 1u);
 }
 
-/// The block of an entry, limited to the blocks of the image.
-uint limit_block(uint p_entry) {
-	return min(p_entry & ~EDGE_COUNT_BLOCK_IS_DARK, light.block_count.x * light.block_count.y - 1u);
-}
-
-/// The work group's block.
+/// The work group's block. Even entries of the list come first, then odd ones (see
+/// interleave_work): neighbours in the list are neighbours in the image and take about the same time, so both halves of
+/// the dispatch take about the same time too.
 uint find_block() {
-	return limit_block(load_block_entry());
+	const uint index = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
+	return limit_block(blocks[push.first_block + index]);
 }
 
 /// The position of the block's first pixel in the image.

@@ -7,11 +7,13 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_constants_inc.glsl"
 #include "shadow_edge_count/box_solids_inc.glsl"
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_parts_inc.glsl"
+
+#define LIT_TILES_BINDING MAP_RESOLVE_BINDING_TILES
+#include "common/lit_tiles_inc.glsl"
 
 // Lists, for each part of a block's receivers, the edges that may matter to any of them, in the order of the light's
 // list. Then adds the block to the list of its kind. One subgroup processes one tile of blocks. First it finds the
@@ -564,17 +566,21 @@ void write_status() {
 }
 
 /// Adds a block to the list of its kind. The order is arbitrary and does not affect the mask.
-void add_block(uint p_entry, uint p_kind) {
+void add_block(uint p_block, uint p_kind) {
 	const uint first = 3u * p_kind; // of the three arguments of the kind's dispatch
 	const uint slot = atomicAdd(dispatches[first], 1u);
-	blocks[p_kind * light.block_count.x * light.block_count.y + slot] = p_entry;
+	blocks[p_kind * light.block_count.x * light.block_count.y + slot] = p_block;
 	dispatches[first + 1u] = 1u;
 	dispatches[first + 2u] = 1u;
 }
 
 void main() {
 	load_light();
-	const uvec2 tile = uvec2(gl_WorkGroupID.x, find_work_row());
+	bool is_valid;
+	const uvec2 tile = find_lit_tile(light.block_count * uint(EDGE_COUNT_BLOCK_PX), is_valid);
+	if (!is_valid) {
+		return;
+	}
 	uint views = 0u;
 	for (uint i = gl_SubgroupInvocationID; i < BLOCKS_PER_TILE; i += GROUP_SIZE) {
 		const uint parts = load_parts(find_block(tile, i));
@@ -604,13 +610,13 @@ void main() {
 			uint kind = uint(is_smooth ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
 			kind = is_tested && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);
 			kind = edge_count > light.budget ? uint(EDGE_COUNT_BLOCKS_FILTERED) : kind;
-			// At most one of SOME_ARE_LIT and SOME_ARE_DARK, and not MAY_VARY.
-			const bool is_even = light.max_edge_count > 0u && solids <= SOME_ARE_DARK;
-			kind = is_tested && edge_count == 0u && find_cut_face_count() == 0u
-					? uint(is_even ? EDGE_COUNT_BLOCKS_EVEN : EDGE_COUNT_BLOCKS_PLAIN)
-					: kind;
-			const bool is_dark = kind == uint(EDGE_COUNT_BLOCKS_EVEN) && solids == SOME_ARE_DARK;
-			add_block(block | (is_dark ? EDGE_COUNT_BLOCK_IS_DARK : 0u), kind);
+			const bool has_nothing = is_tested && edge_count == 0u && find_cut_face_count() == 0u;
+			// All receivers see the same number of solids: at most one of SOME_ARE_LIT and SOME_ARE_DARK, not MAY_VARY.
+			const bool is_even = has_nothing && light.max_edge_count > 0u && solids <= SOME_ARE_DARK;
+			kind = has_nothing ? uint(is_even ? EDGE_COUNT_BLOCKS_DARK : EDGE_COUNT_BLOCKS_PLAIN) : kind;
+			if (!is_even || solids == SOME_ARE_DARK) {
+				add_block(block, kind);
+			}
 		}
 	}
 	write_status();

@@ -5,9 +5,11 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
-#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_box_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
+
+#define LIT_TILES_BINDING MAP_RESOLVE_BINDING_TILES
+#include "common/lit_tiles_inc.glsl"
 
 // Splits each block's receivers into parts and computes their bounds. One subgroup per block.
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) in;
@@ -31,11 +33,10 @@ const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
 const uint NO_VIEW = 0xffffffffu;
 const uint NO_PART = 0xffffffffu;
 
-/// The receiver of one of the block's pixels. Its view is NO_VIEW if there is none, or if no caster can hide it. In the
+/// The receiver of one of a block's pixels. p_block: in blocks from the top left. Its view is NO_VIEW if there is none, or if no caster can hide it. In the
 /// latter case r_is_lit becomes true.
-CountPoint load_point(uint p_index, inout bool r_is_lit) {
-	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * uint(EDGE_COUNT_BLOCK_PX) +
-			find_pixel_in_block(p_index));
+CountPoint load_point(uvec2 p_block, uint p_index, inout bool r_is_lit) {
+	const ivec2 pixel = ivec2(p_block * uint(EDGE_COUNT_BLOCK_PX) + find_pixel_in_block(p_index));
 	CountPoint point = CountPoint(vec3(0.0), NO_VIEW, vec3(0.0), 0.0);
 	if (p_index < PIXEL_COUNT && is_in_image(pixel) && is_receiver_pixel(pixel)) {
 		const CountPoint loaded = load_count_point(pixel);
@@ -158,13 +159,18 @@ bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
 
 void main() {
 	load_count_constants();
+	bool is_valid;
+	const uvec2 image_block = find_lit_block(frame_copy.size_px, is_valid);
+	if (!is_valid) {
+		return;
+	}
 	CountPoint points[PIXELS_PER_INVOCATION];
 	float distances[PIXELS_PER_INVOCATION];
 	bool is_lit = false;
 	uint views = 0u;
 	vec2 camera_range = vec2(COUNT_FAR, -COUNT_FAR);
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-		points[i] = load_point(i * GROUP_SIZE + gl_SubgroupInvocationID, is_lit);
+		points[i] = load_point(image_block, i * GROUP_SIZE + gl_SubgroupInvocationID, is_lit);
 		const bool is_receiver = points[i].view != NO_VIEW;
 		const float distance_m = find_camera_distance(points[i]);
 		views |= is_receiver ? 1u << points[i].view : 0u;
@@ -188,7 +194,7 @@ void main() {
 		all_parts |= points[i].view != NO_VIEW ? 1u << part : 0u;
 	}
 	all_parts = subgroup_or(all_parts);
-	const uint block = find_work_row() * light.block_count.x + gl_WorkGroupID.x;
+	const uint block = image_block.y * light.block_count.x + image_block.x;
 	for (uint left = all_parts; left != 0u; left &= left - 1u) {
 		write_part(block, uint(findLSB(left)), points, parts);
 	}

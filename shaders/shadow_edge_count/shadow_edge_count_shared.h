@@ -206,7 +206,6 @@ struct SHARED_ALIGN CountLightConstants {
 							// many metres; less for receivers near the camera, in proportion to
 							// compute_receiver_offset_m
 	uvec2 block_count;		// columns and rows of blocks in the image
-	uvec2 tile_count;		// columns and rows of tiles
 	uint view_count;
 	uint empty_views;	 // bit i: view i has no casters or no receivers
 	uint chunk_capacity; // chunks for the lists of all blocks together
@@ -220,6 +219,8 @@ struct SHARED_ALIGN CountLightConstants {
 	uint max_bundle_count;	 // capacity of bundles; the groups of bundles start at this index
 	uint unfinished_slot_count;	 // see EDGE_COUNT_MAX_ITERATIONS
 	uint unfinished_round_count; // 0: no subgroup has more iterations
+	uint padding0;
+	uint padding1;
 };
 SHARED_SIZE(CountLightConstants, 464);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);
@@ -310,11 +311,10 @@ SHARED_SIZE(CountBlockBox, 48);
 #define EDGE_COUNT_FAULT_FACE_LIST 0x100u // a list of faces has no end, or an index out of range
 #define EDGE_COUNT_FAULT_EDGE_LIST 0x10000u // the same of a list of edges
 
-// Kinds of blocks. Each kind has a list of its blocks, and the arguments of an indirect dispatch,
+// Kinds of blocks. Blocks that are all lit have none, since the mask is cleared to 1. Each kind has a list of its blocks, and the arguments of an indirect dispatch,
 // (blocks, 1, 1). After the arguments of all kinds is the number of requested chunks, including
 // those that did not fit.
-#define EDGE_COUNT_BLOCKS_EVEN                                                                     \
-	0 // no edges, and no face between receivers: they are all lit or all dark
+#define EDGE_COUNT_BLOCKS_DARK 0	 // no edges, and no face between receivers: they are all dark
 #define EDGE_COUNT_BLOCKS_PLAIN 1	 // no edges
 #define EDGE_COUNT_BLOCKS_LISTED 2	 // a list of edges
 #define EDGE_COUNT_BLOCKS_UNLISTED 3 // edges, but no complete list
@@ -322,8 +322,6 @@ SHARED_SIZE(CountBlockBox, 48);
 #define EDGE_COUNT_BLOCKS_SMOOTH                                                                   \
 	5 // a list of edges so far away that the mask is smooth, see count_smooth_inc.glsl
 #define EDGE_COUNT_BLOCK_KINDS 6
-#define EDGE_COUNT_BLOCK_IS_DARK                                                                   \
-	0x80000000u						  // flag of a block in the list of EDGE_COUNT_BLOCKS_EVEN
 #define EDGE_COUNT_DISPATCH_CHUNKS 18 // index: 3 arguments for each of 6 kinds precede it
 #define EDGE_COUNT_DISPATCH_WORDS 19
 

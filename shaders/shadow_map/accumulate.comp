@@ -8,7 +8,7 @@
 layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r32f) uniform image2D mask_image;
 
 void main() {
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 pixel = find_pixel();
 	if (!is_in_image(pixel)) {
 		return;
 	}

@@ -8,7 +8,7 @@ layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2
 layout(constant_id = SHADOW_MAP_CONSTANT_FILTER_WIDTH) const int FILTER_WIDTH = 0; // in texels; 0 = hard
 
 void main() {
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 pixel = find_pixel();
 	if (!is_in_image(pixel)) {
 		return;
 	}

@@ -8,7 +8,7 @@
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D case_image;
 
 void main() {
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 pixel = find_pixel();
 	if (is_in_image(pixel)) {
 		imageStore(case_image, pixel, vec4(float(resolve_pixel(pixel).case_number)));
 	}

@@ -7,7 +7,7 @@
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 pixel = find_pixel();
 	if (is_in_image(pixel)) {
 		imageStore(mask_image, pixel, vec4(clamp(resolve_pixel(pixel).visibility, 0.0, 1.0)));
 	}

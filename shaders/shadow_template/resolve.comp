@@ -25,7 +25,7 @@ float find_visibility(ivec2 p_pixel) {
 }
 
 void main() {
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 pixel = find_pixel();
 	if (is_in_image(pixel)) {
 		imageStore(mask_image, pixel, vec4(find_visibility(pixel)));
 	}

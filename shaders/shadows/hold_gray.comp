@@ -7,8 +7,9 @@
 layout(set = 0, binding = HOLD_BINDING_RESULT, r16f) uniform writeonly image2DArray result_image;
 
 void main() {
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (any(greaterThanEqual(pixel, imageSize(result_image).xy))) {
+	const ivec2 size_px = textureSize(mask_texture, 0);
+	const ivec2 pixel = find_lit_pixel(uvec2(size_px));
+	if (any(greaterThanEqual(pixel, size_px))) {
 		return;
 	}
 	const vec3 visibility = load_visibility(pixel);

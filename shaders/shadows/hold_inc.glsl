@@ -1,9 +1,13 @@
-// Copies a light's mask into one layer of a texture array that outlives the frame, see ShadowFrame::hold.
+// Copies a light's mask into one layer of a texture array that outlives the frame, see ShadowFrame::hold. The layer's
+// other tiles have the value of pixels without a receiver already.
 #ifndef HOLD_INC_GLSL
 #define HOLD_INC_GLSL
 
 #include "common/mask_inc.glsl"
 #include "shadows/shadows_shared.h"
+
+#define LIT_TILES_BINDING HOLD_BINDING_TILES
+#include "common/lit_tiles_inc.glsl"
 
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(set = 0, binding = HOLD_BINDING_MASK) uniform texture2D mask_texture;

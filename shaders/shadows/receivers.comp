@@ -6,6 +6,9 @@
 #include "common/normal_inc.glsl"
 #include "shadows/shadows_shared.h"
 
+#define LIT_TILES_BINDING SURFACE_BINDING_TILES
+#include "common/lit_tiles_inc.glsl"
+
 // Marks the receivers: pixels that the light can reach. Masks are only valid there.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffer Frame {
@@ -22,7 +25,7 @@ void main() {
 	// Copied here: within branches, llvmpipe takes 20 instructions to read a word.
 	const FrameConstants frame = frame_block;
 	const LightConstants light = light_block;
-	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 pixel = find_lit_pixel(frame.size_px);
 	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
 		return;
 	}

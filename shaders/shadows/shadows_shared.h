@@ -8,6 +8,7 @@
 #define SURFACE_BINDING_DEPTH 2
 #define SURFACE_BINDING_NORMAL 3
 #define SURFACE_BINDING_RESULT 4
+#define SURFACE_BINDING_TILES 5 // receivers.comp only
 #define SURFACE_GROUP_SIZE 8
 
 // Bindings of tint.comp.
@@ -20,6 +21,7 @@
 #define HOLD_BINDING_MASK 0
 #define HOLD_BINDING_RECEIVERS 1
 #define HOLD_BINDING_RESULT 2
+#define HOLD_BINDING_TILES 3
 
 // Bindings of deform.comp and deform_tangents.comp. Inputs: positions and normals at rest, three
 // floats per vertex (tangents: four), joint influences, displacements of the morph targets, and the

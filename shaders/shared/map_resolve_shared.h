@@ -9,7 +9,8 @@
 #define MAP_RESOLVE_BINDING_DEPTH 2
 #define MAP_RESOLVE_BINDING_NORMAL 3
 #define MAP_RESOLVE_BINDING_RECEIVERS 4
-#define MAP_RESOLVE_FIRST_FREE_BINDING 5
+#define MAP_RESOLVE_BINDING_TILES 5 // LitTiles::tiles
+#define MAP_RESOLVE_FIRST_FREE_BINDING 6
 
 // The next bindings of techniques that derive from DepthMapTechnique. Their own start at
 // DEPTH_MAP_FIRST_FREE_BINDING.

@@ -25,7 +25,7 @@ struct HeldMasks {
 			texture(p_device,
 					p_device.create_texture({ "held masks", p_format, SIZE_PX, p_count,
 							TextureUsage::STORAGE | TextureUsage::SAMPLED |
-									TextureUsage::COPY_SOURCE,
+									TextureUsage::COPY_SOURCE | TextureUsage::COPY_TARGET,
 							/*is_array=*/true })) {}
 };
 
