@@ -26,6 +26,13 @@ public:
 	using Error::Error;
 };
 
+/// There is more data than a device or a method can hold. A caller that knows the scene adds which
+/// object has most of it.
+class CapacityError : public Error {
+public:
+	using Error::Error;
+};
+
 /// Returns the message of a caught exception. For std::bad_alloc, which has no useful message, it
 /// states what the user can do.
 std::string describe_failure(const std::exception &p_failure);
@@ -33,6 +40,11 @@ std::string describe_failure(const std::exception &p_failure);
 /// Throws Error with the arguments joined by text().
 template <typename... Arguments> [[noreturn]] void fail(const Arguments &...p_arguments) {
 	throw Error(text(p_arguments...));
+}
+
+/// Throws CapacityError with the arguments joined by text().
+template <typename... Arguments> [[noreturn]] void fail_capacity(const Arguments &...p_arguments) {
+	throw CapacityError(text(p_arguments...));
 }
 
 /// Prints the message with its location and aborts. Called by GNOMON_ASSERT only.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace gnomon {
@@ -307,6 +308,39 @@ Bounds SceneSnapshot::compute_bounds() const {
 		bounds.add(instance.bounds_world);
 	}
 	return bounds;
+}
+
+std::string SceneSnapshot::describe_largest_caster() const {
+	struct Group {
+		const InstanceSnapshot *first = nullptr;
+		uint64_t node_count = 0;
+		uint64_t triangle_count = 0;
+	};
+	std::map<uint64_t, Group> groups; // by mesh id
+	uint64_t total = 0;
+	for (const InstanceSnapshot &instance : instances) {
+		if (instance.casts_shadow) {
+			Group &group = groups[instance.caster_mesh->id];
+			group.first = group.first ? group.first : &instance;
+			++group.node_count;
+			group.triangle_count += instance.caster_mesh->get_triangle_count();
+			total += instance.caster_mesh->get_triangle_count();
+		}
+	}
+	const auto largest = std::max_element(
+			groups.begin(), groups.end(), [](const auto &p_left, const auto &p_right) {
+				return p_left.second.triangle_count < p_right.second.triangle_count;
+			});
+	if (largest == groups.end()) {
+		return {};
+	}
+	const Group &group = largest->second;
+	std::string nodes = text("\"", group.first->node_name, "\"");
+	if (group.node_count > 1) {
+		nodes += text(" and ", group.node_count - 1, " other node", group.node_count > 2 ? "s" : "",
+				" with its mesh");
+	}
+	return text("Of ", total, " triangles, ", group.triangle_count, " are of ", nodes, ".");
 }
 
 Bounds SceneSnapshot::compute_caster_bounds() const {

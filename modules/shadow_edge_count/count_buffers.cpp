@@ -79,9 +79,9 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 							  std::optional<Format> p_fetched_format = std::nullopt) {
 		const uint64_t size_bytes = std::max(p_count, uint64_t(1)) * p_item_bytes;
 		if (size_bytes > max_bytes) {
-			fail("Light \"", p_light, "\": edge_count needs ", size_bytes, " bytes for the ",
-					p_what, " of its casters, and ", p_device.get_info().name, " has room for ",
-					max_bytes,
+			fail_capacity("Light \"", p_light, "\": edge_count needs ", size_bytes,
+					" bytes for the ", p_what, " of its casters, and ", p_device.get_info().name,
+					" has room for ", max_bytes,
 					" in one buffer. Let fewer meshes cast shadows, or set another "
 					"shadow_technique.");
 		}

@@ -104,19 +104,15 @@ uint64_t sum_max_overlapped_texels(const ShadowTechnique::Inputs &p_inputs, uint
 /// Lower bound of the distance of a point from the instance's casters: from their box along the
 /// world's axes, and from the planes of their box along the node's axes.
 double compute_min_distance_m(const InstanceSnapshot &p_instance, const glm::dvec3 &p_point_world) {
-	const auto find_gap = [](const Bounds &p_box, const glm::dvec3 &p_point) {
-		const glm::dvec3 minimum(p_box.minimum);
-		const glm::dvec3 maximum(p_box.maximum);
-		return glm::max(glm::max(minimum - p_point, p_point - maximum), glm::dvec3(0.0));
-	};
 	const glm::dmat4 node_from_world = glm::inverse(p_instance.world_from_node);
 	const glm::dmat3 rows = glm::transpose(glm::dmat3(node_from_world));
 	const glm::dvec3 point_node(node_from_world * glm::dvec4(p_point_world, 1.0));
-	const glm::dvec3 gap_node = find_gap(p_instance.caster_bounds_node, point_node);
-	double distance_m = glm::length(find_gap(p_instance.bounds_world, p_point_world));
+	const Bounds &box = p_instance.caster_bounds_node;
+	const glm::dvec3 gap_node =
+			glm::max(glm::dvec3(box.minimum) - point_node, point_node - glm::dvec3(box.maximum));
+	double distance_m = p_instance.bounds_world.compute_distance(p_point_world);
 	for (int axis = 0; axis < 3; ++axis) {
-		const double node_per_m = glm::length(rows[axis]);
-		distance_m = std::max(distance_m, gap_node[axis] / node_per_m);
+		distance_m = std::max(distance_m, gap_node[axis] / glm::length(rows[axis]));
 	}
 	return distance_m;
 }
@@ -156,8 +152,8 @@ std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
 uint32_t add_checked(
 		uint32_t p_sum, uint32_t p_count, const char *p_what, const std::string &p_light) {
 	if (p_count > MAX_COUNT - p_sum) {
-		fail("Light \"", p_light, "\": its casters have more than ", MAX_COUNT, " ", p_what,
-				", which is the most for edge_count. Let fewer meshes cast shadows.");
+		fail_capacity("Light \"", p_light, "\": its casters have more than ", MAX_COUNT, " ",
+				p_what, ", which is the most for edge_count. Let fewer meshes cast shadows.");
 	}
 	return p_sum + p_count;
 }

@@ -31,7 +31,7 @@ void ItemPool::grow(uint32_t p_count) {
 	const uint64_t size = ranges.get_size_bytes();
 	const uint64_t max_size = device.get_features().max_storage_buffer_bytes / ITEM_BYTES;
 	if (size + p_count > max_size) {
-		fail("edge_count needs ", (size + p_count) * ITEM_BYTES, " bytes for the ", what,
+		fail_capacity("edge_count needs ", (size + p_count) * ITEM_BYTES, " bytes for the ", what,
 				" of all meshes that cast shadows, and ", device.get_info().name, " has room for ",
 				max_size * ITEM_BYTES,
 				" in one buffer. Let fewer meshes cast shadows, or set another shadow_technique.");

@@ -128,6 +128,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 ShadowFrame::~ShadowFrame() {
 	if (!has_ended) {
 		system.clear_caches();
+		system.meshes->forget_poses();
 	}
 }
 
@@ -212,7 +213,11 @@ LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_de
 		plan.skip("shadow", describe_unlit(p_light));
 		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
 	} else {
-		shadow.mask = add_shadow(p_light, lit, shadow, p_wants_debug_views);
+		try {
+			shadow.mask = add_shadow(p_light, lit, shadow, p_wants_debug_views);
+		} catch (const CapacityError &error) {
+			fail_capacity(error.what(), " ", scene->describe_largest_caster());
+		}
 	}
 	return shadow;
 }

@@ -85,7 +85,7 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 			continue;
 		}
 		if (caster.gpu->edge_count > MAX_EDGE_COUNT - result.edge_count) {
-			fail("Light \"", p_inputs.light.name, "\": its casters have more than ", MAX_EDGE_COUNT,
+			fail_capacity("Light \"", p_inputs.light.name, "\": its casters have more than ", MAX_EDGE_COUNT,
 					" edges, which is the most that can be listed. Let fewer meshes cast shadows.");
 		}
 		caster.first_word = result.word_count;

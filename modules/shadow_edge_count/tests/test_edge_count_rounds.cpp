@@ -85,6 +85,25 @@ TEST_CASE("[GPU][EdgeCount] a receiver that sees the light behind 160,000 edges 
 	}
 }
 
+TEST_CASE("[GPU][EdgeCount] an error about too many triangles names the nodes with the most") {
+	MaskFixture fixture;
+	const auto screen = make_screen(300, 1.2f); // 180,000 triangles
+	SmallScene scene(LightType::OMNI);
+	for (int index = 0; index < 56; ++index) {
+		add_mesh(scene.scene, text("Screen ", index), screen, { 0.45, 1.5 + 0.01 * index, 0.3 });
+	}
+	std::string message;
+	try {
+		render_frame(fixture, scene, { .size_px = { 16, 16 } });
+	} catch (const Error &error) {
+		message = error.what();
+	}
+	CAPTURE(message);
+	CHECK(message.find("Light \"Light\": its casters have more than 10000000 ") == 0);
+	CHECK(message.find("are of \"Screen 0\" and 55 other nodes with its mesh.") !=
+			std::string::npos);
+}
+
 TEST_CASE("[GPU][EdgeCount] lists of faces that would exceed a buffer of the device get larger "
 		  "texels, and the mask is the same") {
 	MaskFixture fixture;
