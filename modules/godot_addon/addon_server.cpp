@@ -143,7 +143,9 @@ void AddonServer::update_worlds() {
 	}
 	const bool has_failed = render_side->take_failure();
 	ReceiverSpace needed;
-	receiver_materials.begin_frame();
+	// The editor draws only when something changes, so it could stay incomplete.
+	const bool is_gradual = settings.is_compilation_gradual && !is_editor;
+	receiver_materials.begin_frame(is_gradual ? 1 : ReceiverMaterials::UNLIMITED);
 	reader.begin_frame();
 	for (const auto &[scenario, nodes] : worlds) {
 		ReadWorld world = reader.read(scenario, tree, nodes, stand_ins.find_nodes(scenario));
@@ -154,8 +156,14 @@ void AddonServer::update_worlds() {
 			other_speculars.insert(
 					static_cast<float>(light.get_param(godot::Light3D::PARAM_SPECULAR)));
 		}
-		world.frame->receiver_lights =
-				stand_ins.update(scenario, choose_stand_ins(world, has_failed), other_speculars);
+		const bool is_compiled = render_side->are_compiled(list_light_kinds(*world.frame->scene));
+		if (is_gradual && world.frame->requests.empty()) {
+			// Materials are first, since masks without them show nothing.
+			world.frame->max_compilations = receiver_materials.has_copied() ? 0 : 1;
+		}
+		const bool is_pending = world.frame->max_compilations && !is_compiled;
+		world.frame->receiver_lights = stand_ins.update(
+				scenario, choose_stand_ins(world, has_failed || is_pending), other_speculars);
 		world.frame->mask_scale = settings.mask_resolution_scale;
 		for (const ViewDetail &view : world.frame->views) {
 			needed.size_px = glm::max(needed.size_px, view.size_px);

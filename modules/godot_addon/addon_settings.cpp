@@ -74,6 +74,9 @@ AddonSettings read_addon_settings() {
 	static const PropertyInfo keep = make_keep_setting();
 	AddonSettings settings;
 	settings.is_enabled = read_setting("rendering/gnomon/enabled", settings.is_enabled).to_bool();
+	settings.is_compilation_gradual =
+			read_setting("rendering/gnomon/gradual_compilation", settings.is_compilation_gradual)
+					.to_bool();
 	settings.most_lights = size_t(read_checked<int64_t>(
 			most_lights, [](const godot::Variant &p_value) { return p_value.to_int(); }));
 	settings.default_technique = read_checked<std::string>(get_default_technique_setting(),

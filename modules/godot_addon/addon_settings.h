@@ -20,6 +20,9 @@ struct AddonSettings {
 	std::string default_technique;	 // for nodes whose technique is "default"
 	float mask_resolution_scale = 1; // mask width / view width, 0.25 to 1
 	KeepGodotShadows keep_godot_shadows = KeepGodotShadows::AUTO;
+	/// In games at most one shader is compiled in each frame. What needs others keeps Godot's
+	/// shadow.
+	bool is_compilation_gradual = true;
 };
 AddonSettings read_addon_settings();
 

@@ -46,7 +46,7 @@ void ReceiverMaterials::free(godot::RID &r_owned) const {
 	}
 }
 
-void ReceiverMaterials::copy_code(const MaterialState &p_state, Copy &r_copy) const {
+void ReceiverMaterials::copy_code(const MaterialState &p_state, Copy &r_copy) {
 	const godot::RID original = p_state.original;
 	r_copy.receiver =
 			make_receiver_shader(server.shader_get_code(original).to_utf8(), p_state.is_generated);
@@ -56,6 +56,7 @@ void ReceiverMaterials::copy_code(const MaterialState &p_state, Copy &r_copy) co
 	if (!r_copy.shader.id) {
 		r_copy.shader = server.shader_create();
 	}
+	copies_left -= copies_left == 0 || copies_left == UNLIMITED ? 0 : 1;
 	server.shader_set_code(r_copy.shader, godot::String(r_copy.receiver.code));
 	const godot::Array parameters = server.get_shader_parameter_list(original);
 	for (int64_t index = 0; index < parameters.get_size(); ++index) {
@@ -105,8 +106,13 @@ ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const god
 		const godot::Ref<godot::Shader> shader = custom.get_shader();
 		state.original = shader ? shader.get_rid() : godot::RID();
 	}
-	ReceiverKind kind = state.is_generated ? ReceiverKind::GODOT : ReceiverKind::UNLIT;
-	if (state.original.id) {
+	if (state.applied.id && state.applied != state.original && !may_copy(state.original)) {
+		restore(godot::get_instance_id(p_material.get_object()), state);
+		state.applied = {};
+	}
+	ReceiverKind kind =
+			state.is_generated || state.original.id ? ReceiverKind::GODOT : ReceiverKind::UNLIT;
+	if (state.original.id && may_copy(state.original)) {
 		const Copy &copy = find_copy(state, p_material);
 		kind = copy.receiver.kind == ReceiverKind::PATCHED && !p_unknown_reason.empty()
 				? ReceiverKind::GODOT
@@ -153,6 +159,7 @@ void ReceiverMaterials::make_bare_material() {
 	if (bare_material.id) {
 		return;
 	}
+	copies_left -= copies_left == UNLIMITED ? 0 : 1;
 	bare_shader = server.shader_create();
 	server.shader_set_code(bare_shader, godot::String(make_receiver_shader(BARE_SHADER).code));
 	bare_material = server.material_create();
@@ -160,6 +167,9 @@ void ReceiverMaterials::make_bare_material() {
 }
 
 ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_surface) {
+	if (!bare_material.id && copies_left == 0) {
+		return ReceiverKind::GODOT;
+	}
 	make_bare_material();
 	const uint64_t id = godot::get_instance_id(p_mesh.get_object());
 	bare_meshes.insert(id);
@@ -225,7 +235,9 @@ void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneT
 	});
 }
 
-void ReceiverMaterials::begin_frame() {
+void ReceiverMaterials::begin_frame(uint32_t p_max_copies) {
+	max_copies = p_max_copies;
+	copies_left = p_max_copies;
 	take_inspected_shaders();
 	std::erase_if(materials,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });

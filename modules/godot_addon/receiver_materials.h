@@ -24,12 +24,16 @@ public:
 	ReceiverMaterials &operator=(const ReceiverMaterials &) = delete;
 
 	/// Call before the use() calls of a frame. Takes over the shaders that Godot returned since
-	/// end_frame(), and frees copies that no material uses.
-	void begin_frame();
+	/// end_frame(), and frees copies that no material uses. p_max_copies: how many shaders may be
+	/// copied, and thus compiled, in this frame.
+	void begin_frame(uint32_t p_max_copies);
+	static constexpr uint32_t UNLIMITED = ~0u;
+	/// Whether a shader was copied in this frame.
+	bool has_copied() const { return copies_left < max_copies; }
 	/// Makes p_material, and its next passes, read masks if possible. p_owner: the node, for
-	/// messages. Returns GODOT if the material is not supported, with one warning, and while the
-	/// generated shader of a BaseMaterial3D is not known yet. p_unknown_reason: why the drawn
-	/// surface is not known, see VertexMotion; empty: it is known.
+	/// messages. Returns GODOT if the material is not supported, with one warning, while the
+	/// generated shader of a BaseMaterial3D is not known yet, and while its copy has to wait.
+	/// p_unknown_reason: why the drawn surface is not known, see VertexMotion; empty: it is known.
 	ReceiverKind use(const godot::Material &p_material, const godot::Node &p_owner,
 			const std::string &p_unknown_reason = {});
 	/// The same for a surface of p_mesh without a material, which gets a default one.
@@ -56,8 +60,12 @@ private:
 		godot::Ref<godot::Resource> holder;		  // keeps the original alive
 		std::unique_ptr<WatchedResource> watched; // the shader of a ShaderMaterial
 	};
+	/// Whether the copy of the shader exists, or may be made in this frame.
+	bool may_copy(godot::RID p_original) const {
+		return copies_left > 0 || copies.contains(p_original);
+	}
 	Copy &find_copy(const MaterialState &p_state, const godot::Material &p_material);
-	void copy_code(const MaterialState &p_state, Copy &r_copy) const;
+	void copy_code(const MaterialState &p_state, Copy &r_copy);
 	void restore(uint64_t p_material, const MaterialState &p_state) const;
 	void restore_bare(uint64_t p_mesh) const;
 	void take_inspected_shaders();
@@ -70,7 +78,9 @@ private:
 	std::map<godot::RID, Copy> copies;			 // by original shader
 	std::vector<uint64_t> queried;			   // ids of materials whose shaders end_frame() queried
 	std::vector<godot::RID> inspected_shaders; // of `queried`, in its order; fewer: none is used
-	int incomplete_frames = 0;				   // consecutive frames in which shaders were missing
+	uint32_t max_copies = UNLIMITED;
+	uint32_t copies_left = UNLIMITED;
+	int incomplete_frames = 0; // consecutive frames in which shaders were missing
 	godot::RID bare_shader;
 	godot::RID bare_material;
 	std::set<uint64_t> bare_meshes; // mesh ids

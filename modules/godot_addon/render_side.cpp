@@ -2,7 +2,10 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/core/text.h"
 #include "modules/godot_addon/view_shadows.h"
+
+#include <algorithm>
 
 namespace gnomon {
 
@@ -11,6 +14,20 @@ namespace {
 const uint64_t MAX_UNUSED_VIEW_FRAMES = 120;
 
 } // namespace
+
+std::set<std::string> list_light_kinds(const SceneSnapshot &p_scene) {
+	std::set<std::string> kinds;
+	for (const LightSnapshot &light : p_scene.lights) {
+		std::string kind = text(light.technique_id, " ", get_light_type_name(light.type));
+		for (const auto &[name, value] : light.properties) {
+			if (const auto *choice = std::get_if<std::string>(&value)) {
+				kind += text(" ", name, "=", *choice); // a method or a quality
+			}
+		}
+		kinds.insert(std::move(kind));
+	}
+	return kinds;
+}
 
 void RenderSide::prepare_device() {
 	if (device) {
@@ -61,15 +78,43 @@ void RenderSide::run(
 		}
 		shadows->last_use = p_frame.number;
 		if (p_action == Action::MAKE) {
-			shadows->make_masks(p_frame, view);
+			make(*shadows, p_frame, view);
 			forget_unused(p_frame.number);
 		} else {
 			shadows->show_masks(p_frame, view);
 		}
 	} catch (const std::exception &failure) { // must not reach Godot
+		if (device) {
+			device->compile_only({});
+		}
 		record_failure(failure);
 		forget_view();
 	}
+}
+
+void RenderSide::make(
+		ViewShadows &r_shadows, const ScenarioFrame &p_frame, const GodotView &p_view) {
+	const std::set<std::string> kinds = list_light_kinds(*p_frame.scene);
+	// Lights that are shown already get what they need now, even if the frame takes longer.
+	try {
+		r_shadows.make_masks(
+				p_frame, p_view, are_compiled(kinds) ? std::nullopt : p_frame.max_compilations);
+	} catch (const NothingExecuted &) {
+		const bool has_compiled_all = device->has_compiled_all();
+		device->compile_only({});
+		forget_view();
+		if (!has_compiled_all) {
+			return;
+		}
+	}
+	const std::lock_guard lock(mutex);
+	compiled_kinds.insert(kinds.begin(), kinds.end());
+}
+
+bool RenderSide::are_compiled(const std::set<std::string> &p_light_kinds) const {
+	const std::lock_guard lock(mutex);
+	return std::includes(compiled_kinds.begin(), compiled_kinds.end(), p_light_kinds.begin(),
+			p_light_kinds.end());
 }
 
 void RenderSide::forget_view() {
@@ -107,6 +152,10 @@ void RenderSide::reserve(const ReceiverSpace &p_space) {
 }
 
 void RenderSide::clear() {
+	{
+		const std::lock_guard lock(mutex);
+		compiled_kinds.clear();
+	}
 	views.clear();
 	receivers.reset();
 	meshes.reset();

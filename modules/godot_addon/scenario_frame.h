@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -47,8 +48,10 @@ struct ScenarioFrame {
 	std::vector<InstanceDetail> details;
 	std::vector<ViewDetail> views;
 	std::vector<ReceiverLight> receiver_lights;
-	float mask_scale = 1;				// mask width / view width
-	bool has_faded = false;				// see WorldReceivers::has_faded
+	float mask_scale = 1;	// mask width / view width
+	bool has_faded = false; // see WorldReceivers::has_faded
+	/// How many pipelines may be compiled for it, see GodotDevice::compile_only. Empty: all.
+	std::optional<uint32_t> max_compilations;
 	std::set<std::string> shown_lights; // lights whose masks are drawn over the image
 	std::vector<std::shared_ptr<MaskRequest>> requests;
 };

@@ -64,7 +64,8 @@ ViewShadows::~ViewShadows() {
 	color.free(device);
 }
 
-void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_view) {
+void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_view,
+		std::optional<uint32_t> p_compile_only) {
 	layers.clear();
 	receivers.write_lights(p_view, p_frame);
 	const uint32_t count = static_cast<uint32_t>(p_frame.scene->lights.size());
@@ -130,6 +131,7 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 		}
 	}
 	scaled.write(mask_texture);
+	device.compile_only(p_compile_only);
 	graph.execute(reads.empty() ? RenderGraph::Mode::QUEUE : RenderGraph::Mode::WAIT);
 	frame.end();
 	for (uint32_t layer = 0; layer < count; ++layer) {

@@ -9,6 +9,10 @@
 
 namespace gnomon {
 
+/// The kinds of a scene's lights: those with the same pipelines, as far as is known before the
+/// masks are made. A name for each kind.
+std::set<std::string> list_light_kinds(const SceneSnapshot &p_scene);
+
 /// A texture of Godot that is imported into the device. It is imported again when it changes.
 class ImportedTexture {
 public:
@@ -32,7 +36,10 @@ public:
 	ViewShadows &operator=(const ViewShadows &) = delete;
 
 	/// Makes the masks of all lights. Call it before the view's opaque objects are drawn.
-	void make_masks(const ScenarioFrame &p_frame, const GodotView &p_view);
+	/// p_compile_only: if it has a value, up to this many pipelines are compiled instead, and
+	/// NothingExecuted is thrown, see GodotDevice::compile_only.
+	void make_masks(const ScenarioFrame &p_frame, const GodotView &p_view,
+			std::optional<uint32_t> p_compile_only);
 	/// Draws the masks of p_frame.shown_lights over the image, the last one on top.
 	void show_masks(const ScenarioFrame &p_frame, const GodotView &p_view);
 
@@ -58,12 +65,15 @@ public:
 	void reserve(const ReceiverSpace &p_space);
 	/// Whether masks of a view could not be made since the last call. Can be called on any thread.
 	bool take_failure() { return has_failed.exchange(false); }
+	/// Whether the pipelines of all lights of such kinds are compiled. Can be called on any thread.
+	bool are_compiled(const std::set<std::string> &p_light_kinds) const;
 	/// Frees all GPU resources. The next frame creates them again.
 	void clear();
 
 private:
 	enum class Action { MAKE, SHOW };
 	void run(Action p_action, const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
+	void make(ViewShadows &r_shadows, const ScenarioFrame &p_frame, const GodotView &p_view);
 	void prepare_device();
 	/// Makes materials ignore the masks until those of the next view are made. Keeps `views`.
 	void forget_view();
@@ -76,6 +86,8 @@ private:
 	std::map<uint64_t, std::unique_ptr<ViewShadows>> views; // by the id of Godot's buffers
 	std::set<std::string> logged_failures;
 	std::atomic<bool> has_failed = false;
+	mutable std::mutex mutex;
+	std::set<std::string> compiled_kinds; // of lights whose masks were made; guarded by `mutex`
 };
 
 } // namespace gnomon

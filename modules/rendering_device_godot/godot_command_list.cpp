@@ -130,14 +130,19 @@ void GodotDevice::begin_rendering(
 	begin_draw_list(framebuffer, flags, clear_colors, p_depth ? p_depth->clear : 0.0f);
 }
 
-void GodotDevice::begin_rendering_without_targets(glm::uvec2 p_size_px) {
+godot::RID GodotDevice::get_empty_framebuffer(glm::uvec2 p_size_px) {
 	Cached &cached = framebuffers[{ p_size_px.x, p_size_px.y }];
 	if (!cached.rid) {
 		cached.rid = rd.framebuffer_create_empty(
 				glm::ivec2(p_size_px), /*p_samples=*/0, /*p_validate_with_format=*/-1);
 	}
 	cached.last_use = submission;
-	begin_draw_list(cached.rid, /*p_flags=*/0, /*p_clear_colors=*/{}, /*p_clear_depth=*/0.0f);
+	return cached.rid;
+}
+
+void GodotDevice::begin_rendering_without_targets(glm::uvec2 p_size_px) {
+	begin_draw_list(get_empty_framebuffer(p_size_px), /*p_flags=*/0, /*p_clear_colors=*/{},
+			/*p_clear_depth=*/0.0f);
 }
 
 void GodotDevice::end_rendering() {
@@ -406,6 +411,9 @@ void GodotDevice::clear_color(TextureRID p_texture, glm::vec4 p_value, uint32_t 
 }
 
 void GodotDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
+	if (is_compiling_only) {
+		return; // the commands that write it are not executed
+	}
 	end_compute_list();
 	const GodotBuffer &buffer = buffers.get(p_buffer);
 	const int64_t size = static_cast<int64_t>(buffer.desc.size_bytes);
@@ -417,6 +425,9 @@ void GodotDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
 }
 
 void GodotDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) {
+	if (is_compiling_only) {
+		return; // the commands that write it are not executed
+	}
 	end_compute_list();
 	const godot::RID texture = textures.get(p_texture).rid;
 	if (kind == Kind::MAIN) {

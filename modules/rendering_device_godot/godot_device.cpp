@@ -72,6 +72,7 @@ uint32_t GodotDevice::measure_subgroup_size() {
 GodotDevice::~GodotDevice() {
 	read_backs.clear(); // the owners of the callbacks may be gone
 	wait_idle();
+	compile_list.free_resources();
 	*is_alive = false;
 	for (const std::string &name : list_live_resources()) {
 		log_error("Leaked ", name, ". Free it before the device ends.");
@@ -155,7 +156,7 @@ BufferRID GodotDevice::create_buffer_with_data(
 	buffer.desc = std::move(p_desc);
 	const BufferDesc &desc = buffer.desc;
 	if (desc.size_bytes > MAX_BUFFER_BYTES) {
-		fail("Buffer '", desc.name, "' needs ", desc.size_bytes, " bytes, at most ",
+		fail_capacity("Buffer '", desc.name, "' needs ", desc.size_bytes, " bytes, at most ",
 				MAX_BUFFER_BYTES, " are possible in Godot. Let fewer meshes cast shadows.");
 	}
 	if (desc.memory != MemoryKind::GPU) {
@@ -450,7 +451,15 @@ CommandList &GodotDevice::begin_commands() {
 	spans.clear();
 	is_not_abandoned = std::make_shared<bool>(true);
 	flush_uploads();
+	if (is_compiling_only) {
+		return compile_list;
+	}
 	return *this;
+}
+
+void GodotDevice::compile_only(std::optional<uint32_t> p_count) {
+	is_compiling_only = p_count.has_value();
+	compile_list.set_limit(p_count.value_or(0));
 }
 
 void GodotDevice::submit_commands(SubmitMode p_mode) {
@@ -472,6 +481,9 @@ void GodotDevice::submit_commands(SubmitMode p_mode) {
 	if (p_mode == SubmitMode::WAIT) {
 		wait_idle();
 	}
+	if (is_compiling_only) {
+		throw NothingExecuted();
+	}
 }
 
 void GodotDevice::abandon_commands() {
@@ -483,6 +495,7 @@ void GodotDevice::abandon_commands() {
 	}
 	*is_not_abandoned = false;
 	read_backs.clear();
+	is_compiling_only = false;
 	submit_commands(SubmitMode::QUEUE);
 }
 

@@ -4,6 +4,7 @@
 #include "modules/rendering_device/rendering_device.h"
 #include "modules/rendering_device/slot_table.h"
 #include "modules/rendering_device/spirv_reflection.h"
+#include "modules/rendering_device_godot/godot_compile_list.h"
 
 #include <godot_api.gen.h>
 
@@ -50,11 +51,10 @@ struct GodotPipeline {
 	std::map<int64_t, godot::RID> by_framebuffer_format;
 };
 
-/// Thrown when a pipeline is bound that may not be compiled yet, see
-/// GodotDevice::limit_compilations. The commands after it are not recorded.
-class PipelinesPending : public std::runtime_error {
+/// Thrown by submit_commands after commands that only compile, see GodotDevice::compile_only.
+class NothingExecuted : public std::runtime_error {
 public:
-	PipelinesPending() : std::runtime_error("pipelines are not compiled yet") {}
+	NothingExecuted() : std::runtime_error("the commands were not executed") {}
 };
 
 /// A device on top of one of Godot's RenderingDevices: MAIN, the one that draws Godot's frames,
@@ -76,11 +76,11 @@ public:
 	bool has_two_samples();
 	/// Lists the live resources: "texture 'albedo'", "buffer 'edges'".
 	std::vector<std::string> list_live_resources();
-	/// Limits how many pipelines may be compiled until the next call. Binding a further one throws
-	/// PipelinesPending. A pipeline is compiled, and some drivers compile it again when they
-	/// execute it, when it is bound for the first time.
-	void limit_compilations(uint32_t p_count) { compilations_left = p_count; }
-	static constexpr uint32_t UNLIMITED = ~0u;
+	/// While p_count has a value, commands compile up to this many pipelines, which are bound for
+	/// the first time, and are not executed: submit_commands throws NothingExecuted.
+	void compile_only(std::optional<uint32_t> p_count);
+	/// Whether the last commands after compile_only bound no further pipeline to compile.
+	bool has_compiled_all() const { return compile_list.get_compilations_left() > 0; }
 	uint32_t get_pipeline_count() const { return static_cast<uint32_t>(pipelines.size()); }
 	/// Returns Godot's RID, for use with Godot itself, such as in materials.
 	godot::RID get_rid(TextureRID p_texture) const { return textures.get(p_texture).rid; }
@@ -123,6 +123,7 @@ public:
 	const std::vector<GpuSpan> &get_gpu_spans() const override { return spans; }
 
 private:
+	friend class GodotCompileList;
 	// CommandList
 	void begin_span(const std::string &p_name) override;
 	void end_span() override;
@@ -179,6 +180,7 @@ private:
 	godot::RID get_uniform_set(
 			const GodotPipeline &p_pipeline, std::span<const Binding> p_bindings);
 	godot::RID get_framebuffer(std::span<const ColorTarget> p_colors, const DepthTarget *p_depth);
+	godot::RID get_empty_framebuffer(glm::uvec2 p_size_px);
 	void begin_draw_list(godot::RID p_framebuffer, int64_t p_flags,
 			std::span<const glm::vec4> p_clear_colors, float p_clear_depth);
 	/// Binds the vertex array of the bound pipeline and buffers; does nothing if the pipeline has
@@ -237,7 +239,8 @@ private:
 	int64_t draw_list = -1;
 	int64_t framebuffer_format = -1;
 	const GodotPipeline *bound = nullptr; // the bound pipeline
-	uint32_t compilations_left = UNLIMITED;
+	bool is_compiling_only = false;
+	GodotCompileList compile_list{ *this };
 	std::vector<BufferRID> vertex_buffers;
 	BufferRID index_buffer;
 };

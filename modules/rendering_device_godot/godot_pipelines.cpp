@@ -168,10 +168,6 @@ godot::RID GodotDevice::compile(GodotPipeline &r_pipeline, int64_t p_framebuffer
 	if (rid) {
 		return rid;
 	}
-	if (compilations_left == 0) {
-		throw PipelinesPending();
-	}
-	compilations_left -= compilations_left == UNLIMITED ? 0 : 1;
 	r_pipeline.shader = get_shader(r_pipeline.shader_names);
 	const auto *compute = std::get_if<ComputePipelineDesc>(&r_pipeline.desc);
 	rid = compute ? rd.compute_pipeline_create(

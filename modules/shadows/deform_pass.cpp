@@ -309,15 +309,19 @@ void MeshStore::prepare_deform(const std::shared_ptr<const Mesh> &p_mesh, bool p
 	}
 }
 
+void MeshStore::forget_poses() {
+	for (auto &[id, mesh] : meshes) {
+		mesh.pose_hash = 0;
+	}
+	for (auto &[id, topology] : topologies) {
+		topology.pose_hash = 0;
+	}
+}
+
 uint32_t MeshStore::add_deform_pass(
 		RenderGraph &r_graph, const SceneSnapshot &p_scene, bool p_may_reuse) {
 	if (!p_may_reuse) {
-		for (auto &[id, mesh] : meshes) {
-			mesh.pose_hash = 0;
-		}
-		for (auto &[id, topology] : topologies) {
-			topology.pose_hash = 0;
-		}
+		forget_poses();
 	}
 	const auto pass = std::make_shared<DeformPass>(*this, p_scene, r_graph);
 	if (!pass->is_needed()) {

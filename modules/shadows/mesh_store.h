@@ -63,6 +63,8 @@ public:
 		}
 		return *static_cast<T *>(entry.get());
 	}
+	/// Makes the next deform pass deform all meshes again.
+	void forget_poses();
 	/// Adds the pass that deforms meshes to the scene's poses. Call it before all passes that read
 	/// vertices; buffers that are requested later in the frame are deformed too. With p_may_reuse,
 	/// vertices whose pose did not change stay as they are. Returns the number of instances that

@@ -17,6 +17,8 @@ def write():
     shutil.rmtree(FOLDER, ignore_errors=True)
     shutil.copytree(godot_project.PROJECT, FOLDER, ignore=shutil.ignore_patterns(".godot"))
     shutil.copytree(SOURCES, os.path.join(FOLDER, "tests"))
+    with open(os.path.join(FOLDER, "project.godot"), "a", encoding="utf-8") as file:
+        file.write("\n[rendering]\n\ngnomon/gradual_compilation=false\n")  # tests look at the first frames
     godot_project.prepare(FOLDER)
 
 

@@ -55,6 +55,7 @@ def write_project():
     with open(os.path.join(FOLDER, "project.godot"), "w", encoding="utf-8") as file:
         file.write(
             'config_version=5\n[application]\nconfig/name="Editor test"\nconfig/features=PackedStringArray("4.6", "Forward Plus")\n'
+            "[rendering]\ngnomon/gradual_compilation=false\n"  # the game's image is stored after a few frames
             '[editor_plugins]\nenabled=PackedStringArray("res://addons/gnomon/plugin.cfg", "res://addons/editor_test/plugin.cfg")\n'
         )
     godot_project.prepare(FOLDER)

@@ -12,6 +12,7 @@ func _init(defaults: Dictionary) -> void:
 ## Reads the command line, makes the output folder and sets the window's size. Returns false, with a message, after a wrong
 ## argument.
 func read() -> bool:
+	ProjectSettings.set_setting("rendering/gnomon/gradual_compilation", false)  # images and times are of complete shadows
 	for argument in OS.get_cmdline_user_args():
 		var parts := argument.split("=", true, 1)
 		if parts.size() != 2 or not _values.has(parts[0]):

@@ -51,3 +51,40 @@ func _draw() -> Image:
 	var image := get_viewport().get_texture().get_image()
 	image.convert(Image.FORMAT_RF)
 	return image
+
+
+## Compiled gradually, a new light has Godot's shadow in each frame until its masks are made.
+func test_a_light_has_a_shadow_in_each_frame_while_shaders_are_compiled() -> void:
+	const GRADUAL := "rendering/gnomon/gradual_compilation"
+	var scene := add_study("spot", "box")
+	var settled := await _draw()
+	scene.light.shadow_enabled = false
+	var lit_count := _count_dark(await _draw())
+	var least := (lit_count + _count_dark(settled)) / 2
+	check(least > lit_count + 200, "the shadow has %d dark pixels more than %d" % [_count_dark(settled) - lit_count, lit_count])
+	remove(scene)
+	await draw_frames(3)  # the add-on frees its pipelines
+	ProjectSettings.set_setting(GRADUAL, true)
+	scene = add_study("spot", "box")
+	var frame := 0
+	var is_settled := false
+	await draw_frames(2)
+	while frame < 100 and not is_settled:
+		await draw_frames()
+		var image := get_viewport().get_texture().get_image()
+		image.convert(Image.FORMAT_RF)
+		check(_count_dark(image) > least, "frame %d: %d dark pixels, must be more than %d" % [frame, _count_dark(image), least])
+		is_settled = image.get_data() == settled.get_data()
+		frame += 1
+	check(is_settled, "the shadow is Gnomon's within 100 frames")
+	check(frame > 10, "at most one shader a frame: %d frames" % frame)
+	ProjectSettings.set_setting(GRADUAL, false)
+	remove(scene)
+
+
+func _count_dark(image: Image) -> int:
+	var count := 0
+	for y in image.get_height():
+		for x in image.get_width():
+			count += int(image.get_pixel(x, y).r < 0.05)
+	return count

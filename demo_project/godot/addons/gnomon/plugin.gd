@@ -10,6 +10,7 @@ const SETTINGS: Array[Dictionary] = [
 	{"name": "rendering/gnomon/most_lights", "type": TYPE_INT, "value": 16, "hint": PROPERTY_HINT_RANGE, "hint_string": "1,63"},
 	{"name": "rendering/gnomon/default_technique", "type": TYPE_STRING, "value": "edge_count", "hint": PROPERTY_HINT_ENUM},
 	{"name": "rendering/gnomon/keep_godot_shadows", "type": TYPE_STRING, "value": "auto", "hint": PROPERTY_HINT_ENUM, "hint_string": "auto,always,never"},
+	{"name": "rendering/gnomon/gradual_compilation", "type": TYPE_BOOL, "value": true},
 	{"name": "rendering/gnomon/mask_resolution_scale", "type": TYPE_FLOAT, "value": 1.0, "hint": PROPERTY_HINT_RANGE, "hint_string": "0.25,1,0.01"},
 ]
 
