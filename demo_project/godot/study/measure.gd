@@ -67,15 +67,16 @@ func _measure(case: String, light: Light3D) -> void:
 	for mode in ShadowModes.ALL:
 		ShadowModes.apply([light], mode)
 		times[mode] = await _time_moving(light)
-		# The image is of a frame with the light at its original position.
-		await RenderingServer.frame_post_draw
-		await RenderingServer.frame_post_draw
-		var image := get_viewport().get_texture().get_image()
-		image.convert(Image.FORMAT_RF)  # keeps red only
 		if mode == "off":
-			lit = image
+			# Godot lights surfaces by a light's size only if it has a shadow, so this shadow has no opacity.
+			var opacity := light.shadow_opacity
+			light.shadow_enabled = true
+			light.shadow_opacity = 0.0
+			lit = await _draw()
+			light.shadow_enabled = false
+			light.shadow_opacity = opacity
 		else:
-			_options.store_bytes("%s_%s.f32" % [case, mode], _divide(image, lit))
+			_options.store_bytes("%s_%s.f32" % [case, mode], _divide(await _draw(), lit))
 	_cases[case] = {"light": light.name, "times": times}
 
 
@@ -86,6 +87,15 @@ func _time_moving(light: Light3D) -> float:
 		light.transform = original.translated(Vector3(0.01 * (frame % 7), 0, 0)).rotated_local(Vector3.UP, 0.002 * (frame % 5)))
 	light.transform = original
 	return time
+
+
+## Returns the red channel of a frame with the light at its original position.
+func _draw() -> Image:
+	await RenderingServer.frame_post_draw
+	await RenderingServer.frame_post_draw
+	var image := get_viewport().get_texture().get_image()
+	image.convert(Image.FORMAT_RF)
+	return image
 
 
 func _divide(image: Image, lit: Image) -> PackedByteArray:
