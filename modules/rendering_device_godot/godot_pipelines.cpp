@@ -164,20 +164,20 @@ PipelineRID GodotDevice::get_compute_pipeline(const ComputePipelineDesc &p_desc)
 }
 
 godot::RID GodotDevice::compile(GodotPipeline &r_pipeline, int64_t p_framebuffer_format) {
-	godot::RID &rid = r_pipeline.by_framebuffer_format[p_framebuffer_format];
-	if (rid) {
-		return rid;
+	const auto found = r_pipeline.by_framebuffer_format.find(p_framebuffer_format);
+	if (found != r_pipeline.by_framebuffer_format.end()) {
+		return found->second;
 	}
 	r_pipeline.shader = get_shader(r_pipeline.shader_names);
 	const auto *compute = std::get_if<ComputePipelineDesc>(&r_pipeline.desc);
-	rid = compute ? rd.compute_pipeline_create(
-							r_pipeline.shader, make_constants(r_pipeline, compute->constants))
-				  : make_raster_pipeline(r_pipeline, p_framebuffer_format);
-	if (!rid) {
+	const godot::RID made = compute ? rd.compute_pipeline_create(r_pipeline.shader,
+											  make_constants(r_pipeline, compute->constants))
+									: make_raster_pipeline(r_pipeline, p_framebuffer_format);
+	if (!made) {
 		fail("Pipeline '", r_pipeline.name,
 				"' is refused by Godot: its log has the reason. Set another shadow technique.");
 	}
-	return rid;
+	return r_pipeline.by_framebuffer_format[p_framebuffer_format] = made;
 }
 
 PipelineRID GodotDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
