@@ -199,11 +199,9 @@ godot::RID GodotDevice::get_uniform_set(
 	for (const ReflectedBinding &reflected : p_pipeline.bindings) {
 		const auto given = std::find_if(p_bindings.begin(), p_bindings.end(),
 				[&](const Binding &p_binding) { return p_binding.binding == reflected.binding; });
-		if (given == p_bindings.end()) {
-			GNOMON_ASSERT(!reflected.is_used, "pipeline '", p_pipeline.name, "': binding ",
-					reflected.binding, " is missing");
-			continue;
-		}
+		// Godot wants a resource for a binding that is only declared, too.
+		GNOMON_ASSERT(given != p_bindings.end(), "pipeline '", p_pipeline.name, "': binding ",
+				reflected.binding, " is missing");
 		Slot slot = { &reflected, {}, {} };
 		if (given->buffer) {
 			slot.resource = buffers.get(given->buffer).rid;

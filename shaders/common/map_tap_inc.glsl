@@ -5,7 +5,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "common/map_compare_inc.glsl"
-#include "common/map_resolve_inc.glsl"
+#include "common/receiver_pixels_inc.glsl"
 
 // Lower limit of the receiver plane's w at a tap, as a fraction of the receiver's w. Beyond the plane's horizon its w
 // would be 0 or less, and everything would count as a blocker.

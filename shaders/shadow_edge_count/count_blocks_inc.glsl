@@ -10,7 +10,7 @@
 #endif
 #ifdef COUNT_GROUP_IS_SUBGROUP
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
-#elif !defined(MAP_RESOLVE_INC_GLSL) // which sets the size to 8 x 8
+#else
 // In one dimension: with two, llvmpipe fills subgroups only up to the size in x.
 layout(local_size_x = COUNT_GROUP_SIZE) in;
 #endif

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/map_resolve_inc.glsl"
 #include "common/map_tap_inc.glsl"
 #include "shadow_jittered_pcf/shadow_jittered_pcf_shared.h"
 

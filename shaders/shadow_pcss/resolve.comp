@@ -1,6 +1,7 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/map_resolve_inc.glsl"
 #include "common/pcss_inc.glsl"
 #include "shadow_pcss/shadow_pcss_shared.h"
 
