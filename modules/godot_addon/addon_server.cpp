@@ -80,6 +80,7 @@ void AddonServer::before_draw() {
 			node->update_warnings();
 		}
 	}
+	shader_time.update();
 	update_worlds();
 }
 

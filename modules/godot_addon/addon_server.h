@@ -45,8 +45,9 @@ private:
 	std::set<godot::RID> worlds_with_unknown;
 	Notices notices;
 	ReceiverMaterials receiver_materials{ notices };
+	ShaderTime shader_time;
 	StandInLights stand_ins; // replace lights of nodes on the RenderingServer
-	SceneReader reader{ receiver_materials, notices };
+	SceneReader reader{ receiver_materials, notices, shader_time };
 	std::shared_ptr<RenderSide> render_side = std::make_shared<RenderSide>();
 	ReceiverSpace reserved;
 	std::map<godot::RID, std::unique_ptr<ScenarioEffect>> effects; // by scenario

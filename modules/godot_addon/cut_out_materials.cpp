@@ -1,5 +1,7 @@
 #include "modules/godot_addon/cut_out_materials.h"
 
+#include "modules/godot_addon/variant_numbers.h"
+
 namespace gnomon {
 
 namespace {
@@ -68,34 +70,6 @@ Material make_material(
 	const glm::vec3 offset = p_material.get_uv1_offset();
 	texture.transform = glm::mat3x2(scale.x, 0, 0, scale.y, offset.x, offset.y);
 	return material;
-}
-
-/// Returns the numbers in a Variant; empty: it has none.
-std::vector<double> to_numbers(const godot::Variant &p_value) {
-	using godot::BuiltInType;
-	float components[4] = {};
-	const BuiltInType type = p_value.get_type();
-	size_t count = 0;
-	switch (type) {
-		case BuiltInType::BOOL:
-		case BuiltInType::INT:
-		case BuiltInType::FLOAT:
-			return { p_value.to_float() };
-		case BuiltInType::VECTOR2:
-			count = 2;
-			break;
-		case BuiltInType::VECTOR3:
-			count = 3;
-			break;
-		case BuiltInType::VECTOR4:
-		case BuiltInType::COLOR:
-			count = 4;
-			break;
-		default:
-			return {};
-	}
-	p_value.store(type, components);
-	return { components, components + count };
 }
 
 /// Whether the sampler of that name in a shader has the hint.

@@ -1,6 +1,7 @@
 #include "modules/godot_addon/mesh_reader.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 #include "modules/core/log.h"
 #include "modules/godot_addon/rig_reader.h"
 
@@ -125,6 +126,39 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 	return surface;
 }
 
+/// Reads what vertex() may read besides positions and normals.
+void read_attributes(const godot::Array &p_arrays, MeshAttributes &r_attributes) {
+	const godot::PackedVector2Array uvs(p_arrays.get_value(godot::Mesh::ARRAY_TEX_UV2));
+	const godot::PackedColorArray colors(p_arrays.get_value(godot::Mesh::ARRAY_COLOR));
+	const godot::PackedFloat32Array tangents(p_arrays.get_value(godot::Mesh::ARRAY_TANGENT));
+	r_attributes.uvs[1].assign(uvs.get_values().begin(), uvs.get_values().end());
+	r_attributes.colors.assign(colors.get_values().begin(), colors.get_values().end());
+	r_attributes.tangents.clear();
+	for (size_t first = 0; first + 4 <= tangents.get_values().size(); first += 4) {
+		const float *tangent = &tangents.get_values()[first];
+		r_attributes.tangents.emplace_back(tangent[0], tangent[1], tangent[2], tangent[3]);
+	}
+}
+
+/// Hashes what vertex() reads of each vertex besides its position: vertices that differ in it may
+/// move apart.
+std::vector<uint64_t> hash_inputs(const Mesh &p_mesh, const MeshAttributes &p_attributes,
+		const VertexTranslation &p_translation) {
+	std::vector<uint64_t> hashes(p_mesh.positions_node.size(), 1);
+	const auto add = [&](bool p_is_used, const auto &p_values) {
+		for (size_t vertex = 0; p_is_used && vertex < std::min(hashes.size(), p_values.size());
+				++vertex) {
+			hashes[vertex] = compute_value_hash(p_values[vertex] + 0.0f, hashes[vertex]);
+		}
+	};
+	add(p_translation.uses_normal, p_mesh.normals_node);
+	add(p_translation.uses_normal, p_attributes.tangents);
+	add(p_translation.uses_coordinates, p_attributes.uvs[0]);
+	add(p_translation.uses_coordinates, p_attributes.uvs[1]);
+	add(p_translation.uses_color, p_attributes.colors);
+	return hashes;
+}
+
 } // namespace
 
 std::vector<ReadSurface> read_server_mesh(godot::RID p_mesh, std::vector<godot::RID> &r_materials) {
@@ -190,7 +224,7 @@ void MeshReader::prepare(const std::shared_ptr<const Mesh> &p_mesh) {
 }
 
 std::shared_ptr<const Mesh> MeshReader::grow(const ReadSurface &p_surface, float p_grow_m) {
-	GrownMesh &cached = grown[{ p_surface.mesh->id, p_grow_m }];
+	ChangedMesh &cached = grown[{ p_surface.mesh->id, p_grow_m }];
 	cached.last_use = frame;
 	if (!cached.mesh) {
 		const Mesh &mesh = *p_surface.mesh;
@@ -205,11 +239,35 @@ std::shared_ptr<const Mesh> MeshReader::grow(const ReadSurface &p_surface, float
 	return cached.mesh;
 }
 
+std::shared_ptr<const Mesh> MeshReader::make_movable(const ReadSurface &p_surface,
+		const godot::Mesh &p_mesh, const VertexTranslation &p_translation) {
+	const uint32_t used = uint32_t(p_translation.uses_normal) |
+			uint32_t(p_translation.uses_coordinates) << 1 | uint32_t(p_translation.uses_color) << 2;
+	ChangedMesh &cached = movable[{ p_surface.mesh->id, used }];
+	cached.last_use = frame;
+	if (!cached.mesh) {
+		const Mesh &mesh = *p_surface.mesh;
+		MeshAttributes attributes = mesh.attributes;
+		if (used != 0) {
+			read_attributes(p_mesh.surface_get_arrays(p_surface.index), attributes);
+		}
+		MeshRig rig = attributes.rig ? *attributes.rig : MeshRig();
+		rig.program_inputs = hash_inputs(mesh, attributes, p_translation);
+		attributes.rig = make_mesh_rig(std::move(rig), mesh.positions_node, mesh.name);
+		cached.mesh = make_mesh(mesh.name, mesh.positions_node, mesh.normals_node, mesh.indices,
+				std::move(attributes));
+		worker.prepare(cached.mesh);
+	}
+	return cached.mesh;
+}
+
 void MeshReader::forget_unused() {
 	++frame;
-	std::erase_if(grown, [&](const auto &p_entry) {
+	const auto is_unused = [&](const auto &p_entry) {
 		return frame - p_entry.second.last_use > MAX_UNUSED_MESH_FRAMES;
-	});
+	};
+	std::erase_if(grown, is_unused);
+	std::erase_if(movable, is_unused);
 	std::erase_if(entries, [&](const auto &p_entry) {
 		return !p_entry.second.watched->is_alive() ||
 				frame - p_entry.second.last_use > MAX_UNUSED_MESH_FRAMES;

@@ -2,6 +2,7 @@
 
 #include "modules/godot_addon/detail_levels.h"
 #include "modules/godot_addon/topology_worker.h"
+#include "modules/godot_addon/vertex_translation.h"
 #include "modules/godot_addon/watched_resource.h"
 #include "modules/scene/mesh.h"
 
@@ -44,6 +45,10 @@ public:
 	/// Returns the surface's mesh with each vertex moved along its normal. p_grow_m: the distance,
 	/// in mesh space.
 	std::shared_ptr<const Mesh> grow(const ReadSurface &p_surface, float p_grow_m);
+	/// Returns a mesh of the surface that vertex() may move: with a rig, and the attributes that it
+	/// reads. p_mesh: Godot's mesh of the surface.
+	std::shared_ptr<const Mesh> make_movable(const ReadSurface &p_surface,
+			const godot::Mesh &p_mesh, const VertexTranslation &p_translation);
 	/// Removes meshes that were freed or not read for 600 frames. Call once per frame.
 	void forget_unused();
 
@@ -57,12 +62,15 @@ private:
 
 	TopologyWorker worker;
 	std::map<uint64_t, std::weak_ptr<const Mesh>> prepared; // given to the worker, by Mesh::id
-	struct GrownMesh {
+	struct ChangedMesh {
 		std::shared_ptr<const Mesh> mesh;
 		uint64_t last_use = 0;
 	};
-	std::map<std::pair<uint64_t, float>, GrownMesh> grown; // by Mesh::id of the original, distance
-	std::map<uint64_t, Entry> entries;					   // by the resource's id
+	std::map<std::pair<uint64_t, float>, ChangedMesh>
+			grown; // by Mesh::id of the original, distance
+	/// By Mesh::id of the original, and the attributes that vertex() reads.
+	std::map<std::pair<uint64_t, uint32_t>, ChangedMesh> movable;
+	std::map<uint64_t, Entry> entries; // by the resource's id
 	uint64_t frame = 0;
 };
 

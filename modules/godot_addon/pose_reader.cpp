@@ -37,29 +37,29 @@ const std::vector<glm::dmat4> &PoseReader::read_bones(const godot::MeshInstance3
 	return found->second;
 }
 
-void PoseReader::pose(const godot::MeshInstance3D &p_node,
-		const std::shared_ptr<const Mesh> &p_rest, int64_t p_surface,
+void PoseReader::pose(const Key &p_key, const godot::MeshInstance3D &p_node,
+		const std::shared_ptr<const Mesh> &p_rest, VertexMove p_move,
 		InstanceSnapshot &r_instance) {
 	const MeshRig &rig = *p_rest->attributes.rig;
 	std::vector<glm::dmat4> joints;
-	if (rig.influence_count > 0) {
+	if (p_node && rig.influence_count > 0) {
 		joints = read_bones(p_node);
 	}
 	if (!joints.empty()) {
 		joints.resize(std::max<size_t>(joints.size(), rig.joint_count), glm::dmat4(1.0));
 	}
 	std::vector<float> weights;
-	if (!rig.targets.empty()) {
+	if (p_node && !rig.targets.empty()) {
 		weights = read_weights(p_node);
 	}
-	Entry &entry = entries[{ godot::get_instance_id(p_node.get_object()), p_surface }];
+	Entry &entry = entries[p_key];
 	entry.last_use = frame;
 	if (!entry.slot || entry.slot->get_rest() != p_rest) {
 		entry.slot = std::make_shared<PoseSlot>(p_rest);
 	}
 	r_instance.set_pose(entry.slot,
 			entry.slot->make_pose(std::move(joints), std::move(weights),
-					"Node \"" + r_instance.node_name + "\""));
+					"Node \"" + r_instance.node_name + "\"", std::move(p_move)));
 }
 
 void PoseReader::end_frame() {
@@ -67,7 +67,7 @@ void PoseReader::end_frame() {
 	++frame;
 	std::erase_if(entries, [&](const auto &p_entry) {
 		return frame - p_entry.second.last_use > MAX_UNUSED_POSE_FRAMES ||
-				godot::get_instance(p_entry.first.first) == nullptr;
+				godot::get_instance(p_entry.first.node_id) == nullptr;
 	});
 }
 

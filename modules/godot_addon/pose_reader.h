@@ -18,10 +18,19 @@ namespace gnomon {
 /// MeshInstance3D, and the transform of the Skeleton3D node has no effect.
 class PoseReader {
 public:
-	/// Sets the pose of r_instance, a surface of p_node. p_rest: the surface's mesh in its rest
-	/// pose, must have a rig. Bones that the skin lacks, of which Godot itself warns, stay at rest.
-	void pose(const godot::MeshInstance3D &p_node, const std::shared_ptr<const Mesh> &p_rest,
-			int64_t p_surface, InstanceSnapshot &r_instance);
+	/// A surface of a node, or of an instance of a MultiMesh or a GridMap.
+	struct Key {
+		uint64_t node_id = 0;
+		int64_t surface = 0;
+		size_t instance = 0;
+		auto operator<=>(const Key &) const = default;
+	};
+	/// Sets the pose of r_instance. p_node: empty if it is no MeshInstance3D. p_rest: the surface's
+	/// mesh in its rest pose, must have a rig. p_move: what moves its vertices after bones and
+	/// blend shapes. Bones that the skin lacks, of which Godot itself warns, stay at rest.
+	void pose(const Key &p_key, const godot::MeshInstance3D &p_node,
+			const std::shared_ptr<const Mesh> &p_rest, VertexMove p_move,
+			InstanceSnapshot &r_instance);
 	/// Call once per frame after all pose() calls. Removes the data of nodes that were freed or not
 	/// read for 600 frames.
 	void end_frame();
@@ -34,7 +43,7 @@ private:
 	/// Returns a matrix for each bone; empty if the node has no skin or no bones are set yet.
 	const std::vector<glm::dmat4> &read_bones(const godot::MeshInstance3D &p_node);
 
-	std::map<std::pair<uint64_t, int64_t>, Entry> entries;	 // by the node's id and the surface
+	std::map<Key, Entry> entries;
 	std::map<godot::RID, std::vector<glm::dmat4>> skeletons; // bones read in this frame
 	uint64_t frame = 0;
 };

@@ -36,7 +36,22 @@ void RenderSide::prepare_device() {
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
 	device = std::make_unique<GodotDevice>(server.get_rendering_device(), GodotDevice::Kind::MAIN);
 	meshes = std::make_shared<MeshStore>(*device);
+	meshes->set_texture_source(
+			[this](const ProgramTexture &p_texture) { return find_texture(p_texture); });
 	receivers = std::make_unique<ReceiverTextures>(*device);
+}
+
+TextureRID RenderSide::find_texture(const ProgramTexture &p_texture) {
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	const godot::RID texture =
+			server.texture_get_rd_texture(godot::RID{ p_texture.id }, p_texture.is_srgb);
+	if (!texture) {
+		return {};
+	}
+	ProgramTextureEntry &entry = program_textures[{ p_texture.id, p_texture.is_srgb }];
+	entry.last_use = frame_number;
+	// Size and format are unknown, and nothing here depends on them.
+	return entry.imported.get(*device, texture, { .name = "texture of a vertex program" });
 }
 
 void RenderSide::make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
@@ -140,6 +155,15 @@ void RenderSide::forget_unused(uint64_t p_frame) {
 		return p_frame - p_entry.second->last_use > MAX_UNUSED_VIEW_FRAMES ||
 				godot::get_instance(p_entry.first) == nullptr;
 	});
+	frame_number = p_frame;
+	for (auto entry = program_textures.begin(); entry != program_textures.end();) {
+		if (p_frame - entry->second.last_use > MAX_UNUSED_VIEW_FRAMES) {
+			entry->second.imported.free(*device);
+			entry = program_textures.erase(entry);
+		} else {
+			++entry;
+		}
+	}
 }
 
 void RenderSide::reserve(const ReceiverSpace &p_space) {
@@ -157,6 +181,10 @@ void RenderSide::clear() {
 		compiled_kinds.clear();
 	}
 	views.clear();
+	for (auto &[id, entry] : program_textures) {
+		entry.imported.free(*device);
+	}
+	program_textures.clear();
 	receivers.reset();
 	meshes.reset();
 	device.reset();

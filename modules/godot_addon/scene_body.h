@@ -18,6 +18,9 @@ struct SceneBody {
 	bool is_drawn = true;		  // false: it only casts a shadow
 	bool is_faded = false;		  // a view draws it transparent, whatever its materials are
 	float detail_bias = 1;		  // lod_bias
+	size_t instance = 0;		  // the one that is read, of a MultiMesh or a GridMap
+	size_t instance_count = 1;
+	bool has_instance_colors = false; // of a MultiMesh
 };
 
 /// Returns the transform with which Godot draws a node in this frame, with physics interpolation.

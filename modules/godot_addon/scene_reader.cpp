@@ -13,11 +13,20 @@ namespace {
 
 using godot::GeometryInstance3D;
 
-const float MAX_COORDINATE_M = 1e8f;  // nodes beyond are not found
-const size_t MAX_PASSES = 64;		  // of materials
+const float MAX_COORDINATE_M = 1e8f;   // nodes beyond are not found
+const size_t MAX_PASSES = 64;		   // of materials
+const size_t MAX_MOVED_INSTANCES = 64; // of a node, each moved by vertex() in its own way
+// How far vertex() may move vertices out of the box of their mesh, which is also at most as far as
+// the box is long.
+const double MAX_MOVE_M = 5;
 const double MIN_SCENE_SIZE_M = 1e-9; // it is a divisor, also in a world without casters
 // In a MultiMesh's buffer: floats of an instance's colour, and of its custom data.
 const size_t COLOR_FLOATS = 4;
+
+double find_move_margin(const Bounds &p_box) {
+	const glm::dvec3 size = p_box.maximum - p_box.minimum;
+	return std::min(MAX_MOVE_M, std::max({ size.x, size.y, size.z }));
+}
 
 /// Returns the id of each node in the world once. All instances of a node, and its gizmos, have the
 /// node's id.
@@ -156,6 +165,46 @@ bool SceneReader::add_view_notices(const std::vector<ViewDetail> &p_views) {
 	return has_masked_view;
 }
 
+std::string SceneReader::find_unknown_motion(
+		const SceneBody &p_body, const VertexMotion &p_motion) {
+	if (!p_motion.unknown_reason.empty() || !p_motion.function) {
+		return p_motion.unknown_reason;
+	}
+	const VertexTranslation &translation = p_motion.function->translation;
+	if (translation.uses_node && p_body.instance_count > MAX_MOVED_INSTANCES) {
+		return text("moves more than ", MAX_MOVED_INSTANCES, " instances in vertex()");
+	}
+	if (translation.uses_color && p_body.has_instance_colors) {
+		return "moves its vertices in vertex() by colours of instances";
+	}
+	return {};
+}
+
+VertexMove SceneReader::read_move(const SceneBody &p_body, const Mesh &p_mesh,
+		const ShadowSurface &p_shadow, const godot::Material &p_material,
+		const glm::dmat4 &p_world_from_mesh) {
+	VertexSource source;
+	source.node = godot::cast<GeometryInstance3D>(p_body.node);
+	source.world_from_mesh = p_world_from_mesh;
+	source.time_s = p_shadow.motion.function->translation.uses_time ? shader_time.use() : 0;
+	source.instance = static_cast<uint32_t>(p_body.instance);
+	source.bounds = p_mesh.bounds_node;
+	glm::dvec3 margin_m(0.0);
+	if (const auto node = godot::cast<godot::MeshInstance3D>(p_body.node)) {
+		const godot::AABB box = get_culling_box(node);
+		source.bounds = { box.position, box.position + box.size };
+		margin_m += node.get_extra_cull_margin();
+		if (node.get_custom_aabb().size == glm::vec3(0.0f)) {
+			margin_m += find_move_margin(source.bounds);
+		}
+	} else {
+		margin_m += find_move_margin(source.bounds);
+	}
+	source.bounds.minimum -= margin_m;
+	source.bounds.maximum += margin_m;
+	return materials.read_move(p_shadow, p_material, source);
+}
+
 void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene) {
 	const auto geometry = godot::cast<GeometryInstance3D>(p_body.node);
@@ -179,8 +228,12 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		const VertexMotion &motion = shadow.motion;
 		const bool is_moved = motion != VertexMotion();
 		ReadSurface drawn = surface;
+		const std::string unknown_reason = find_unknown_motion(p_body, motion);
+		const bool has_program = motion.function && unknown_reason.empty();
 		if (motion.grow_m != 0) {
 			drawn.mesh = meshes.grow(surface, motion.grow_m);
+		} else if (has_program) {
+			drawn.mesh = meshes.make_movable(surface, p_mesh, motion.function->translation);
 		}
 		const bool is_billboard = motion.billboard != VertexMotion::Billboard::NONE;
 		const std::vector<ViewDetail> &views = world_frame->views;
@@ -191,14 +244,21 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 				p_body.name);
 		instance.layers = p_body.layers;
 		instance.casts_shadow = instance.casts_shadow && p_body.casts_shadow &&
-				shadow.kind != ShadowKind::NONE && motion.unknown_reason.empty();
+				shadow.kind != ShadowKind::NONE && unknown_reason.empty();
 		const bool is_ready = meshes.is_ready(drawn) &&
 				(instance.caster_mesh == drawn.mesh || meshes.is_cut_ready(instance.caster_mesh));
-		if (mesh_instance && drawn.mesh->attributes.rig) {
-			poses.pose(mesh_instance, drawn.mesh, surface.index, instance);
+		if (has_program || (mesh_instance && drawn.mesh->attributes.rig)) {
+			const bool is_own = has_program && motion.function->translation.uses_node;
+			poses.pose({ godot::get_instance_id(p_body.node.get_object()), surface.index,
+							   is_own ? p_body.instance : 0 },
+					mesh_instance, drawn.mesh,
+					has_program
+							? read_move(p_body, *drawn.mesh, shadow, material, p_world_from_mesh)
+							: VertexMove(),
+					instance);
 		}
-		receivers.read(p_body, material, p_mesh, surface.index, instance.bounds_world,
-				motion.unknown_reason);
+		receivers.read(
+				p_body, material, p_mesh, surface.index, instance.bounds_world, unknown_reason);
 		if (instance.casts_shadow && !is_ready) {
 			instance.casts_shadow = false;
 			++pending_count;
@@ -272,6 +332,7 @@ void SceneReader::read_grid_map(
 	// Both lists have the cells in the same order; get_meshes() leaves out items without a mesh.
 	const godot::Array cells = p_grid_map.get_used_cells();
 	int64_t mesh_index = 0;
+	p_body.instance_count = size_t(cells.get_size());
 	for (int64_t index = 0; index < cells.get_size(); ++index) {
 		const int64_t item =
 				p_grid_map.get_cell_item(glm::ivec3(cells.get_value(index).to_vector3()));
@@ -280,6 +341,7 @@ void SceneReader::read_grid_map(
 			continue;
 		}
 		set_casting(p_body, library.get_item_mesh_cast_shadow(item));
+		p_body.instance = size_t(index);
 		read_mesh(p_body, mesh,
 				get_drawn_transform(p_body.node).to_matrix() *
 						listed.get_value(mesh_index).to_transform().to_matrix(),
@@ -303,7 +365,7 @@ void SceneReader::read_mesh_list(
 }
 
 void SceneReader::read_multi_mesh(
-		const SceneBody &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene) {
+		SceneBody p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene) {
 	const godot::Ref<godot::Mesh> mesh = p_multi_mesh.get_mesh();
 	const int64_t visible_count = p_multi_mesh.get_visible_instance_count();
 	const int64_t instance_count = p_multi_mesh.get_instance_count();
@@ -320,8 +382,11 @@ void SceneReader::read_multi_mesh(
 	const size_t stride = (is_3d ? 12 : 8) + (p_multi_mesh.is_using_colors() ? COLOR_FLOATS : 0) +
 			(p_multi_mesh.is_using_custom_data() ? COLOR_FLOATS : 0);
 	const glm::dmat4 world_from_node = get_drawn_transform(p_body.node).to_matrix();
+	p_body.instance_count = count;
+	p_body.has_instance_colors = p_multi_mesh.is_using_colors();
 	for (size_t index = 0; index < count && (index + 1) * stride <= buffer.get_values().size();
 			++index) {
+		p_body.instance = index;
 		const std::span<const float> floats = buffer.get_values().subspan(index * stride, stride);
 		read_mesh(p_body, mesh, world_from_node * read_instance_transform(floats, is_3d), r_scene);
 	}

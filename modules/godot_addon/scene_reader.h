@@ -6,6 +6,7 @@
 #include "modules/godot_addon/pose_reader.h"
 #include "modules/godot_addon/receiver_reader.h"
 #include "modules/godot_addon/scenario_frame.h"
+#include "modules/godot_addon/shader_time.h"
 #include "modules/godot_addon/shadow_materials.h"
 #include "modules/godot_addon/unknown_objects.h"
 #include "modules/godot_addon/view_visibility.h"
@@ -28,8 +29,8 @@ struct ReadWorld {
 /// Reads the casters, receivers and lights of Godot's scenes. Main thread only.
 class SceneReader {
 public:
-	SceneReader(ReceiverMaterials &r_materials, Notices &r_notices) :
-			receivers(r_materials), notices(r_notices) {}
+	SceneReader(ReceiverMaterials &r_materials, Notices &r_notices, ShaderTime &r_time) :
+			receivers(r_materials), notices(r_notices), shader_time(r_time) {}
 	/// p_scenario: a world of the RenderingServer. p_nodes: its lights' visible GnomonShadow3Ds.
 	/// p_hidden_lights: lights that a query of the RenderingServer does not find, because their
 	/// stand-ins replace them. Nodes that cannot be read are skipped, with one warning for each.
@@ -50,12 +51,17 @@ private:
 	void finish_details(const SceneBody &p_body, size_t p_first, const SceneSnapshot &p_scene);
 	void read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 			const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene);
+	/// Returns why a surface with such a material is drawn in a way that is not known; empty: it is
+	/// known.
+	static std::string find_unknown_motion(const SceneBody &p_body, const VertexMotion &p_motion);
+	VertexMove read_move(const SceneBody &p_body, const Mesh &p_mesh, const ShadowSurface &p_shadow,
+			const godot::Material &p_material, const glm::dmat4 &p_world_from_mesh);
 	void read_grid_map(SceneBody p_body, const godot::GridMap &p_grid_map, SceneSnapshot &r_scene);
 	/// p_meshes: a transform and a mesh in turn, as CSGShape3D returns them.
 	void read_mesh_list(
 			const SceneBody &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene);
 	void read_multi_mesh(
-			const SceneBody &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene);
+			SceneBody p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene);
 	/// Whether Godot draws a node whose mesh cannot be read into shadow maps.
 	bool casts_in_godot(const godot::ObjectHandle &p_node);
 	/// Adds only the box of a node whose mesh cannot be read, because it may receive shadows.
@@ -70,6 +76,7 @@ private:
 
 	ReceiverReader receivers;
 	Notices &notices;
+	ShaderTime &shader_time;
 	ViewVisibility visibility;
 	UnknownObjects unknown_objects;
 	ReadWorld world;

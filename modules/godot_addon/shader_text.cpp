@@ -134,25 +134,45 @@ std::string_view ShaderText::get_body(const ShaderFunction &p_function) const {
 			.substr(p_function.body_begin, p_function.body_end - p_function.body_begin);
 }
 
+std::string_view ShaderText::get_definition(const ShaderFunction &p_function) const {
+	return std::string_view(code_without_comments)
+			.substr(p_function.begin, p_function.body_end + 1 - p_function.begin);
+}
+
+std::vector<std::string> ShaderText::get_global_statements() const {
+	std::vector<std::string> statements;
+	std::string statement;
+	size_t depth = 0;
+	auto function = functions.begin();
+	for (size_t index = 0; index < code_without_comments.size(); ++index) {
+		if (function != functions.end() && index == function->begin) {
+			index = (function++)->body_end;
+			statement.clear();
+			continue;
+		}
+		const char character = code_without_comments[index];
+		if (character == ';' && depth == 0) {
+			const size_t first = statement.find_first_not_of(" \t\r\n");
+			if (first != std::string::npos) {
+				statements.push_back(statement.substr(first));
+			}
+			statement.clear();
+			continue;
+		}
+		depth += size_t(character == '{');
+		depth -= size_t(character == '}' && depth > 0);
+		statement += character;
+	}
+	return statements;
+}
+
 std::string ShaderText::get_global_constants() const {
 	std::string constants;
-	size_t begin = 0;
-	const auto add_until = [&](size_t p_end) {
-		while (begin < p_end) {
-			const size_t end = std::min(code_without_comments.find(';', begin), p_end);
-			const std::string statement = code_without_comments.substr(begin, end - begin);
-			const size_t first = statement.find_first_not_of(" \t\r\n");
-			if (first != std::string::npos && statement.compare(first, 6, "const ") == 0) {
-				constants += statement + ";\n";
-			}
-			begin = end + 1;
+	for (const std::string &statement : get_global_statements()) {
+		if (statement.compare(0, 6, "const ") == 0) {
+			constants += statement + ";\n";
 		}
-	};
-	for (const ShaderFunction &function : functions) {
-		add_until(function.begin);
-		begin = function.body_end + 1;
 	}
-	add_until(code_without_comments.size());
 	return constants;
 }
 

@@ -32,6 +32,10 @@ public:
 	bool has_word(const ShaderFunction &p_function, std::string_view p_word) const;
 	/// Returns the body of a function, without comments.
 	std::string_view get_body(const ShaderFunction &p_function) const;
+	/// Returns a function from its return type to its closing brace, without comments.
+	std::string_view get_definition(const ShaderFunction &p_function) const;
+	/// Returns the statements outside of functions, without comments and final semicolons.
+	std::vector<std::string> get_global_statements() const;
 	/// Returns the definitions of constants outside of functions.
 	std::string get_global_constants() const;
 	/// Whether the function of that name, or one that has the identifier too, may change the

@@ -108,6 +108,7 @@ const ShadowMaterials::Entry &ShadowMaterials::read_shader(const godot::Shader &
 void ShadowMaterials::forget_unused() {
 	of_frame.clear();
 	cut_outs.forget_unused();
+	values.forget_unused();
 	std::erase_if(shaders, [](const auto &p_entry) { return !p_entry.second.watched->is_alive(); });
 }
 

@@ -32,6 +32,12 @@ class ShadowMaterials {
 public:
 	/// The reference is valid until forget_unused().
 	const ShadowSurface &read(const godot::Material &p_material);
+	/// Reads what motion.function of the surface's material moves vertices with.
+	VertexMove read_move(const ShadowSurface &p_surface, const godot::Material &p_material,
+			const VertexSource &p_source) {
+		return values.read(p_surface.motion.function,
+				godot::cast<godot::ShaderMaterial>(p_material), p_source);
+	}
 	/// Removes cached data of freed resources. Call once per frame.
 	void forget_unused();
 
@@ -46,6 +52,7 @@ private:
 
 	std::map<uint64_t, Entry> shaders; // by the resource's id
 	CutOutMaterials cut_outs;
+	VertexValues values;
 	std::map<uint64_t, ShadowSurface> of_frame; // by the material's id
 };
 

@@ -1,5 +1,7 @@
 #include "modules/godot_addon/vertex_motion.h"
 
+#include "modules/core/text.h"
+
 namespace gnomon {
 
 namespace {
@@ -42,10 +44,13 @@ VertexMotion read_vertex_motion(const BaseMaterial3D &p_material) {
 
 VertexMotion read_vertex_motion(const ShaderText &p_shader) {
 	VertexMotion motion;
-	for (const char *built_in : { "VERTEX", "POSITION", "MODELVIEW_MATRIX", "PROJECTION_MATRIX",
+	if (p_shader.may_assign("vertex", "VERTEX")) {
+		motion.function = make_vertex_function(p_shader, motion.unknown_reason);
+	}
+	for (const char *built_in : { "POSITION", "MODELVIEW_MATRIX", "PROJECTION_MATRIX",
 				 "BONE_INDICES", "BONE_WEIGHTS", "INSTANCE_CUSTOM" }) {
 		if (p_shader.may_assign("vertex", built_in)) {
-			motion.unknown_reason = "moves its vertices in vertex()";
+			motion.unknown_reason = text("moves its vertices in vertex() by ", built_in);
 		}
 	}
 	for (const char *mode : { "skip_vertex_transform", "particle_trails" }) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/godot_addon/shader_text.h"
+#include "modules/godot_addon/vertex_programs.h"
 
 #include <glm/glm.hpp>
 #include <godot_api.gen.h>
@@ -12,9 +12,10 @@ namespace gnomon {
 /// How a material moves the vertices of the meshes that it is on.
 struct VertexMotion {
 	enum class Billboard { NONE, FACING, UPRIGHT };
-	Billboard billboard = Billboard::NONE; // each instance turns to the camera
-	bool keeps_scale = false;			   // of the node, if it is a billboard
-	float grow_m = 0;					   // along the normals, in node space
+	Billboard billboard = Billboard::NONE;			// each instance turns to the camera
+	bool keeps_scale = false;						// of the node, if it is a billboard
+	float grow_m = 0;								// along the normals, in node space
+	std::shared_ptr<const VertexFunction> function; // null: vertex() does not move it
 	/// Why the drawn mesh is not known; empty: it is. Such surfaces cast no shadow of Gnomon, and
 	/// receive none.
 	std::string unknown_reason;

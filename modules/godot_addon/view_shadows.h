@@ -80,8 +80,17 @@ private:
 	void record_failure(const std::exception &p_failure);
 	void forget_unused(uint64_t p_frame);
 
+	/// Returns the device's texture for one that a vertex program reads, imported if it is new.
+	TextureRID find_texture(const ProgramTexture &p_texture);
+
 	std::unique_ptr<GodotDevice> device;
 	std::shared_ptr<MeshStore> meshes;
+	struct ProgramTextureEntry {
+		ImportedTexture imported;
+		uint64_t last_use = 0; // frame number
+	};
+	std::map<std::pair<uint64_t, bool>, ProgramTextureEntry> program_textures; // by id and is_srgb
+	uint64_t frame_number = 0;												   // of the last frame
 	std::unique_ptr<ReceiverTextures> receivers;
 	std::map<uint64_t, std::unique_ptr<ViewShadows>> views; // by the id of Godot's buffers
 	std::set<std::string> logged_failures;

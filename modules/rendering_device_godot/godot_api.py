@@ -15,7 +15,8 @@ USED = {
     },
     "RDTextureView": {"methods": ""},
     "RDUniform": {"methods": "set_uniform_type set_binding add_id"},
-    "RDShaderSPIRV": {"methods": "set_stage_bytecode"},
+    "RDShaderSPIRV": {"methods": "set_stage_bytecode get_stage_bytecode get_stage_compile_error"},
+    "RDShaderSource": {"methods": "set_stage_source set_language", "enums": ""},
     "RDSamplerState": {"methods": "set_mag_filter set_min_filter set_mip_filter set_max_lod set_repeat_u set_repeat_v set_repeat_w"},
     "RDVertexAttribute": {"methods": "set_binding set_location set_offset set_format set_stride"},
     "RDPipelineRasterizationState": {
@@ -41,7 +42,7 @@ USED = {
             texture_copy texture_clear texture_is_valid
             framebuffer_create framebuffer_create_empty framebuffer_get_format framebuffer_is_valid
             sampler_create vertex_buffer_create vertex_format_create vertex_array_create index_buffer_create
-            index_array_create shader_create_from_spirv uniform_buffer_create storage_buffer_create
+            index_array_create shader_compile_spirv_from_source shader_create_from_spirv uniform_buffer_create storage_buffer_create
             texture_buffer_create uniform_set_create uniform_set_is_valid
             buffer_copy buffer_update buffer_clear buffer_get_data buffer_get_data_async
             render_pipeline_create compute_pipeline_create
@@ -57,7 +58,7 @@ USED = {
             TextureType TextureUsageBits TextureSamples SamplerFilter SamplerRepeatMode IndexBufferFormat StorageBufferUsage
             BufferCreationBits UniformType RenderPrimitive PolygonCullMode PolygonFrontFace StencilOperation
             CompareOperator BlendFactor BlendOperation DrawFlags MemoryType Limit DataFormat
-            TextureSliceType ShaderStage
+            TextureSliceType ShaderStage ShaderLanguage
         """,
     },
     "RenderingServer": {
@@ -68,7 +69,10 @@ USED = {
             shader_create shader_get_code shader_set_code get_shader_parameter_list shader_get_parameter_default
             shader_get_default_texture_parameter shader_set_default_texture_parameter material_create material_set_shader
             mesh_surface_get_material mesh_surface_set_material mesh_surface_get_arrays mesh_get_surface_count
-            material_get_param texture_2d_get
+            material_get_param texture_2d_get texture_get_rd_texture
+            canvas_create canvas_item_create canvas_item_set_parent canvas_item_set_material canvas_item_add_rect
+            viewport_create viewport_set_size viewport_set_disable_3d viewport_attach_canvas viewport_set_update_mode
+            viewport_set_active viewport_get_texture
             global_shader_parameter_add global_shader_parameter_remove global_shader_parameter_set
             texture_2d_create texture_rd_create
             directional_light_create omni_light_create spot_light_create light_set_color light_set_param
@@ -81,17 +85,21 @@ USED = {
             skeleton_get_bone_count skeleton_bone_get_transform free_rid
         """,
         "enums": """CompositorEffectFlags CompositorEffectCallbackType GlobalShaderParameterType
-            TextureLayeredType""",
+            TextureLayeredType ViewportUpdateMode""",
     },
     "RenderData": {"methods": "get_render_scene_buffers get_render_scene_data"},
     "RenderSceneBuffers": {"methods": ""},
     "RenderSceneBuffersRD": {"methods": "get_depth_texture get_color_texture get_internal_size get_texture_samples get_view_count"},
     "RenderSceneData": {"methods": "get_cam_transform get_cam_projection get_view_count"},
-    "Engine": {"methods": "is_editor_hint get_main_loop register_singleton unregister_singleton"},
+    "Engine": {
+        "methods": """is_editor_hint get_frames_drawn get_physics_frames get_physics_ticks_per_second get_max_physics_steps_per_frame
+            get_time_scale get_main_loop register_singleton unregister_singleton"""
+    },
+    "Time": {"methods": "get_ticks_usec"},
     "MainLoop": {"methods": ""},
     "Node": {
         "methods": """get_parent get_path is_inside_tree get_tree update_configuration_warnings find_children
-            get_node_or_null get_name add_to_group remove_from_group is_physics_interpolated_and_enabled"""
+            get_node_or_null get_name get_process_delta_time add_to_group remove_from_group is_physics_interpolated_and_enabled"""
     },
     "SceneTree": {"methods": "get_root get_nodes_in_group"},
     "Node3D": {
@@ -103,7 +111,7 @@ USED = {
     "VoxelGI": {"methods": ""},
     "GeometryInstance3D": {
         "methods": """get_cast_shadows_setting get_material_override get_material_overlay get_lod_bias get_custom_aabb get_extra_cull_margin
-            get_transparency get_visibility_range_begin get_visibility_range_end get_visibility_range_begin_margin
+            get_transparency get_instance_shader_parameter get_visibility_range_begin get_visibility_range_end get_visibility_range_begin_margin
             get_visibility_range_end_margin get_visibility_range_fade_mode""",
         "enums": "ShadowCastingSetting VisibilityRangeFadeMode",
     },

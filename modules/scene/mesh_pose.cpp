@@ -52,11 +52,11 @@ std::vector<glm::vec3> move_points(const Mesh &p_cut, const std::vector<glm::vec
 } // namespace
 
 MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p_joints,
-		std::vector<float> p_weights, const std::string &p_object) :
+		std::vector<float> p_weights, const std::string &p_object, VertexMove p_move) :
 		rest(std::move(p_rest)),
-		joints(std::move(p_joints)), weights(std::move(p_weights)) {
+		joints(std::move(p_joints)), weights(std::move(p_weights)), move(std::move(p_move)) {
 	check_finite(joints, weights, p_object);
-	bounds = compute_deformed_bounds(*rest, joints, weights);
+	bounds = move.program ? move.bounds : compute_deformed_bounds(*rest, joints, weights);
 	const glm::dvec3 min_position = bounds.minimum;
 	const glm::dvec3 max_position = bounds.maximum;
 	for (int axis = 0; axis < 3; ++axis) {
@@ -70,6 +70,14 @@ MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p
 	}
 	hash = compute_hash(bytes_of(std::span<const glm::dmat4>(joints)), 1);
 	hash = compute_hash(bytes_of(std::span<const float>(weights)), hash);
+	if (move.program) {
+		hash = compute_hash(bytes_of(std::span<const char>(move.program->shader)), hash);
+		hash = compute_hash(bytes_of(std::span<const uint32_t>(move.values)), hash);
+		for (const ProgramTexture &texture : move.textures) {
+			hash = compute_value_hash(texture.id, hash);
+			hash = compute_value_hash(texture.version, hash);
+		}
+	}
 }
 
 std::shared_ptr<const Mesh> MeshPose::get_mesh(const std::shared_ptr<const Mesh> &p_rest) const {
@@ -102,15 +110,16 @@ PoseSlot::PoseSlot(std::shared_ptr<const Mesh> p_rest) : rest(std::move(p_rest))
 }
 
 std::shared_ptr<const MeshPose> PoseSlot::make_pose(std::vector<glm::dmat4> p_joints,
-		std::vector<float> p_weights, const std::string &p_object) {
+		std::vector<float> p_weights, const std::string &p_object, VertexMove p_move) {
 	const std::lock_guard<std::mutex> lock(mutex);
 	++pose_count;
 	std::erase_if(deformed, [&](const auto &p_item) {
 		return p_item.second.last_use + MAX_UNUSED_POSES < pose_count;
 	});
-	if (!pose || pose->get_joints() != p_joints || pose->get_weights() != p_weights) {
+	if (!pose || pose->get_joints() != p_joints || pose->get_weights() != p_weights ||
+			pose->get_move() != p_move) {
 		pose = std::make_shared<const MeshPose>(
-				rest, std::move(p_joints), std::move(p_weights), p_object);
+				rest, std::move(p_joints), std::move(p_weights), p_object, std::move(p_move));
 	}
 	return pose;
 }

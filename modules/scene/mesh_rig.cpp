@@ -26,6 +26,8 @@ void check_counts(const MeshRig &p_rig, size_t p_vertex_count, const std::string
 				" weights, must be ", expected, " each, ", influences,
 				" a vertex. Export it again.");
 	}
+	GNOMON_ASSERT(p_rig.program_inputs.empty() || p_rig.program_inputs.size() == p_vertex_count,
+			p_name, ": has ", p_rig.program_inputs.size(), " inputs of a vertex program");
 	for (size_t target = 0; target < p_rig.targets.size(); ++target) {
 		const MorphTarget &morph = p_rig.targets[target];
 		for (const std::vector<glm::vec3> *deltas :
@@ -139,7 +141,7 @@ uint64_t MeshRig::compute_vertex_hash(uint32_t p_vertex) const {
 			hash = compute_value_hash(target.positions[p_vertex] + 0.0f, hash);
 		}
 	}
-	return hash;
+	return program_inputs.empty() ? hash : compute_value_hash(program_inputs[p_vertex], hash);
 }
 
 std::shared_ptr<const MeshRig> make_mesh_rig(
@@ -155,7 +157,7 @@ std::shared_ptr<const MeshRig> make_mesh_rig(
 		hash = add_hash(target.positions, hash);
 		hash = add_hash(target.normals, hash);
 	}
-	rig->content_hash = hash;
+	rig->content_hash = add_hash(rig->program_inputs, hash);
 	return rig;
 }
 

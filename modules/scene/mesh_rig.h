@@ -31,6 +31,9 @@ struct MeshRig {
 	/// mesh with sums that rounding made less than 1.
 	bool keeps_weight_sums = false;
 	std::vector<MorphTarget> targets;
+	/// What a vertex program reads of each vertex besides its position, hashed; empty: no program
+	/// moves the mesh. See VertexProgram.
+	std::vector<uint64_t> program_inputs;
 
 	// make_mesh_rig fills in the following members.
 	uint32_t joint_count = 0; // one more than the largest joint index

@@ -1,5 +1,6 @@
 #include "modules/shadows/deform_pass.h"
 
+#include "modules/core/embedded_shaders.h"
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/scene/mesh_pose.h"
@@ -63,6 +64,30 @@ std::vector<glm::vec4> pack_pose(const MeshPose &p_pose) {
 	return pose_data;
 }
 
+/// What vertex programs read of each vertex of a mesh at rest.
+struct GpuProgramInputs {
+	OwnedBuffer inputs;
+};
+
+GpuProgramInputs upload_program_inputs(RenderingDevice &p_device, const Mesh &p_mesh) {
+	const MeshAttributes &attributes = p_mesh.attributes;
+	std::vector<float> inputs;
+	inputs.reserve(p_mesh.positions_node.size() * PROGRAM_INPUT_FLOATS);
+	const auto add = [&](const auto &p_values, size_t p_vertex, auto p_default) {
+		const auto value = p_vertex < p_values.size() ? p_values[p_vertex] : p_default;
+		for (int component = 0; component < p_default.length(); ++component) {
+			inputs.push_back(value[component]);
+		}
+	};
+	for (size_t vertex = 0; vertex < p_mesh.positions_node.size(); ++vertex) {
+		add(attributes.uvs[0], vertex, glm::vec2(0.0f));
+		add(attributes.uvs[1], vertex, glm::vec2(0.0f));
+		add(attributes.colors, vertex, glm::vec4(1.0f));
+		add(attributes.tangents, vertex, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+	}
+	return { upload(p_device, p_mesh.name + " program inputs", inputs) };
+}
+
 /// The points of a mesh that was cut out of another one, as deform_points.comp reads them.
 struct GpuPoints {
 	OwnedBuffer points;
@@ -114,6 +139,12 @@ const GpuRig &get_rig(MeshStore &r_store, const std::shared_ptr<const Mesh> &p_m
 			p_mesh, [&] { return upload_rig(r_store.get_device(), *p_mesh); });
 }
 
+const GpuProgramInputs &get_program_inputs(
+		MeshStore &r_store, const std::shared_ptr<const Mesh> &p_mesh) {
+	return r_store.get_derived<GpuProgramInputs>(
+			p_mesh, [&] { return upload_program_inputs(r_store.get_device(), *p_mesh); });
+}
+
 const GpuPoints &get_points(MeshStore &r_store, const std::shared_ptr<const Mesh> &p_mesh) {
 	return r_store.get_derived<GpuPoints>(
 			p_mesh, [&] { return upload_points(r_store.get_device(), *p_mesh); });
@@ -134,8 +165,12 @@ DeformPass::DeformPass(MeshStore &r_store, const SceneSnapshot &p_scene, RenderG
 		}
 		store.get(instance.mesh); // uploads it; count_moved looks it up in the store
 		const std::vector<glm::vec4> pose_data = pack_pose(*instance.pose);
-		slots[instance.mesh->slot_id] = { instance.pose, instance.mesh,
-			r_graph.upload("pose", BufferUsage::STORAGE, bytes_of(std::span(pose_data))) };
+		Slot &slot = slots[instance.mesh->slot_id];
+		slot.pose = instance.pose;
+		slot.mesh = instance.mesh;
+		slot.pose_data =
+				r_graph.upload("pose", BufferUsage::STORAGE, bytes_of(std::span(pose_data)));
+		prepare_program(slot, r_graph);
 	}
 	if (!slots.empty()) {
 		const auto get_pipeline = [&](const char *p_shader) {
@@ -149,6 +184,22 @@ DeformPass::DeformPass(MeshStore &r_store, const SceneSnapshot &p_scene, RenderG
 	}
 }
 
+void DeformPass::prepare_program(Slot &r_slot, RenderGraph &r_graph) {
+	const VertexMove &move = r_slot.pose->get_move();
+	if (!move.program) {
+		return;
+	}
+	GNOMON_ASSERT(move.textures.empty() || store.texture_source, "no source of textures for ",
+			move.program->shader);
+	const std::string &shader = move.program->shader;
+	if (store.added_programs.insert(shader).second) {
+		replace_embedded_shader(shader, move.program->spirv);
+	}
+	r_slot.program = store.device.get_compute_pipeline({ shader, shader, {} });
+	r_slot.program_values = r_graph.upload(
+			"vertex program", BufferUsage::STORAGE, bytes_of(std::span(move.values)));
+}
+
 uint32_t DeformPass::count_moved() const {
 	return static_cast<uint32_t>(std::count_if(slots.begin(), slots.end(), [&](const auto &p_slot) {
 		const Slot &slot = p_slot.second;
@@ -160,6 +211,9 @@ std::vector<RGBuffer> DeformPass::list_inputs() const {
 	std::vector<RGBuffer> inputs;
 	for (const auto &[id, slot] : slots) {
 		inputs.push_back(slot.pose_data);
+		if (slot.program) {
+			inputs.push_back(slot.program_values);
+		}
 	}
 	return inputs;
 }
@@ -195,6 +249,27 @@ void DeformPass::deform_rigged(PassContext &p_context, const Slot &p_slot, GpuMe
 		tangent_work.bindings.emplace_back(DEFORM_BINDING_RESULT, r_gpu.tangents.get());
 		pending.push_back(std::move(tangent_work));
 	}
+}
+
+void DeformPass::move_by_program(PassContext &p_context, const Slot &p_slot, GpuMesh &r_gpu) {
+	const VertexMove &move = p_slot.pose->get_move();
+	const std::shared_ptr<const Mesh> &rest = p_slot.mesh->rest;
+	Work work = { p_slot.program,
+		{ { PROGRAM_BINDING_POSITIONS, r_gpu.positions.get() },
+				{ PROGRAM_BINDING_NORMALS, r_gpu.normals.get() },
+				{ PROGRAM_BINDING_INPUTS, get_program_inputs(store, rest).inputs.get() },
+				{ PROGRAM_BINDING_VALUES, p_context.get(p_slot.program_values) } },
+		{ r_gpu.positions.get() },
+		{ static_cast<uint32_t>(rest->positions_node.size()), 0, 0, 0 } };
+	for (size_t index = 0; index < move.textures.size(); ++index) {
+		const TextureRID texture = store.texture_source(move.textures[index]);
+		if (!texture) {
+			return; // the host engine has freed it
+		}
+		work.bindings.emplace_back(static_cast<uint32_t>(PROGRAM_BINDING_FIRST_TEXTURE + index),
+				texture, store.get_sampler(move.textures[index]));
+	}
+	pending.push_back(std::move(work));
 }
 
 void DeformPass::deform_points(
@@ -280,6 +355,12 @@ void DeformPass::record(PassContext &p_context) {
 	}
 	run(p_context.commands);
 	for (const Item &item : meshes) {
+		if (item.mesh == item.slot->mesh && item.slot->program) {
+			move_by_program(p_context, *item.slot, *item.gpu);
+		}
+	}
+	run(p_context.commands);
+	for (const Item &item : meshes) {
 		if (item.mesh != item.slot->mesh) {
 			deform_points(*item.slot, item.mesh, *item.gpu);
 		}
@@ -304,6 +385,9 @@ void MeshStore::prepare_deform(const std::shared_ptr<const Mesh> &p_mesh, bool p
 	}
 	if (p_mesh->attributes.rig) {
 		get_rig(*this, p_mesh);
+		if (!p_mesh->attributes.rig->program_inputs.empty()) {
+			get_program_inputs(*this, p_mesh);
+		}
 	} else {
 		get_points(*this, p_mesh);
 	}

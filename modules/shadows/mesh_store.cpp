@@ -75,6 +75,18 @@ const GpuTopology &MeshStore::get_topology(
 	return topology;
 }
 
+SamplerRID MeshStore::get_sampler(const ProgramTexture &p_texture) {
+	OwnedSampler &sampler = samplers[{ p_texture.is_nearest, p_texture.repeats }];
+	if (!sampler) {
+		const Filter filter = p_texture.is_nearest ? Filter::NEAREST : Filter::LINEAR;
+		const AddressMode address = p_texture.repeats ? AddressMode::REPEAT : AddressMode::CLAMP;
+		sampler = OwnedSampler(device,
+				device.create_sampler({ "texture of a vertex program", filter, filter,
+						MipMode::NONE, address, address }));
+	}
+	return sampler.get();
+}
+
 void MeshStore::collect_garbage() {
 	drop_unused_cut_meshes();
 	const auto is_gone = [](const auto &p_entry) { return p_entry.second.mesh.expired(); };

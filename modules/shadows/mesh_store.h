@@ -2,11 +2,14 @@
 
 #include "modules/render_graph/render_graph.h"
 #include "modules/rendering_device/rendering_device.h"
+#include "modules/scene/mesh_pose.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadows/gpu_topology.h"
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <typeindex>
 #include <utility>
 
@@ -63,6 +66,11 @@ public:
 		}
 		return *static_cast<T *>(entry.get());
 	}
+	/// Sets how textures of vertex programs are found: it returns the device's texture for one of
+	/// the host engine's, empty if there is none any more.
+	void set_texture_source(std::function<TextureRID(const ProgramTexture &)> p_source) {
+		texture_source = std::move(p_source);
+	}
 	/// Makes the next deform pass deform all meshes again.
 	void forget_poses();
 	/// Adds the pass that deforms meshes to the scene's poses. Call it before all passes that read
@@ -78,6 +86,7 @@ public:
 
 private:
 	friend class DeformPass;
+	SamplerRID get_sampler(const ProgramTexture &p_texture);
 	/// Uploads the data of a deformed mesh that the deform pass reads.
 	void prepare_deform(const std::shared_ptr<const Mesh> &p_mesh, bool p_has_topology);
 	struct Derived {
@@ -86,6 +95,9 @@ private:
 	};
 
 	RenderingDevice &device;
+	std::function<TextureRID(const ProgramTexture &)> texture_source;
+	std::set<std::string> added_programs; // shaders of vertex programs that the device has
+	std::map<std::pair<bool, bool>, OwnedSampler> samplers; // by is_nearest and repeats
 	std::map<std::type_index, std::shared_ptr<void>> shared;
 	std::map<uint64_t, GpuMesh> meshes; // by Mesh::id
 	std::map<uint64_t, GpuTopology> topologies;

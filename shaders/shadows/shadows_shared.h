@@ -41,6 +41,15 @@
 #define MOVE_BINDING_RESULT 2
 #define MOVE_BINDING_TRIANGLES 3
 #define DEFORM_GROUP_SIZE 64
+// Bindings of vertex programs, see VertexProgram in modules/scene/vertex_program.h. POSITIONS: three floats per vertex, read
+// and written; NORMALS: three, read; INPUTS: PROGRAM_INPUT_FLOATS per vertex; VALUES: words.
+#define PROGRAM_BINDING_POSITIONS 0
+#define PROGRAM_BINDING_NORMALS 1
+#define PROGRAM_BINDING_INPUTS 2
+#define PROGRAM_BINDING_VALUES 3
+#define PROGRAM_BINDING_FIRST_TEXTURE 4
+// Of a vertex: two UVs, the colour, the tangent.
+#define PROGRAM_INPUT_FLOATS 12
 
 /// Push constants of all deform shaders. All but vertex_count are 0 where a shader does not need
 /// them.

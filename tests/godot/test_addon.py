@@ -28,7 +28,7 @@ EXPECTED = (
     ("layers is 0, must be", 1),
     ("is no caster. Add it", 2),
     ("that cover more of the view have it", 1),
-    ("moves its vertices in vertex()", 1),
+    ("moves its vertices in vertex() by", 5),
     ("moves its vertices in a way that is not read", 1),
     ("is transparent or drawn without depth", 1),
     ("has a rim", 1),

@@ -1,5 +1,7 @@
 // Deformed casters with every technique: they cast the same shadow as a rigid mesh of that shape.
 
+#include "modules/core/embedded_shaders.h"
+#include "modules/core/files.h"
 #include "modules/mesh_tools/topology.h"
 #include "modules/scene/mesh_pose.h"
 #include "modules/shadows/tests/each_technique.h"
@@ -268,6 +270,65 @@ TEST_CASE("deformed casters: joints that flatten a mesh or shrink it to a point 
 			for (const float visibility : mask.visibility) {
 				CHECK_UNARY(visibility >= 0.0f && visibility <= 1.0f);
 			}
+		}
+	});
+}
+
+TEST_CASE("[GPU][DeformedCasters] a mesh that a vertex program bends casts as it is bent") {
+	const std::shared_ptr<const Mesh> tube = make_tube();
+	MeshAttributes attributes = tube->attributes;
+	MeshRig rig;
+	for (const glm::vec2 &uv : attributes.uvs[0]) {
+		rig.program_inputs.push_back(compute_value_hash(uv, 1));
+	}
+	attributes.rig = make_mesh_rig(std::move(rig), tube->positions_node, "tube");
+	const auto movable = make_mesh("tube", tube->positions_node, {}, tube->indices, attributes);
+	VertexMove move;
+	const std::span<const uint32_t> spirv = find_embedded_shader("tests/bend.comp");
+	move.program = std::make_shared<const VertexProgram>(
+			VertexProgram{ "tests/bend_program", { spirv.begin(), spirv.end() } });
+	move.bounds = movable->bounds_node;
+	move.bounds.maximum.x += 2;
+	const auto slot = std::make_shared<PoseSlot>(movable);
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		if (p_info.is_reference || p_info.id.ends_with("_cpu")) {
+			return; // no program runs on the CPU
+		}
+		MaskResult straight;
+		for (const float strength : { 0.0f, 0.15f, 0.4f }) {
+			CAPTURE(strength);
+			move.values = { glm::floatBitsToUint(strength) };
+			SmallScene scene(LightType::SPOT);
+			use_cheap_settings(*scene.light);
+			const glm::dmat4 world_from_node = glm::translate(glm::dmat4(1.0), { 0, 0.3, 0 });
+			auto moved = std::make_shared<SceneSnapshot>(*scene.snap());
+			auto baked = std::make_shared<SceneSnapshot>(*moved);
+			moved->instances.push_back(make_instance(movable, nullptr, world_from_node, "Tube"));
+			moved->instances.back().set_pose(slot, slot->make_pose({}, {}, "Tube", move));
+			std::vector<glm::vec3> positions = tube->positions_node;
+			for (size_t vertex = 0; vertex < positions.size(); ++vertex) {
+				const float along = attributes.uvs[0][vertex].x;
+				positions[vertex].x += strength * along * along;
+			}
+			baked->instances.push_back(
+					make_instance(make_mesh("bent", positions, {}, tube->indices), nullptr,
+							world_from_node, "Bent"));
+			// With the same bounds, maps have the same texels.
+			baked->instances.back().bounds_world = moved->instances.back().bounds_world;
+			baked->instances.back().caster_bounds_node = moved->instances.back().caster_bounds_node;
+			const MaskResult mask = fixture.render(make_request(moved, p_info.id));
+			double fraction = 0;
+			compute_difference(mask, fixture.render(make_request(baked, p_info.id)), fraction);
+			if (strength == 0) {
+				CHECK(fraction < MAX_ROUNDED_FRACTION);
+				straight = mask;
+				continue;
+			}
+			double changed = 0;
+			compute_difference(mask, straight, changed);
+			CHECK(changed > 0.002);
+			CHECK(fraction < std::max(MAX_ROUNDED_FRACTION, MAX_ERROR_PER_CHANGE * changed));
 		}
 	});
 }

@@ -12,6 +12,7 @@ const CASES: Array[GDScript] = [
 	preload("res://tests/lights.gd"),
 	preload("res://tests/surroundings.gd"),
 	preload("res://tests/likeness.gd"),
+	preload("res://tests/moved_vertices.gd"),
 	preload("res://tests/materials.gd"),
 ]
 
