@@ -310,14 +310,18 @@ std::string Translator::make_code() const {
 	}
 	const bool is_in_world = shader.has_word("world_vertex_coords");
 	code += text(
+			"uint gnomon_vertex;\n"
 			"float gnomon_value(int p_word) { return uintBitsToFloat(gnomon_values[p_word]); }\n"
-			"float gnomon_input(uint p_component) { return gnomon_inputs[gl_GlobalInvocationID.x "
+			"float gnomon_input(uint p_component) { return gnomon_inputs[gnomon_vertex "
 			"* ",
 			PROGRAM_INPUT_FLOATS,
 			"u + p_component]; }\n"
 			"void main() {\n"
-			"\tconst uint first = 3u * gl_GlobalInvocationID.x;\n"
-			"\tif (gl_GlobalInvocationID.x >= gnomon_push.x) { return; }\n"
+			"\tgnomon_vertex = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * "
+			"gl_WorkGroupSize.x + "
+			"gl_LocalInvocationID.x;\n"
+			"\tconst uint first = 3u * gnomon_vertex;\n"
+			"\tif (gnomon_vertex >= gnomon_push.x) { return; }\n"
 			"\tconst vec3 start = vec3(gnomon_positions[first], gnomon_positions[first + 1u], "
 			"gnomon_positions[first + 2u]);\n"
 			"\tVERTEX = start;\n"
@@ -333,7 +337,7 @@ std::string Translator::make_code() const {
 			"\tROUGHNESS = 1.0;\n"
 			"\tTIME = gnomon_value(0);\n"
 			"\tINSTANCE_ID = int(gnomon_values[1]);\n"
-			"\tVERTEX_ID = int(gl_GlobalInvocationID.x);\n"
+			"\tVERTEX_ID = int(gnomon_vertex);\n"
 			"\tfor (int i = 0; i < 16; ++i) { MODEL_MATRIX[i / 4][i % 4] = gnomon_value(2 + i); }\n"
 			"\tMODEL_NORMAL_MATRIX = transpose(inverse(mat3(MODEL_MATRIX)));\n"
 			"\tNODE_POSITION_WORLD = MODEL_MATRIX[3].xyz;\n",

@@ -1,6 +1,7 @@
 // The commands of GodotDevice.
 
 #include "modules/core/error.h"
+#include "modules/rendering_device/work_groups.h"
 #include "modules/rendering_device_godot/godot_device.h"
 #include "modules/rendering_device_godot/godot_formats.h"
 
@@ -333,7 +334,7 @@ void GodotDevice::dispatch(glm::uvec3 p_group_count) {
 }
 
 void GodotDevice::dispatch_items(glm::uvec3 p_item_count) {
-	dispatch((p_item_count + bound->local_size - 1u) / bound->local_size);
+	dispatch(arrange_work_groups((p_item_count + bound->local_size - 1u) / bound->local_size));
 }
 
 void GodotDevice::dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {

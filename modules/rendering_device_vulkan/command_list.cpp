@@ -1,6 +1,7 @@
 #include "modules/rendering_device/command_list.h"
 
 #include "modules/core/error.h"
+#include "modules/rendering_device/work_groups.h"
 #include "modules/rendering_device_vulkan/access.h"
 #include "modules/rendering_device_vulkan/vulkan_device.h"
 #include "modules/rendering_device_vulkan/vulkan_formats.h"
@@ -126,7 +127,7 @@ void VulkanCommandList::dispatch(glm::uvec3 p_group_count) {
 void VulkanCommandList::dispatch_items(glm::uvec3 p_item_count) {
 	check_dispatch("dispatch_items");
 	const glm::uvec3 local_size = bound_pipeline->local_size;
-	dispatch((p_item_count + local_size - 1u) / local_size);
+	dispatch(arrange_work_groups((p_item_count + local_size - 1u) / local_size));
 }
 
 void VulkanCommandList::dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {

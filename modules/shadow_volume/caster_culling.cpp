@@ -3,6 +3,7 @@
 #include "modules/core/files.h"
 #include "modules/core/text.h"
 #include "modules/render_graph/fill_pass.h"
+#include "modules/rendering_device/work_groups.h"
 #include "modules/shadow_volume/culling_boxes.h"
 #include "modules/shadow_volume/occluders.h"
 
@@ -159,7 +160,7 @@ DrawPredicates CasterCulling::add_passes(
 						{ CULLING_BINDING_BOUNDS, p_context.get(bounds) },
 						{ CULLING_BINDING_BOXES, p_context.get(boxes) },
 						{ CULLING_BINDING_WORDS, p_context.get(words) } });
-				commands.dispatch({ count, 1, 1 });
+				commands.dispatch(arrange_work_groups({ count, 1, 1 }));
 			});
 	add_readback(r_graph, words);
 	return decides_draws(p_inputs) ? DrawPredicates{ words, HEADER_BYTES, tested_instances }

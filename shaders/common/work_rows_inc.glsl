@@ -15,4 +15,15 @@ uint find_work_row() {
 	return interleave_work(gl_WorkGroupID.y, gl_NumWorkGroups.y);
 }
 
+/// The place of this work group in a list of them, which a large dispatch arranges in rows (arrange_work_groups of
+/// modules/rendering_device/work_groups.h). It may be beyond the list's end.
+uint find_work_group() {
+	return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+}
+
+/// The same for an invocation of one-dimensional work groups, in a list of items. p_group_size: their size.
+uint find_work_item(uint p_group_size) {
+	return find_work_group() * p_group_size + gl_LocalInvocationID.x;
+}
+
 #endif

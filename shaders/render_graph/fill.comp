@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "render_graph/render_graph_shared.h"
 
 // Sets all words of a buffer to one value.
@@ -12,7 +13,8 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-	if (gl_GlobalInvocationID.x < push.word_count) {
-		words[gl_GlobalInvocationID.x] = push.value;
+	const uint word = find_work_item(uint(FILL_GROUP_SIZE));
+	if (word < push.word_count) {
+		words[word] = push.value;
 	}
 }

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
 // Computes the bounds, in space and of distances, of each group of EDGE_COUNT_BUNDLES_PER_GROUP
@@ -22,7 +23,7 @@ void main() {
 	const float CENTER_ROUNDING = 1e-6;
 	const uint group_size = uint(EDGE_COUNT_BUNDLES_PER_GROUP);
 	const uint bundle_size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	const uint group = gl_GlobalInvocationID.x;
+	const uint group = find_work_item(uint(64));
 	const uint bundle_count =
 			min((totals[EDGE_COUNT_TOTAL_EDGES] + bundle_size - 1u) / bundle_size, light.max_bundle_count);
 	if (group * group_size >= bundle_count) {

@@ -2,6 +2,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 #include "common/fetch_inc.glsl"
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
 // Computes the bounds, in space and of distances, of each bundle of EDGE_COUNT_BUNDLE_SIZE edges in
@@ -25,7 +26,7 @@ void main() {
 	const float WIDENING = 1.0001;
 	const float CENTER_ROUNDING = 1e-6;
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	const uint bundle = gl_GlobalInvocationID.x;
+	const uint bundle = find_work_item(uint(64));
 	const uint edge_count = min(totals[EDGE_COUNT_TOTAL_EDGES], light.max_edge_count);
 	if (bundle * size >= edge_count) {
 		return;

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
 // Clears the face lists of one view before they are built. In the first attempt it also chooses the size of their
@@ -31,10 +32,11 @@ uint choose_first_level() {
 void main() {
 	const uvec2 size_px = light.views[push.view].map_size_px;
 	const uint texel_count = size_px.x * size_px.y;
-	if (gl_GlobalInvocationID.x < texel_count) {
-		heads[push.view * texel_count + gl_GlobalInvocationID.x] = 0u;
+	const uint texel = find_work_item(uint(FACE_LIST_GROUP_SIZE));
+	if (texel < texel_count) {
+		heads[push.view * texel_count + texel] = 0u;
 	}
-	if (gl_GlobalInvocationID.x == 0u && push.is_first != 0u) {
+	if (texel == 0u && push.is_first != 0u) {
 		totals[EDGE_COUNT_TOTAL_LEVELS + push.view] = choose_first_level();
 		totals[EDGE_COUNT_TOTAL_NODES + push.view] = 0u;
 	}

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/light_faces_inc.glsl"
 #include "shadow_edge_count/texel_rows_inc.glsl"
 
@@ -105,8 +106,9 @@ void main() {
 	}
 	barrier();
 	const uint level = totals[EDGE_COUNT_TOTAL_LEVELS + push.view];
-	const bool is_valid = gl_GlobalInvocationID.x < push.face_count;
-	const uint face = push.first_face + (is_valid ? gl_GlobalInvocationID.x : 0u);
+	const uint item = find_work_item(uint(FACE_LIST_GROUP_SIZE));
+	const bool is_valid = item < push.face_count;
+	const uint face = push.first_face + (is_valid ? item : 0u);
 	const CountFaceRecord record = load_face(face);
 	if (is_valid && !is_cut_face(light, record)) {
 		const TexelRows rows = find_rows(record, level);

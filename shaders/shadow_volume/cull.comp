@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadow_volume/bounds_inc.glsl"
 
 // Tests which casters are not hidden from the light. One workgroup per subtree: if its box is
@@ -121,11 +122,15 @@ bool is_hidden(CullingBox p_box) {
 }
 
 void main() {
-	const CullingBox subtree = boxes[gl_WorkGroupID.x];
+	const uint group = find_work_group();
+	if (group >= constants.subtree_count) {
+		return;
+	}
+	const CullingBox subtree = boxes[group];
 	const uint lane = gl_LocalInvocationIndex;
 	if (lane == 0u) {
 		is_subtree_hidden = is_hidden(subtree);
-		if (gl_WorkGroupID.x == 0u) {
+		if (group == 0u) {
 			words[0] = constants.key_low;
 			words[1] = constants.key_high;
 		}

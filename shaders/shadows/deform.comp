@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadows/deform_inc.glsl"
 
 // Computes positions and normals of a mesh at a pose, one vertex per invocation.
@@ -17,7 +18,7 @@ layout(std430, set = 0, binding = DEFORM_BINDING_NORMAL_RESULT) writeonly buffer
 };
 
 void main() {
-	const uint vertex = gl_GlobalInvocationID.x;
+	const uint vertex = find_work_item(uint(DEFORM_GROUP_SIZE));
 	if (vertex >= push.vertex_count) {
 		return;
 	}

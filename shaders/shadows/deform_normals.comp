@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadows/shadows_shared.h"
 
 // Computes the normals of a deformed mesh's welded vertices: the normalized area-weighted sum of their faces'
@@ -25,7 +26,7 @@ void main() {
 	// Normals cancel when their sum is shorter than this fraction of the sum of their lengths, as
 	// in topology.cpp (ZERO_NORMAL_RATIO).
 	const float ZERO_RATIO = 1e-6;
-	const uint vertex = gl_GlobalInvocationID.x;
+	const uint vertex = find_work_item(uint(DEFORM_GROUP_SIZE));
 	if (vertex >= push.vertex_count) {
 		return;
 	}

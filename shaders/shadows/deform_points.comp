@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadows/shadows_shared.h"
 
 // Computes the vertices of a mesh that was cut out of a deformed one, from the corners of the triangles that contain
@@ -24,7 +25,7 @@ vec3 load_corner(uint p_vertex) {
 }
 
 void main() {
-	const uint vertex = gl_GlobalInvocationID.x;
+	const uint vertex = find_work_item(uint(DEFORM_GROUP_SIZE));
 	if (vertex >= push.vertex_count) {
 		return;
 	}

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadows/deform_inc.glsl"
 
 // Computes tangents of a mesh at a pose, one vertex per invocation. w, the sign of the bitangent,
@@ -12,7 +13,7 @@ layout(std430, set = 0, binding = DEFORM_BINDING_RESULT) writeonly buffer Result
 };
 
 void main() {
-	const uint vertex = gl_GlobalInvocationID.x;
+	const uint vertex = find_work_item(uint(DEFORM_GROUP_SIZE));
 	if (vertex >= push.vertex_count) {
 		return;
 	}

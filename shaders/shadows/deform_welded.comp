@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadows/shadows_shared.h"
 
 // Copies the positions of a deformed mesh to its welded vertices, each from one of the vertices that it replaces.
@@ -18,7 +19,7 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-	const uint welded = gl_GlobalInvocationID.x;
+	const uint welded = find_work_item(uint(DEFORM_GROUP_SIZE));
 	if (welded >= push.vertex_count) {
 		return;
 	}

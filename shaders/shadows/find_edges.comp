@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/silhouette_inc.glsl"
+#include "common/work_rows_inc.glsl"
 #include "shared/silhouette_shared.h"
 
 // Marks one caster's silhouette edges. Each invocation writes one word, with a bit for each of 32
@@ -30,7 +31,7 @@ bool is_silhouette(TopologyEdge p_edge) {
 }
 
 void main() {
-	const uint word_index = gl_GlobalInvocationID.x;
+	const uint word_index = find_work_item(uint(SILHOUETTE_WORDS_PER_BLOCK));
 	const uint first_edge = word_index * SILHOUETTE_EDGES_PER_WORD;
 	if (first_edge >= push.edge_count) {
 		return;

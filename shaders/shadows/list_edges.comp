@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/ordered_list_inc.glsl"
+#include "common/work_rows_inc.glsl"
 #include "shared/silhouette_shared.h"
 
 // Writes the indices of one caster's silhouette edges into a list, and the arguments of the indirect draw that uses it.
@@ -31,12 +32,14 @@ uint load_list_block(uint p_index) {
 }
 
 void main() {
-	const uint word_index = gl_GlobalInvocationID.x;
+	const uint word_index = find_work_item(uint(SILHOUETTE_WORDS_PER_BLOCK));
 	const uint word_count = (push.edge_count + SILHOUETTE_EDGES_PER_WORD - 1u) / SILHOUETTE_EDGES_PER_WORD;
-	const uint first_word = gl_WorkGroupID.x * SILHOUETTE_WORDS_PER_BLOCK;
+	// A dispatch in rows may have groups too many.
+	const uint group = min(find_work_group(), (max(word_count, 1u) - 1u) / uint(SILHOUETTE_WORDS_PER_BLOCK));
+	const uint first_word = group * SILHOUETTE_WORDS_PER_BLOCK;
 	// Index, within the caster's part of the list, of the word's next silhouette edge.
 	uint index = find_list_index(SILHOUETTE_WORDS_PER_BLOCK, push.first_block,
-			push.first_block + gl_WorkGroupID.x, push.first_word + first_word, push.first_word + min(word_index, word_count));
+			push.first_block + group, push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
 	}

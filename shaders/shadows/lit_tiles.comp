@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/depth_inc.glsl"
+#include "common/work_rows_inc.glsl"
 #include "shared/light_shared.h"
 #include "shared/lit_tiles_shared.h"
 
@@ -48,7 +49,7 @@ bool may_reach(vec3 p_minimum, vec3 p_maximum) {
 
 void main() {
 	const uvec2 tile_count = (frame.size_px + uint(LIT_TILE_PX) - 1u) / uint(LIT_TILE_PX);
-	const uint tile = gl_GlobalInvocationID.x;
+	const uint tile = find_work_item(uint(LIT_TILES_GROUP_SIZE));
 	if (tile == 0u) {
 		arguments[LIT_TILES_BLOCK_ARGUMENTS] = uint(LIT_TILES_PER_ROW * LIT_TILE_BLOCKS);
 		arguments[LIT_TILES_BLOCK_ARGUMENTS + 2] = 1u;

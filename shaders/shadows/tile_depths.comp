@@ -1,6 +1,7 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shared/frame_shared.h"
 #include "shared/lit_tiles_shared.h"
 
@@ -17,7 +18,7 @@ layout(std430, set = 0, binding = LIT_TILES_BINDING_TILE_DEPTHS) restrict writeo
 void main() {
 	const uvec2 size_px = frame.size_px;
 	const uvec2 tiles = (size_px + uint(LIT_TILE_PX) - 1u) / uint(LIT_TILE_PX);
-	const uint tile = gl_GlobalInvocationID.x;
+	const uint tile = find_work_item(uint(LIT_TILES_GROUP_SIZE));
 	if (tile >= tiles.x * tiles.y) {
 		return;
 	}

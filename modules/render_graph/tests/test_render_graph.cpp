@@ -146,15 +146,18 @@ TEST_CASE("[GPU][RenderGraph] without aliased memory, equal textures of a chain 
 
 TEST_CASE("[GPU][RenderGraph] a fill reaches every word of a buffer") {
 	GraphFixture fixture;
-	const size_t word_count = 1000; // not a multiple of the workgroup size, 256
-	RenderGraph graph(*fixture.device, *fixture.pool);
-	const RGBuffer words = graph.create_buffer({ "words", word_count * sizeof(uint32_t),
-			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE });
-	add_fill_pass(graph, *fixture.device, "fill", words, 7);
-	std::vector<uint32_t> found(word_count);
-	add_words_read(graph, words, found);
-	graph.execute(RenderGraph::Mode::WAIT);
-	CHECK(found == std::vector<uint32_t>(word_count, 7));
+	// Not a multiple of the work group size, 256, and more groups than fit into one row.
+	for (const size_t word_count : { size_t(1000), size_t(256) * 65'600 + 3 }) {
+		CAPTURE(word_count);
+		RenderGraph graph(*fixture.device, *fixture.pool);
+		const RGBuffer words = graph.create_buffer({ "words", word_count * sizeof(uint32_t),
+				BufferUsage::STORAGE | BufferUsage::COPY_SOURCE });
+		add_fill_pass(graph, *fixture.device, "fill", words, 7);
+		std::vector<uint32_t> found(word_count);
+		add_words_read(graph, words, found);
+		graph.execute(RenderGraph::Mode::WAIT);
+		CHECK(size_t(std::count(found.begin(), found.end(), 7u)) == word_count);
+	}
 }
 
 TEST_CASE("[GPU][RenderGraph] each step of a pass sees the results and the indirect arguments of "

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/work_rows_inc.glsl"
 #include "shadows/shadows_shared.h"
 
 // A vertex program (modules/scene/vertex_program.h) that bends a mesh by its first texture coordinate.
@@ -21,7 +22,7 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-	const uint vertex = gl_GlobalInvocationID.x;
+	const uint vertex = find_work_item(uint(DEFORM_GROUP_SIZE));
 	if (vertex < push.vertex_count) {
 		const float along = inputs[PROGRAM_INPUT_FLOATS * vertex];
 		positions[3u * vertex] += uintBitsToFloat(values[0]) * along * along + 0.0 * normals[3u * vertex];
