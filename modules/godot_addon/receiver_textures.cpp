@@ -25,7 +25,7 @@ ReceiverRow make_view_row(const GodotView &p_view, bool p_has_faded) {
 	return { glm::vec4(glm::vec3(world_from_camera[3]), p_view.horizontal_scale),
 		glm::vec4(glm::vec3(world_from_camera[0]), float(p_view.size_px.x)),
 		glm::vec4(glm::vec3(world_from_camera[2]), float(p_view.size_px.y)),
-		glm::vec4(p_view.has_depth_samples ? 1.0f : 0.0f, p_view.depth_offset,
+		glm::vec4(p_view.has_depth_samples() ? float(p_view.sample_count) : 0.0f, p_view.depth_offset,
 				p_has_faded ? 1.0f : 0.0f, 0.0f) };
 }
 

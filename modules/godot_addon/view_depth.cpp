@@ -65,6 +65,21 @@ RGTexture add_mesh_depth(RenderGraph &r_graph, MeshStore &r_meshes, const char *
 	return depth;
 }
 
+/// Returns the position of a pixel's first sample from its centre, in pixels, right and down:
+/// Vulkan's standard sample locations.
+glm::vec2 get_first_sample(uint32_t p_sample_count) {
+	switch (p_sample_count) {
+		case 2:
+			return { 0.25f, 0.25f };
+		case 4:
+			return { -0.125f, -0.375f };
+		case 8:
+			return { 0.0625f, -0.1875f };
+		default:
+			return glm::vec2(0.0f);
+	}
+}
+
 std::string find_unsupported_reason(
 		const glm::mat4 &p_projection, glm::uvec2 p_size_px, int64_t p_view_count) {
 	if (p_view_count > 1) {
@@ -96,8 +111,11 @@ GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
 	const int64_t samples = p_buffers.get_texture_samples();
 	view.depth = p_buffers.get_depth_texture(
 			/*msaa=*/samples != godot::RenderingDevice::TEXTURE_SAMPLES_1);
-	view.has_depth_samples = samples > godot::RenderingDevice::TEXTURE_SAMPLES_2 ||
-			(samples == godot::RenderingDevice::TEXTURE_SAMPLES_2 && r_device.has_two_samples());
+	static_assert(godot::RenderingDevice::TEXTURE_SAMPLES_1 == 0 &&
+			godot::RenderingDevice::TEXTURE_SAMPLES_8 == 3); // logarithms
+	if (samples != godot::RenderingDevice::TEXTURE_SAMPLES_2 || r_device.has_two_samples()) {
+		view.sample_count = 1u << samples;
+	}
 	view.color = p_buffers.get_color_texture(/*msaa=*/false);
 	view.camera_transform = data.get_cam_transform();
 	const glm::mat4 projection = data.get_cam_projection();
@@ -117,7 +135,10 @@ GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
 				static_cast<float>(2.0 * std::atan(1.0 / std::abs(double(projection[1][1]))));
 		view.horizontal_scale = projection[0][0];
 		view.depth_offset = projection[2][2];
-		view.camera.shift = glm::vec2(projection[2][0], -projection[2][1]); // clip y is down
+		const glm::vec2 sample =
+				2.0f * get_first_sample(view.sample_count) / glm::vec2(view.size_px);
+		view.camera.shift = glm::vec2(projection[2][0] + sample.x,
+				-projection[2][1] - sample.y); // clip y is down
 		// Where the depth P[3][2] / z - P[2][2] is 1.
 		view.camera.near_m = projection[3][2] / (1.0f + projection[2][2]);
 	}
@@ -162,9 +183,9 @@ RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotV
 	const RGTexture scene = create_depth(r_graph, "depth", p_view.size_px);
 	const PipelineRID convert =
 			r_meshes.get_device().get_raster_pipeline(make_screen_depth_pipeline("convert depth",
-					p_view.has_depth_samples ? "godot_addon/convert_sample_depth.frag"
-							: p_published	 ? "godot_addon/convert_published_depth.frag"
-											 : "godot_addon/convert_depth.frag"));
+					p_view.has_depth_samples() ? "godot_addon/convert_sample_depth.frag"
+							: p_published	   ? "godot_addon/convert_published_depth.frag"
+											   : "godot_addon/convert_depth.frag"));
 	shader::ConvertDepthPush convert_push = {};
 	convert_push.offset = p_view.depth_offset;
 	PassBuilder pass = r_graph.add_pass("convert depth");

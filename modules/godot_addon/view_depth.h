@@ -10,7 +10,10 @@ namespace gnomon {
 /// The view for which Godot calls a compositor effect: its buffers and its camera.
 struct GodotView {
 	godot::RID depth;
-	bool has_depth_samples = false; // `depth` is multisampled
+	/// Of `depth`. If there are several, the first one's depth is used, and the camera's rays pass
+	/// through it.
+	uint32_t sample_count = 1;
+	bool has_depth_samples() const { return sample_count > 1; }
 	godot::RID color;
 	glm::uvec2 size_px = glm::uvec2(0);
 	CameraSnapshot camera;
@@ -47,8 +50,8 @@ ReducedInstances find_reduced_instances(const ScenarioFrame &p_frame, const Scen
 		const GodotView &p_view, const ViewDetail &p_detail);
 
 /// Adds passes that compute the depth for shadows, near / z, with the full meshes instead of the
-/// reduced ones, at the centres of the pixels. p_depth: Godot's depth. Call it after the pass that
-/// deforms meshes was added.
+/// reduced ones, where the rays of the view's camera meet them. p_depth: Godot's depth. Call it
+/// after the pass that deforms meshes was added.
 ///
 /// p_published: gets the depth of the surfaces that Godot draws, for materials; may be empty unless
 /// the view is multisampled.

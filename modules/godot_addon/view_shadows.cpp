@@ -77,7 +77,7 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 				"were allocated for at most ", receivers.get_size_px().x, "x",
 				receivers.get_size_px().y, ". It has no shadow masks in this frame.");
 	}
-	const bool publishes_depth = p_view.has_depth_samples || p_frame.has_faded;
+	const bool publishes_depth = p_view.has_depth_samples() || p_frame.has_faded;
 	if (publishes_depth && !receivers.get_depth()) {
 		fail("A view is multisampled, but was not when this frame began. It has no shadow masks in "
 			 "this frame. Set the viewport's msaa_3d.");
