@@ -50,16 +50,10 @@ std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot:
 
 std::shared_ptr<const Mesh> choose_detail_level(const InstanceDetail &p_detail,
 		const CameraSnapshot &p_camera, float p_aspect, float p_threshold_px, float p_width_px) {
-	const glm::dvec3 &camera = p_camera.position_world;
-	const Bounds &bounds = p_detail.bounds_world;
-	if (p_threshold_px <= 0 || bounds.compute_distance(camera) == 0) {
+	const double distance_m = p_detail.bounds_world.compute_distance(p_camera.position_world);
+	if (p_threshold_px <= 0 || distance_m == 0) {
 		return nullptr;
 	}
-	// The corner of the bounds that is nearest along the camera's view direction.
-	const glm::dvec3 &back = p_camera.world_from_camera[2];
-	const glm::dvec3 corner =
-			glm::mix(bounds.minimum, bounds.maximum, glm::greaterThanEqual(back, glm::dvec3(0.0)));
-	const double distance_m = glm::distance(camera, corner);
 	// Image width, in metres, at a distance of 1 m.
 	const double width_per_m = 2.0 * std::tan(0.5 * p_camera.vertical_fov_rad) * p_aspect;
 	std::shared_ptr<const Mesh> chosen;

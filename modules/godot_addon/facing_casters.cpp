@@ -8,12 +8,19 @@ namespace gnomon {
 
 namespace {
 
+/// Whether the light is in the mesh's box.
+bool is_inside(const Mesh &p_mesh, const glm::dvec4 &p_light_mesh) {
+	return p_light_mesh.w != 0 &&
+			p_mesh.bounds_node.compute_distance(glm::dvec3(p_light_mesh)) == 0;
+}
+
 /// Returns which faces cast.
 std::vector<bool> find_casting_faces(const Mesh &p_mesh, const MeshTopology &p_topology,
 		const glm::dvec4 &p_light_mesh, ShadowCulling p_culling) {
 	std::vector<bool> casts(p_topology.get_face_count());
+	const bool keeps_solids = !is_inside(p_mesh, p_light_mesh);
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
-		if (p_topology.get_part(face).is_solid()) {
+		if (keeps_solids && p_topology.get_part(face).is_solid()) {
 			casts[face] = true;
 			continue;
 		}
@@ -66,8 +73,9 @@ bool FacingCasters::is_solid(const std::shared_ptr<const Mesh> &p_mesh) {
 }
 
 std::shared_ptr<const Mesh> FacingCasters::select(const std::shared_ptr<const Mesh> &p_mesh,
-		const std::string &p_slot, const glm::dvec4 &p_light_mesh, ShadowCulling p_culling) {
-	if (p_culling == ShadowCulling::NONE || is_solid(p_mesh)) {
+		const Slot &p_slot, const glm::dvec4 &p_light_mesh, ShadowCulling p_culling) {
+	if (p_culling == ShadowCulling::NONE ||
+			(is_solid(p_mesh) && !is_inside(*p_mesh, p_light_mesh))) {
 		return p_mesh;
 	}
 	Entry &entry = entries[p_slot];

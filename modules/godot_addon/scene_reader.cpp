@@ -59,42 +59,42 @@ bool has_fog_or_gi(const godot::Environment &p_environment) {
 			(p_environment.is_volumetric_fog_enabled() || p_environment.is_sdfgi_enabled());
 }
 
-/// Returns how often Godot draws a surface with the material.
-size_t count_passes(const godot::Ref<godot::Material> &p_material) {
-	size_t count = 1;
-	if (p_material) {
-		for (godot::Ref<godot::Material> next = p_material.get_next_pass();
-				next && count < MAX_PASSES; next = next.get_next_pass()) {
-			++count;
-		}
+/// Returns how often Godot draws a surface with the material, at most. One with a depth prepass is
+/// in the lists of opaque and of blended surfaces.
+size_t count_passes(const godot::Ref<godot::Material> &p_material, ShadowMaterials &r_materials) {
+	size_t count = p_material ? 0 : 1;
+	for (godot::Ref<godot::Material> pass = p_material; pass && count < MAX_PASSES;
+			pass = pass.get_next_pass()) {
+		count += r_materials.read(pass).kind == ShadowKind::CUT_OUT ? 2 : 1;
 	}
 	return count;
 }
 
 /// Returns how often Godot draws surfaces of a node's mesh, at most.
-size_t count_draws(const GeometryInstance3D &p_node, const godot::Mesh &p_mesh) {
+size_t count_draws(
+		const GeometryInstance3D &p_node, const godot::Mesh &p_mesh, ShadowMaterials &r_materials) {
 	const auto mesh_instance = godot::cast<godot::MeshInstance3D>(p_node);
 	const godot::Ref<godot::Material> override_material = p_node.get_material_override();
 	const godot::Ref<godot::Material> overlay = p_node.get_material_overlay();
-	const size_t overlay_count = overlay ? count_passes(overlay) : 0;
+	const size_t overlay_count = overlay ? count_passes(overlay, r_materials) : 0;
 	size_t count = 0;
 	for (int64_t index = 0; p_mesh && index < p_mesh.get_surface_count(); ++index) {
 		const godot::Ref<godot::Material> material = mesh_instance
 				? mesh_instance.get_active_material(index)
 				: override_material ? godot::Ref<godot::Material>::share(override_material)
 									: p_mesh.surface_get_material(index);
-		count += count_passes(material) + overlay_count;
+		count += count_passes(material, r_materials) + overlay_count;
 	}
 	return count;
 }
 
-size_t count_draws(const GeometryInstance3D &p_node) {
+size_t count_draws(const GeometryInstance3D &p_node, ShadowMaterials &r_materials) {
 	if (const auto mesh_instance = godot::cast<godot::MeshInstance3D>(p_node)) {
-		return count_draws(p_node, mesh_instance.get_mesh());
+		return count_draws(p_node, mesh_instance.get_mesh(), r_materials);
 	}
 	if (const auto multi = godot::cast<godot::MultiMeshInstance3D>(p_node)) {
 		const godot::Ref<godot::MultiMesh> multi_mesh = multi.get_multimesh();
-		return multi_mesh ? count_draws(p_node, multi_mesh.get_mesh()) : 0;
+		return multi_mesh ? count_draws(p_node, multi_mesh.get_mesh(), r_materials) : 0;
 	}
 	return MAX_PASSES; // few surfaces: CSG shapes, sprites, labels, particles
 }
@@ -461,7 +461,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 	if (unknown_objects.is_checking() && grid_map) {
 		unknown_objects.add_everywhere(size_t(grid_map.get_meshes().get_size()) * MAX_PASSES);
 	} else if (unknown_objects.is_checking()) {
-		unknown_objects.add(geometry, count_draws(geometry));
+		unknown_objects.add(geometry, count_draws(geometry, materials));
 	}
 	const size_t first_instance = r_scene.instances.size();
 	const size_t first_detail = details.size();
@@ -469,6 +469,12 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		const godot::Ref<godot::Mesh> mesh = mesh_instance.get_mesh();
 		if (!mesh) {
 			return;
+		}
+		if (body.casts_shadow && godot::cast<godot::SoftBody3D>(object)) {
+			body.casts_shadow = false;
+			add_notice(body,
+					"casts no shadow of Gnomon: the vertices of a SoftBody3D, which physics "
+					"moves, cannot be read. Set its cast_shadow to Off.");
 		}
 		read_mesh(body, mesh, get_drawn_transform(body.node).to_matrix(), r_scene);
 	} else if (const auto multi = godot::cast<godot::MultiMeshInstance3D>(object)) {
@@ -549,6 +555,7 @@ void SceneReader::cull_faces(const ShadowNode &p_node, SceneSnapshot &r_scene) {
 		return;
 	}
 	const LightSnapshot &light = r_scene.lights.back();
+	const uint64_t light_id = godot::get_instance_id(p_node.get_node().get_object());
 	const bool is_reversed = p_node.find_light().get_shadow_reverse_cull_face();
 	const glm::dvec4 light_world = light.type == LightType::DIRECTIONAL
 			? glm::dvec4(-light.get_direction_world(), 0.0)
@@ -556,10 +563,9 @@ void SceneReader::cull_faces(const ShadowNode &p_node, SceneSnapshot &r_scene) {
 	for (const CulledInstance &entry : culled) {
 		InstanceSnapshot &instance = r_scene.instances[entry.instance];
 		const bool is_back = (entry.culling == ShadowCulling::BACK) != is_reversed;
-		const std::shared_ptr<const Mesh> mesh =
-				facing.select(instance.caster_mesh, text(light.name, " ", entry.instance),
-						glm::inverse(instance.world_from_node) * light_world,
-						is_back ? ShadowCulling::BACK : ShadowCulling::FRONT);
+		const std::shared_ptr<const Mesh> mesh = facing.select(instance.caster_mesh,
+				{ light_id, entry.instance }, glm::inverse(instance.world_from_node) * light_world,
+				is_back ? ShadowCulling::BACK : ShadowCulling::FRONT);
 		if (mesh != instance.caster_mesh) {
 			instance.caster_meshes_of_lights[light.name] = mesh;
 		}

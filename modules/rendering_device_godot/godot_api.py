@@ -118,6 +118,7 @@ USED = {
     "MeshInstance3D": {
         "methods": "get_mesh get_active_material get_skin_reference get_blend_shape_count get_blend_shape_value"
     },
+    "SoftBody3D": {"methods": ""},
     "MultiMeshInstance3D": {"methods": "get_multimesh"},
     "CSGShape3D": {"methods": "get_meshes is_root_shape"},
     "GridMap": {"methods": "get_meshes get_used_cells get_cell_item get_mesh_library"},

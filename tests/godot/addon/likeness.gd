@@ -453,3 +453,81 @@ func test_back_faces_cast_if_the_node_says_so() -> void:
 	shadow.cast_back_faces = true
 	check((await _take()).get_pixelv(pixel).get_luminance() < 0.5, "it is dark below the ceiling")
 	await _end()
+
+
+## Godot's shadow maps leave out faces that are seen from behind, so a lamp shines out of its bulb.
+func test_a_lamp_inside_a_closed_mesh_shines_through_it() -> void:
+	for mesh: PrimitiveMesh in [SphereMesh.new(), BoxMesh.new()]:
+		for light: Light3D in [OmniLight3D.new(), SpotLight3D.new()]:
+			_begin()
+			_sun.visible = false
+			light.shadow_enabled = true
+			light.light_energy = 6.0
+			light.set_param(Light3D.PARAM_SIZE, 0.1)
+			light.position = Vector3(0, 1.2, 0)
+			light.rotation_degrees.x = -90.0
+			_root.add_child(light)
+			_add(mesh, light.position)
+			_add_box(Vector3(0.9, 0.5, 0.3))
+			await _compare("lamp in %s of %s" % [mesh.get_class(), light.get_class()], [Vector3(0, 0, 1.3), Vector3(-0.6, 0, 0.3), Vector3(2.0, 0, 0.6)])
+			await _end()
+
+
+## Returns how many receivers have a visibility below `value` and only receivers around them. Materials read the mask of pixels at
+## outlines from the pixel beside them.
+func _count_inside(mask: Image, value: float) -> int:
+	var count := 0
+	for y in range(1, mask.get_height() - 1):
+		for x in range(1, mask.get_width() - 1):
+			var is_inside := mask.get_pixel(x, y).r < value
+			for index in 9:
+				is_inside = is_inside and mask.get_pixel(x + index % 3 - 1, y + int(index / 3.0) - 1).r >= 0.0
+			count += int(is_inside)
+	return count
+
+
+## In a multisampled view, the point of a pixel must not be behind an edge between two faces of its surface.
+func test_edges_of_convex_meshes_do_not_shadow_themselves_in_multisampled_views() -> void:
+	for sides: int in [12, 64]:
+		_begin()
+		for floor_node in _root.find_children("*", "MeshInstance3D", true, false):
+			floor_node.free()
+		var cone := CylinderMesh.new()
+		cone.top_radius = 0.0
+		cone.bottom_radius = 1.0
+		cone.radial_segments = sides
+		_add(cone, Vector3(-1.2, 0.5, 0))
+		var sphere := SphereMesh.new()
+		sphere.radial_segments = sides
+		sphere.rings = int(sides / 2.0)
+		sphere.radius = 1.0
+		sphere.height = 2.0
+		_add(sphere, Vector3(1.2, 0.5, 0))
+		var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
+		_sun.rotation_degrees = Vector3(-50, 0, 0)
+		_sun.add_child(shadow)
+		var limit := 0
+		for msaa: Viewport.MSAA in [Viewport.MSAA_DISABLED, Viewport.MSAA_4X, Viewport.MSAA_8X]:
+			_viewport.msaa_3d = msaa
+			await draw_frames(3)
+			var mask := await MaskReader.new(shadow).read()
+			var count := _count_inside(mask, 0.5)
+			if msaa == Viewport.MSAA_DISABLED:
+				limit = count + int(0.01 * _count_inside(mask, 2.0))
+			check(count <= limit, "%d sides, MSAA %d: %d pixels are dark, at most %d may be" % [sides, msaa, count, limit])
+		await _end()
+
+
+## The vertices of a soft body are moved by physics; its mesh as it was would shadow it.
+func test_a_soft_body_casts_nothing_and_receives() -> void:
+	_begin()
+	var body := SoftBody3D.new()
+	body.mesh = SphereMesh.new()
+	body.position = Vector3(0, 1.5, 0)
+	body.ray_pickable = false
+	_root.add_child(body)
+	var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
+	_sun.add_child(shadow)
+	await draw_frames(4)
+	check(count_darker(await MaskReader.new(shadow).read()) == 0, "nothing casts")
+	await _end()
