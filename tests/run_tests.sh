@@ -332,6 +332,9 @@ part_godot_device() {
 part_godot_addon() {
     run_part "godot add-on" python3 tests/godot/test_addon.py
 }
+part_godot_games() {
+    run_part "godot games" python3 tests/godot/test_games.py
+}
 part_godot_masks() {
     run_part "godot masks" python3 tests/godot/test_masks.py
 }
@@ -399,7 +402,7 @@ if [ ${#only[@]} -gt 0 ]; then
 fi
 run_lanes "sanitized fuzz_replay"
 if is_requested godot_build && part_godot_build; then
-    run_lanes "godot_addon" "godot_device godot_editor" "godot_masks godot_soak"
+    run_lanes "godot_addon" "godot_device godot_editor godot_games" "godot_masks godot_soak"
 fi
 if [ "$is_full" = yes ]; then
     run_lanes "sanitized_all threads tables fuzz large_meshes validator soak extremes kills editor_repeats"

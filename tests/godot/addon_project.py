@@ -12,14 +12,14 @@ FOLDER = os.path.join(ROOT, "build", "godot_addon")
 SOURCES = os.path.join(ROOT, "tests", "godot", "addon")
 
 
-def write():
-    """Write the project from scratch, with the tests in res://tests."""
-    shutil.rmtree(FOLDER, ignore_errors=True)
-    shutil.copytree(godot_project.PROJECT, FOLDER, ignore=shutil.ignore_patterns(".godot"))
-    shutil.copytree(SOURCES, os.path.join(FOLDER, "tests"))
-    with open(os.path.join(FOLDER, "project.godot"), "a", encoding="utf-8") as file:
+def write(folder=FOLDER, sources=SOURCES):
+    """Write the project from scratch, with the tests of the folder `sources` in res://tests."""
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(godot_project.PROJECT, folder, ignore=shutil.ignore_patterns(".godot"))
+    shutil.copytree(sources, os.path.join(folder, "tests"))
+    with open(os.path.join(folder, "project.godot"), "a", encoding="utf-8") as file:
         file.write("\n[rendering]\n\ngnomon/gradual_compilation=false\n")  # tests look at the first frames
-    godot_project.prepare(FOLDER)
+    godot_project.prepare(folder)
 
 
 def report(passed, failures, skipped=0):
