@@ -395,6 +395,7 @@ struct CacheEntry {
 using CutKey = decltype(make_key(std::declval<Mesh>(), std::declval<Material>()));
 std::mutex cache_mutex;
 std::map<CutKey, CacheEntry> cache;
+OutlineBudget cache_budget; // guarded by cache_mutex
 
 } // namespace
 
@@ -417,7 +418,7 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 	const std::lock_guard<std::mutex> lock(cache_mutex);
 	CacheEntry &entry = cache[make_key(*p_mesh, *p_material)];
 	if (entry.source.expired()) { // a new entry
-		CutMesh cut = cut_mesh(p_mesh, *p_material);
+		CutMesh cut = cut_mesh(p_mesh, *p_material, cache_budget);
 		if (cut.mesh && cut.mesh != p_mesh && cut.block_size_px == 0 &&
 				p_material->base_color_texture.image) {
 			cut.levels = std::make_shared<const CutLevels>(p_mesh, *p_material, cut.mesh);
@@ -425,6 +426,11 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 		entry = { p_mesh, p_material, std::move(cut) };
 	}
 	return entry.cut;
+}
+
+void set_outline_budget(const OutlineBudget &p_budget) {
+	const std::lock_guard<std::mutex> lock(cache_mutex);
+	cache_budget = p_budget;
 }
 
 void drop_unused_cut_meshes() {

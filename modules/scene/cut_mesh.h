@@ -40,6 +40,9 @@ CutMesh cut_mesh(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_ma
 /// material is not cut out, it returns the mesh itself. Callable from any thread.
 CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 		const std::shared_ptr<const Material> &p_material);
+/// Sets the budget of meshes that get_cut_mesh cuts from now on, OutlineBudget() by default. For
+/// hosts whose scenes need speed more than the last leaf. Callable from any thread.
+void set_outline_budget(const OutlineBudget &p_budget);
 /// Frees cached cut meshes whose source mesh was freed, and those whose material was freed or
 /// changed unless they are in use. Call it once a frame, from any thread.
 void drop_unused_cut_meshes();
