@@ -57,9 +57,18 @@ void PoseReader::pose(const Key &p_key, const godot::MeshInstance3D &p_node,
 	if (!entry.slot || entry.slot->get_rest() != p_rest) {
 		entry.slot = std::make_shared<PoseSlot>(p_rest);
 	}
-	r_instance.set_pose(entry.slot,
-			entry.slot->make_pose(std::move(joints), std::move(weights),
-					"Node \"" + r_instance.node_name + "\"", std::move(p_move)));
+	entry.pose = entry.slot->make_pose(std::move(joints), std::move(weights),
+			"Node \"" + r_instance.node_name + "\"", std::move(p_move));
+	r_instance.set_pose(entry.slot, entry.pose);
+}
+
+bool PoseReader::repeat(const Key &p_key, InstanceSnapshot &r_instance) {
+	const auto found = entries.find(p_key);
+	if (found == entries.end() || found->second.last_use != frame || !found->second.pose) {
+		return false;
+	}
+	r_instance.set_pose(found->second.slot, found->second.pose);
+	return true;
 }
 
 void PoseReader::end_frame() {

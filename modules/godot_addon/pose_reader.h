@@ -21,6 +21,7 @@ public:
 	/// A surface of a node, or of an instance of a MultiMesh or a GridMap.
 	struct Key {
 		uint64_t node_id = 0;
+		uint64_t mesh_id = 0; // of Godot's mesh: a GridMap has several
 		int64_t surface = 0;
 		size_t instance = 0;
 		auto operator<=>(const Key &) const = default;
@@ -31,6 +32,9 @@ public:
 	void pose(const Key &p_key, const godot::MeshInstance3D &p_node,
 			const std::shared_ptr<const Mesh> &p_rest, VertexMove p_move,
 			InstanceSnapshot &r_instance);
+	/// Sets the pose that an instance with the same key has in this frame. Returns false if there
+	/// is none yet.
+	bool repeat(const Key &p_key, InstanceSnapshot &r_instance);
 	/// Call once per frame after all pose() calls. Removes the data of nodes that were freed or not
 	/// read for 600 frames.
 	void end_frame();
@@ -38,7 +42,8 @@ public:
 private:
 	struct Entry {
 		std::shared_ptr<PoseSlot> slot;
-		uint64_t last_use = 0; // frame number
+		std::shared_ptr<const MeshPose> pose; // of the last use
+		uint64_t last_use = 0;				  // frame number
 	};
 	/// Returns a matrix for each bone; empty if the node has no skin or no bones are set yet.
 	const std::vector<glm::dmat4> &read_bones(const godot::MeshInstance3D &p_node);

@@ -16,13 +16,12 @@ using godot::GeometryInstance3D;
 const float MAX_COORDINATE_M = 1e8f;   // nodes beyond are not found
 const size_t MAX_PASSES = 64;		   // of materials
 const size_t MAX_MOVED_INSTANCES = 64; // of a node, each moved by vertex() in its own way
-// How far vertex() may move vertices out of the box of their mesh, which is also at most as far as
-// the box is long.
-const double MAX_MOVE_M = 5;
+const double MAX_MOVE_M = 5; // of find_move_margin, which is at most the box's longest side
 const double MIN_SCENE_SIZE_M = 1e-9; // it is a divisor, also in a world without casters
 // In a MultiMesh's buffer: floats of an instance's colour, and of its custom data.
 const size_t COLOR_FLOATS = 4;
 
+/// Returns how far vertex() may move vertices out of the box of their mesh, in metres.
 double find_move_margin(const Bounds &p_box) {
 	const glm::dvec3 size = p_box.maximum - p_box.minimum;
 	return std::min(MAX_MOVE_M, std::max({ size.x, size.y, size.z }));
@@ -249,13 +248,17 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 				(instance.caster_mesh == drawn.mesh || meshes.is_cut_ready(instance.caster_mesh));
 		if (has_program || (mesh_instance && drawn.mesh->attributes.rig)) {
 			const bool is_own = has_program && motion.function->translation.uses_node;
-			poses.pose({ godot::get_instance_id(p_body.node.get_object()), surface.index,
-							   is_own ? p_body.instance : 0 },
-					mesh_instance, drawn.mesh,
-					has_program
-							? read_move(p_body, *drawn.mesh, shadow, material, p_world_from_mesh)
-							: VertexMove(),
-					instance);
+			const PoseReader::Key key = { godot::get_instance_id(p_body.node.get_object()),
+				godot::get_instance_id(p_mesh.get_object()), surface.index,
+				is_own ? p_body.instance : 0 };
+			// Instances that vertex() moves alike have one pose.
+			if (!poses.repeat(key, instance)) {
+				poses.pose(key, mesh_instance, drawn.mesh,
+						has_program ? read_move(p_body, *drawn.mesh, shadow, material,
+											  p_world_from_mesh)
+									: VertexMove(),
+						instance);
+			}
 		}
 		receivers.read(
 				p_body, material, p_mesh, surface.index, instance.bounds_world, unknown_reason);

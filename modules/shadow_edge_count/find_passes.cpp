@@ -14,9 +14,6 @@ namespace {
 
 using Content = PassBuilder::Content;
 
-// Every device allows this many work groups per dimension.
-constexpr uint32_t MAX_GROUPS_PER_ROW = 65535;
-
 /// The casters and meshes as the passes over casters read them.
 struct CasterBuffers {
 	RGBuffer casters;	  // shader::CountCasterRecord
@@ -121,12 +118,10 @@ void add_caster_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 	const shader::CountFindPush push = { p_work.first_group, p_work.group_count, p_work.item_count,
 		p_passes.is_directional ? 1u : 0u, static_cast<float>(p_passes.casters.disc_radius),
 		p_passes.casters.side_tolerance, p_passes.capacities.edge_count, /*padding=*/0 };
-	const uint32_t columns = std::min(p_work.group_count, MAX_GROUPS_PER_ROW);
-	const uint32_t rows = (p_work.group_count + columns - 1) / columns;
 	add_compute_pass(r_graph, p_name,
 			p_device.get_compute_pipeline(
 					{ p_name, choose_fetching_shader(p_device, p_shader), /*constants=*/{} }),
-			std::move(p_bindings), { columns * FIND_GROUP_SIZE, rows, 1 },
+			std::move(p_bindings), { p_work.group_count * FIND_GROUP_SIZE, 1, 1 },
 			std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
 }
 

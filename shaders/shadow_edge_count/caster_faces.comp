@@ -53,7 +53,7 @@ CountMeshFace load_mesh_face(CountCasterRecord p_caster, uint p_index) {
 }
 
 void main() {
-	const CountWorkGroup group = find_work_group();
+	const CountWorkGroup group = load_work_group();
 	const uint index = group.index * uint(FIND_GROUP_SIZE) + gl_LocalInvocationID.x;
 	if (group.index == NO_GROUP || index >= push.item_count) {
 		return;

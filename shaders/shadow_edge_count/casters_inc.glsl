@@ -4,6 +4,7 @@
 #define CASTERS_INC_GLSL
 
 #include "common/fetch_inc.glsl"
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
 FETCHED_UVEC4S(FIND_BINDING_CASTERS, casters_buffer); // CountCasterRecord
@@ -20,8 +21,8 @@ const uint NO_GROUP = 0xffffffffu;
 const uint MAX_SEARCH_STEPS = 24u;
 
 /// This work group. Its index is NO_GROUP if the dispatch has more work groups than there are.
-CountWorkGroup find_work_group() {
-	const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+CountWorkGroup load_work_group() {
+	const uint group = find_work_group();
 	const CountWorkGroup loaded = groups[push.first_group + min(group, push.group_count - 1u)];
 	return CountWorkGroup(group < push.group_count ? loaded.index : NO_GROUP, loaded.first_caster, loaded.last_caster, 0u);
 }

@@ -35,7 +35,7 @@ CountEdgeRecord make_record(CountCasterRecord p_caster, CountMeshEdge p_edge) {
 }
 
 void main() {
-	const CountWorkGroup group = find_work_group();
+	const CountWorkGroup group = load_work_group();
 	const uint block = group.index == NO_GROUP ? 0u : group.index;
 	const uint first_word = block * uint(EDGE_COUNT_WORDS_PER_BLOCK);
 	const uint word_index = min(first_word + gl_LocalInvocationID.x, push.item_count);

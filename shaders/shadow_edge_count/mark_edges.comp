@@ -36,7 +36,7 @@ bool may_be_silhouette(CountCasterRecord p_caster, CountMeshEdge p_edge) {
 }
 
 void main() {
-	const CountWorkGroup group = find_work_group();
+	const CountWorkGroup group = load_work_group();
 	if (gl_LocalInvocationID.x == 0u) {
 		block_count = 0u;
 	}

@@ -191,6 +191,50 @@ func test_instances_of_a_multi_mesh_are_moved_each() -> void:
 				_add(_move(mesh, func(at: Vector3, _normal: Vector3, _uv: Vector2, _color: Color) -> Vector3: return at + Vector3(0.4 * sin(2.0 * place.x) * (at.y + 0.5), 0, 0)), place, _plain()))
 
 
+## Instances that are moved alike share one pose, also if a GridMap has several meshes.
+func test_cells_of_a_grid_map_are_moved_alike() -> void:
+	const CODE := "void vertex() { VERTEX.x += 0.3 * VERTEX.y * VERTEX.y; }\nvoid fragment() { ALBEDO = vec3(0.5); }"
+	var meshes: Array[ArrayMesh] = [_make_box(), _make_plane()]
+	var lean := func(at: Vector3, _normal: Vector3, _uv: Vector2, _color: Color) -> Vector3: return at + Vector3(0.3 * at.y * at.y, 0, 0)
+	const CELLS: Array[Vector2i] = [Vector2i(-2, 0), Vector2i(0, 1), Vector2i(1, 0), Vector2i(2, 0)] # x, item
+	await _check_same("grid map", func() -> void:
+		var library := MeshLibrary.new()
+		for item in 2:
+			library.create_item(item)
+			var mesh: ArrayMesh = meshes[item].duplicate()
+			mesh.surface_set_material(0, _make_shader(CODE))
+			library.set_item_mesh(item, mesh)
+		var grid := GridMap.new()
+		grid.mesh_library = library
+		grid.cell_size = Vector3.ONE
+		for cell in CELLS:
+			grid.set_cell_item(Vector3i(cell.x, 0, 0), cell.y)
+		_root.add_child(grid),
+		func() -> void:
+			for cell in CELLS:
+				_add(_move(meshes[cell.y], lean), Vector3(cell.x + 0.5, 0.5, 0.5), _plain()))
+
+
+## A texture may be replaced, and its former one freed, at any time.
+func test_a_texture_that_moves_vertices_is_replaced() -> void:
+	_begin()
+	var shadow := _add_shadow(_sun)
+	var material := _make_shader("uniform sampler2D heights;\nvoid vertex() { VERTEX.y += texture(heights, UV).r; }\nvoid fragment() { ALBEDO = vec3(0.5); }")
+	_add(_make_plane(), Vector3(0, 0.5, 0), material)
+	var masks: Array[Image] = []
+	for step in 40:
+		var image := Image.create(2, 2, false, Image.FORMAT_RF)
+		image.fill(Color(float(step % 2), 0, 0))
+		material.set_shader_parameter("heights", ImageTexture.create_from_image(image) if step % 5 < 4 else null)
+		await draw_frames(4 if step > 37 else 1)
+		if step > 37:
+			masks.append(await MaskReader.new(shadow).read())
+	material.set_shader_parameter("heights", null)
+	await draw_frames(130) # until textures that are not used are forgotten
+	check(count_different(masks[0], masks[1], 0.5) > 100, "the heights of the last texture are used")
+	await _end()
+
+
 func test_blend_shapes_and_a_shader_move_vertices() -> void:
 	var box := _make_box()
 	var arrays := box.surface_get_arrays(0)
