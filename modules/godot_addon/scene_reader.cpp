@@ -577,8 +577,8 @@ void SceneReader::cull_faces(const ShadowNode &p_node, SceneSnapshot &r_scene) {
 
 ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tree,
 		std::span<ShadowNode *const> p_nodes, std::vector<godot::Light3D> p_hidden_lights) {
-	if (!grid_maps) {
-		grid_maps = std::make_unique<GridMaps>(p_tree);
+	if (!unculled) {
+		unculled = std::make_unique<UnculledNodes>(p_tree);
 	}
 	auto scene = std::make_shared<SceneSnapshot>();
 	auto frame = std::make_shared<ScenarioFrame>();
@@ -594,8 +594,8 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	unknown_objects.begin_world(p_scenario, frame->views, frame_number);
 	const bool has_masked_view = add_view_notices(frame->views);
 	std::vector<uint64_t> ids = find_instances(p_scenario);
-	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);
-	ids.insert(ids.end(), grid_map_ids.begin(), grid_map_ids.end());
+	const std::vector<uint64_t> unculled_ids = unculled->find(p_scenario);
+	ids.insert(ids.end(), unculled_ids.begin(), unculled_ids.end());
 	for (const uint64_t id : ids) {
 		try {
 			read_node(id, *scene);

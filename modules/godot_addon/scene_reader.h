@@ -1,6 +1,5 @@
 #pragma once
 
-#include "modules/godot_addon/grid_maps.h"
 #include "modules/godot_addon/mesh_reader.h"
 #include "modules/godot_addon/notices.h"
 #include "modules/godot_addon/pose_reader.h"
@@ -8,6 +7,7 @@
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/shader_time.h"
 #include "modules/godot_addon/shadow_materials.h"
+#include "modules/godot_addon/unculled_nodes.h"
 #include "modules/godot_addon/unknown_objects.h"
 #include "modules/godot_addon/view_visibility.h"
 
@@ -81,7 +81,7 @@ private:
 	UnknownObjects unknown_objects;
 	ReadWorld world;
 	std::shared_ptr<ScenarioFrame> world_frame; // of `world`, while it is read
-	std::unique_ptr<GridMaps> grid_maps;
+	std::unique_ptr<UnculledNodes> unculled;
 	MeshReader meshes;
 	FacingCasters facing{ meshes };
 	PoseReader poses;

@@ -16,6 +16,7 @@ var _light: Light3D
 
 func test_materials_look_the_same_without_shadows() -> void:
 	_add_spheres()
+	_add_soft_lights()
 	var originals := await _draw_all(false)
 	var patched := await _draw_all(true)
 	var restored := await _draw_all(false)
@@ -68,6 +69,13 @@ func _add_spheres() -> void:
 		@warning_ignore("integer_division")
 		sphere.position = Vector3(index % COLUMNS + 0.5, -(index / COLUMNS) - 0.5, 0)
 		_viewport.add_child(sphere)
+
+
+## Adds dim lights with a size. Godot compiles each material again when the first light of a view has one, for each kind of light.
+func _add_soft_lights() -> void:
+	for light: String in ["sun_with_size", "omni_with_size"]:
+		_add_light(light)
+		_light.light_energy = 0.2
 
 
 func _add_light(light: String) -> void:
