@@ -226,6 +226,8 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		const ShadowSurface shadow = material ? materials.read(material) : ShadowSurface();
 		const VertexMotion &motion = shadow.motion;
 		const bool is_moved = motion != VertexMotion();
+		r_scene.has_own_normals = r_scene.has_own_normals ||
+				(p_body.is_drawn && (surface.has_own_normals || shadow.has_own_normals));
 		ReadSurface drawn = surface;
 		const std::string unknown_reason = find_unknown_motion(p_body, motion);
 		const bool has_program = motion.function && unknown_reason.empty();

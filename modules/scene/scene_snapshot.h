@@ -143,6 +143,9 @@ struct SceneSnapshot {
 	CameraSnapshot camera;
 	std::vector<LightSnapshot> lights;
 	std::vector<InstanceSnapshot> instances;
+	/// True: lighting uses normals that are not those of the faces, so that faces turned away from
+	/// a light may be lit. They are receivers too; see RECEIVER_FAR_SIDE in frame_shared.h.
+	bool has_own_normals = false;
 	double scene_size_m = 0; // the scene size S, at least 1e-9: from the file or measured at rest
 
 	/// Camera-relative space: the world's axes with the camera at the origin.

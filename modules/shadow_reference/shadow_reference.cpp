@@ -16,6 +16,9 @@ namespace gnomon {
 
 namespace {
 
+// Of receivers as bytes, see RECEIVER_FAR_SIDE.
+const uint8_t LEAST_NEAR_SIDE = uint8_t(255 * 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE));
+
 // Increase it when the definition of the reference or the tracer changes, so that older cache
 // entries are not found.
 constexpr uint64_t REFERENCE_VERSION = 2;
@@ -115,11 +118,17 @@ void ShadowReference::compute(const Job &p_job, const std::vector<ReceiverPoint>
 void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 	const size_t pixel_count = size_t(p_job.size_px.x) * p_job.size_px.y;
 	const uint8_t *receivers = p_context.get_mapped(p_job.receivers);
-	const std::vector<ReceiverPoint> points = make_receiver_points(
-			read_surfaces(p_job.frame, p_job.size_px,
-					{ p_context.get_mapped(p_job.depth), p_context.get_mapped(p_job.normal),
-							p_job.material ? p_context.get_mapped(p_job.material) : nullptr }),
-			p_job.spread.get(), [&](size_t p_pixel) { return receivers[p_pixel] != 0; });
+	std::vector<SurfacePoint> surfaces = read_surfaces(p_job.frame, p_job.size_px,
+			{ p_context.get_mapped(p_job.depth), p_context.get_mapped(p_job.normal),
+					p_job.material ? p_context.get_mapped(p_job.material) : nullptr });
+	const auto is_receiver = [&](size_t p_pixel) { return receivers[p_pixel] != 0; };
+	for (size_t pixel = 0; pixel < surfaces.size(); ++pixel) {
+		if (is_receiver(pixel) && receivers[pixel] < LEAST_NEAR_SIDE) {
+			surfaces[pixel].geometric_normal *= -1.0f;
+		}
+	}
+	const std::vector<ReceiverPoint> points =
+			make_receiver_points(surfaces, p_job.spread.get(), is_receiver);
 	const uint64_t key = p_job.compute_key(points);
 	if (!p_job.may_reuse || key != last_key || last_reference.visibility.size() != pixel_count) {
 		const std::optional<ReferenceVisibility> stored = p_job.may_reuse

@@ -33,9 +33,11 @@ shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm
 			glm::mat4(compute_shift(camera) * view.compute_clip_from_view() *
 					glm::dmat4(glm::dmat3(view.view_from_world))); // the camera is the origin
 	const glm::dmat3 &axes = camera.world_from_camera;
-	frame.right_tangent = glm::vec4(glm::vec3(axes[0]) * view.half_extent.x, 0.0f);
+	frame.right_tangent = glm::vec4(glm::vec3(axes[0]) * view.half_extent.x,
+			p_scene.has_own_normals ? FAR_SIDE_SINE : NO_FAR_SIDE);
 	frame.up_tangent = glm::vec4(glm::vec3(axes[1]) * view.half_extent.y, 0.0f);
-	frame.forward = glm::vec4(glm::vec3(-axes[2]), 0.0f) + camera.shift.x * frame.right_tangent +
+	frame.forward = glm::vec4(glm::vec3(-axes[2]), 0.0f) +
+			camera.shift.x * glm::vec4(glm::vec3(frame.right_tangent), 0.0f) +
 			camera.shift.y * frame.up_tangent;
 	frame.size_px = p_size_px;
 	frame.near_m = camera.near_m;

@@ -59,14 +59,17 @@ float find_height(vec3 p_normal, vec3 p_to_camera, vec3 p_to_light, float p_came
 
 void main() {
 	const ivec2 pixel = ivec2(gl_FragCoord.xy);
-	if (texelFetch(receivers_texture, pixel, 0).r <= 0.0) {
+	const float receives = texelFetch(receivers_texture, pixel, 0).r;
+	if (receives <= 0.0) {
 		discard;
 	}
+	// Of a receiver on its far side, the position is behind the surface.
+	const float side = receives < 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE) ? -1.0 : 1.0;
 	const float depth = texelFetch(depth_texture, pixel, 0).r;
-	const vec3 normal = unpack_normal(texelFetch(normal_texture, pixel, 0).r);
+	const vec3 normal = side * unpack_normal(texelFetch(normal_texture, pixel, 0).r);
 	const vec3 position = position_from_depth(frame, pixel, depth);
 	const float distance_m = length(position);
-	const vec3 to_camera = -position / distance_m;
+	const vec3 to_camera = -side * position / distance_m;
 	const float offset_m = compute_receiver_offset_m(frame, distance_from_depth(frame, depth));
 	const float facing = dot(normal, to_camera);
 	float shift = MAX_DISTANCE * offset_m / distance_m;
@@ -78,6 +81,6 @@ void main() {
 		const float farthest_m = max(MAX_DISTANCE * facing * offset_m, ROUNDING_PX * pixel_m);
 		shift = clamp(height_m, -farthest_m, farthest_m) / (facing * distance_m);
 	}
-	gl_FragDepth = min(depth / (1.0 - min(shift, MAX_SHIFT)), 1.0);
+	gl_FragDepth = min(depth / (1.0 - side * min(shift, MAX_SHIFT)), 1.0);
 	out_visibility = 1.0;
 }

@@ -30,10 +30,16 @@ void main() {
 		return;
 	}
 	const float depth = texelFetch(depth_texture, pixel, 0).r;
-	bool receives = false;
+	float receives = RECEIVER_NONE;
 	if (depth > 0.0) {
 		const vec3 normal = unpack_normal(texelFetch(normal_texture, pixel, 0).r);
-		receives = is_receiver(light, position_from_depth(frame, pixel, depth), normal);
+		const vec3 position = position_from_depth(frame, pixel, depth);
+		if (is_receiver(light, position, normal)) {
+			receives = RECEIVER_NEAR_SIDE;
+		} else if (dot(-normal, normalize(vector_to_light(light, position))) >= frame.right_tangent.w &&
+				is_receiver(light, position, -normal)) {
+			receives = RECEIVER_FAR_SIDE;
+		}
 	}
-	imageStore(receivers_image, pixel, vec4(receives ? 1.0 : 0.0));
+	imageStore(receivers_image, pixel, vec4(receives));
 }

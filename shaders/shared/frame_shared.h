@@ -5,7 +5,9 @@
 /// One frame's camera. Camera-relative space: the world's axes, metres, the camera at the origin.
 struct SHARED_ALIGN FrameConstants {
 	mat4 clip_from_camera_relative; // reversed depth: near / z, 1 near .. 0 far, far at infinity
-	vec4 right_tangent; // xyz: camera's right times the tangent of half the horizontal angle
+	// xyz: camera's right times the tangent of half the horizontal angle; w: a face that is turned away from a light by an angle of at
+	// least this sine is a receiver on its far side, see RECEIVER_FAR_SIDE; above 1: none is.
+	vec4 right_tangent;
 	vec4 up_tangent;	// xyz: camera's up times the tangent of half the vertical angle
 	// xyz: unit, plus the camera's shift (CameraSnapshot::shift) along the tangents above, so that
 	// the image's centre is along it.
@@ -21,6 +23,13 @@ struct SHARED_ALIGN FrameConstants {
 SHARED_SIZE(FrameConstants, 144);
 SHARED_OFFSET(FrameConstants, right_tangent, 64);
 SHARED_OFFSET(FrameConstants, size_px, 112);
+
+/// Values of the texture of receivers. A pixel is a receiver on its far side if the light reaches the side of its face that the
+/// viewer does not see. Its mask decides about surfaces whose vertex normals face the light though their faces do not, such as
+/// grass whose normals point up.
+#define RECEIVER_NONE 0.0
+#define RECEIVER_FAR_SIDE 0.5
+#define RECEIVER_NEAR_SIDE 1.0
 
 /// How far a receiver is moved along its normal before its visibility is tested, in metres. The
 /// reference and all techniques do this, so that all results refer to the same point. Exceptions:

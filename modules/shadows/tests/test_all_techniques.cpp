@@ -85,6 +85,51 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 	});
 }
 
+TEST_CASE("[GPU][Techniques] faces turned away from the light are receivers on their far side if "
+		  "normals are not those of faces") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		use_cheap_settings(*scene.light);
+		scene.ground->is_planar_receiver = false;
+		scene.light->parent_from_node = look_at({ 2.4, 2.4, 1.8 }, { 0, 0.3, 0 });
+		// It sees two sides of the box and one of a sheet, all turned away from the light.
+		scene.camera->parent_from_node = look_at({ -3.0, 1.3, -2.6 }, { -0.3, 0.6, -0.3 });
+		add_mesh(scene.scene, "Sheet",
+				make_mesh("sheet", { { 0, 0, 0 }, { 0, 0, 1 }, { 0, 1, 1 }, { 0, 1, 0 } }, {},
+						{ 0, 1, 2, 0, 2, 3 }),
+				{ -1.0, 0.2, -1.8 });
+		MaskRequest request;
+		request.technique_override = p_info.id;
+		request.light = scene.light->name;
+		request.scene = scene.snap();
+		const MaskResult plain = fixture.render(request);
+		auto own = std::make_shared<SceneSnapshot>(*request.scene);
+		own->has_own_normals = true;
+		request.scene = own;
+		const MaskResult both = fixture.render(request);
+		CHECK(is_valid_mask(both));
+		size_t plain_dark_count = 0;
+		size_t changed_count = 0;
+		size_t lit_count = 0;
+		size_t dark_count = 0;
+		for (size_t index = 0; index < both.visibility.size(); ++index) {
+			const float visibility = both.visibility[index];
+			if (plain.receiver[index] > 0) {
+				plain_dark_count += plain.visibility[index] < 0.05f;
+				changed_count += std::abs(visibility - plain.visibility[index]) > 0.01f;
+			} else if (both.receiver[index] > 0) {
+				lit_count += visibility > 0.95f;
+				dark_count += visibility < 0.05f;
+			}
+		}
+		CHECK(changed_count <= 4);
+		CHECK(lit_count > 50); // the sheet
+		// Some techniques shadow only planar receivers.
+		CHECK((dark_count > 100 || plain_dark_count == 0)); // the box
+	});
+}
+
 TEST_CASE("[GPU][Techniques] skipping and caching do not change one bit of the mask") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {

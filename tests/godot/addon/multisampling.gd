@@ -1,7 +1,7 @@
-extends AddonTest
+extends SmallScene
 ## Masks and images of multisampled views (MSAA), alone and with the effects that change Godot's order of passes.
 
-const SIZE := Vector2i(160, 120)
+const VIEW_SIZE := Vector2i(160, 120)
 const SUPERSAMPLING := 8
 const MSAA := {"2x": Viewport.MSAA_2X, "4x": Viewport.MSAA_4X, "8x": Viewport.MSAA_8X}
 ## Largest fraction of the pixels on outlines that differ from supersampling by more than 0.1.
@@ -120,20 +120,20 @@ func test_outlines_have_no_dark_or_bright_pixels() -> void:
 	for light: String in ["directional", "omni"]:
 		for caster: String in StudyScene.CASTERS:
 			var scene := add_study(light, caster)
-			var large := _add_viewport(scene, SIZE * SUPERSAMPLING)
+			var large := _add_viewport(scene, VIEW_SIZE * SUPERSAMPLING)
 			var exact := _average(await _draw(large))
 			scene.light.shadow_caster_mask = 0
 			var lit := _average(await _draw(large))
 			scene.light.shadow_caster_mask = 0xffffffff
 			large.free()
-			var viewport := _add_viewport(scene, SIZE)
+			var viewport := _add_viewport(scene, VIEW_SIZE)
 			for samples: String in ["4x", "8x"]:
 				viewport.msaa_3d = MSAA[samples]
 				var found := await _draw(viewport)
 				var edges := 0
 				var wrong := 0
-				for y in SIZE.y:
-					for x in SIZE.x:
+				for y in VIEW_SIZE.y:
+					for x in VIEW_SIZE.x:
 						if lit.get_pixel(x, y).a > 0.05:
 							edges += 1
 							wrong += int(absf(exact.get_pixel(x, y).g - found.get_pixel(x, y).g) > 0.1)
@@ -141,3 +141,67 @@ func test_outlines_have_no_dark_or_bright_pixels() -> void:
 				print(result)
 				check(edges > 50 and wrong <= MAX_WRONG_FRACTION[caster] * edges, result)
 			remove(scene)
+
+
+func test_faded_and_transparent_nodes_show_no_mask_of_what_is_behind() -> void:
+	for msaa: Viewport.MSAA in [Viewport.MSAA_DISABLED, Viewport.MSAA_4X]:
+		for fade: String in ["transparency", "range"]:
+			_begin()
+			_viewport.msaa_3d = msaa
+			var box := _add_box(Vector3(-1, 0.5, 0))
+			if fade == "transparency":
+				box.transparency = 0.5
+			else:
+				box.visibility_range_end = _camera.position.distance_to(box.position)
+				box.visibility_range_end_margin = 2.0
+				box.visibility_range_fade_mode = GeometryInstance3D.VISIBILITY_RANGE_FADE_SELF
+			var points: Array[Vector3] = [_floor_below(Vector3(-1.3, 0.8, -0.3)), Vector3(2, 0, 2)]
+			for y: float in [0.15, 0.3, 0.5, 0.7, 0.85]:
+				points.append(Vector3(-1, y, 0.5))
+			await _compare("faded %s %d" % [fade, msaa], points)
+			await _end()
+
+
+## Returns how many receivers have a visibility below `value` and only receivers around them. Materials read the mask of pixels at
+## outlines from the pixel beside them.
+func _count_inside(mask: Image, value: float) -> int:
+	var count := 0
+	for y in range(1, mask.get_height() - 1):
+		for x in range(1, mask.get_width() - 1):
+			var is_inside := mask.get_pixel(x, y).r < value
+			for index in 9:
+				is_inside = is_inside and mask.get_pixel(x + index % 3 - 1, y + int(index / 3.0) - 1).r >= 0.0
+			count += int(is_inside)
+	return count
+
+
+## In a multisampled view, the point of a pixel must not be behind an edge between two faces of its surface.
+func test_edges_of_convex_meshes_do_not_shadow_themselves_in_multisampled_views() -> void:
+	for sides: int in [12, 64]:
+		_begin()
+		for floor_node in _root.find_children("*", "MeshInstance3D", true, false):
+			floor_node.free()
+		var cone := CylinderMesh.new()
+		cone.top_radius = 0.0
+		cone.bottom_radius = 1.0
+		cone.radial_segments = sides
+		_add(cone, Vector3(-1.2, 0.5, 0))
+		var sphere := SphereMesh.new()
+		sphere.radial_segments = sides
+		sphere.rings = int(sides / 2.0)
+		sphere.radius = 1.0
+		sphere.height = 2.0
+		_add(sphere, Vector3(1.2, 0.5, 0))
+		var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
+		_sun.rotation_degrees = Vector3(-50, 0, 0)
+		_sun.add_child(shadow)
+		var limit := 0
+		for msaa: Viewport.MSAA in [Viewport.MSAA_DISABLED, Viewport.MSAA_4X, Viewport.MSAA_8X]:
+			_viewport.msaa_3d = msaa
+			await draw_frames(3)
+			var mask := await MaskReader.new(shadow).read()
+			var count := _count_inside(mask, 0.5)
+			if msaa == Viewport.MSAA_DISABLED:
+				limit = count + int(0.01 * _count_inside(mask, 2.0))
+			check(count <= limit, "%d sides, MSAA %d: %d pixels are dark, at most %d may be" % [sides, msaa, count, limit])
+		await _end()

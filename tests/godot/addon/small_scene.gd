@@ -3,6 +3,7 @@ extends AddonTest
 ## Base class of tests that draw a small scene with a floor and a sun in a viewport of their own.
 
 const SIZE := Vector2i(288, 162)
+const POINT_TOLERANCE := 0.1 # of the brightness at a point
 
 var _keeper: SubViewport
 var _viewport: SubViewport
@@ -92,3 +93,21 @@ func _take() -> Image:
 func _end() -> void:
 	_viewport.free()
 	await draw_frames(2)
+
+
+## Draws with Godot's shadows and with Gnomon's, and compares the images at the points.
+func _compare(label: String, points: Array[Vector3]) -> void:
+	var godot := await _take()
+	var shadows: Array[Node] = []
+	for light in _root.find_children("*", "Light3D", true, false):
+		shadows.append(ClassDB.instantiate("GnomonShadow3D"))
+		light.add_child(shadows.back())
+	var gnomon := await _take()
+	for point in points:
+		var pixel := Vector2i(_camera.unproject_position(point))
+		var difference := gnomon.get_pixelv(pixel).get_luminance() - godot.get_pixelv(pixel).get_luminance()
+		check(absf(difference) < POINT_TOLERANCE, "%s: %+.3f at %s" % [label, difference, point])
+	godot.save_png("user://likeness_%s_godot.png" % label.validate_filename().replace(" ", "_"))
+	gnomon.save_png("user://likeness_%s_gnomon.png" % label.validate_filename().replace(" ", "_"))
+	for shadow in shadows:
+		shadow.free()

@@ -1,19 +1,20 @@
 extends Node
 ## Runs the tests of the add-on: functions named test_* of the scripts below. Arguments: names of tests; none: all. Prints PASS or FAIL for each.
 
+## Godot compiles each new material for all kinds of views and effects that were drawn before, so tests that draw many come last.
 const CASES: Array[GDScript] = [
 	preload("res://tests/frames.gd"),
 	preload("res://tests/casters.gd"),
 	preload("res://tests/skeletons.gd"),
-	preload("res://tests/views.gd"),
-	preload("res://tests/multisampling.gd"),
 	preload("res://tests/nodes.gd"),
 	preload("res://tests/settings.gd"),
 	preload("res://tests/lights.gd"),
-	preload("res://tests/surroundings.gd"),
-	preload("res://tests/likeness.gd"),
 	preload("res://tests/moved_vertices.gd"),
+	preload("res://tests/likeness.gd"),
 	preload("res://tests/materials.gd"),
+	preload("res://tests/views.gd"),
+	preload("res://tests/surroundings.gd"),
+	preload("res://tests/multisampling.gd"),
 ]
 
 
@@ -30,7 +31,9 @@ func _ready() -> void:
 func _run(script: GDScript, method: String) -> void:
 	var case: AddonTest = script.new()
 	add_child(case)
+	var begin_ms := Time.get_ticks_msec()
 	await case.call(method)
+	print("TIME %s %.1f s" % [method, 1e-3 * (Time.get_ticks_msec() - begin_ms)])
 	if case.failures.is_empty():
 		print("PASS ", method)
 	for failure in case.failures:
