@@ -5,7 +5,6 @@
 #include "modules/core/log.h"
 #include "modules/godot_addon/rig_reader.h"
 
-#include <algorithm>
 #include <cstring>
 
 namespace gnomon {
@@ -13,10 +12,6 @@ namespace gnomon {
 namespace {
 
 const uint64_t MAX_UNUSED_MESH_FRAMES = 600; // 10 s at 60 frames per second
-// A mesh has normals of its own if those of this share of its area are at least 60 degrees from the
-// normals of the faces. Smooth boxes have 55 degrees.
-const double MIN_OWN_NORMAL_AREA = 0.125;
-const double OWN_NORMAL_COSINE = 0.5;
 
 /// Returns the primitive type of a surface. ArrayMesh and PrimitiveMesh need no copy from the GPU
 /// for it.
@@ -107,25 +102,6 @@ std::shared_ptr<const Mesh> make_surface_mesh(const godot::Array &p_arrays, bool
 			std::move(p_attributes));
 }
 
-bool has_own_normals(const Mesh &p_mesh) {
-	double area = 0;
-	double own_area = 0;
-	for (size_t first = 0; first + 2 < p_mesh.indices.size(); first += 3) {
-		const uint32_t *corners = &p_mesh.indices[first];
-		const glm::dvec3 origin = p_mesh.positions_node[corners[0]];
-		const glm::dvec3 normal = glm::cross(glm::dvec3(p_mesh.positions_node[corners[1]]) - origin,
-				glm::dvec3(p_mesh.positions_node[corners[2]]) - origin);
-		const double face_area = glm::length(normal);
-		area += face_area;
-		const auto is_own = [&](uint32_t p_corner) {
-			return glm::dot(normal, glm::dvec3(p_mesh.normals_node[p_corner])) <
-					OWN_NORMAL_COSINE * face_area;
-		};
-		own_area += std::any_of(corners, corners + 3, is_own) ? face_area : 0;
-	}
-	return own_area > MIN_OWN_NORMAL_AREA * area;
-}
-
 ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
 	ReadSurface surface;
 	surface.index = p_surface;
@@ -145,7 +121,6 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 	if (!surface.mesh) {
 		return surface;
 	}
-	surface.has_own_normals = has_own_normals(*surface.mesh);
 	if (godot::cast<godot::ArrayMesh>(p_mesh)) { // others have no levels of detail
 		surface.levels = read_levels(p_mesh, p_surface, *surface.mesh, is_strip);
 	}

@@ -19,8 +19,6 @@ struct ReadSurface {
 	int64_t index = 0;				  // in Godot's mesh
 	/// Null if it has no levels of detail.
 	std::shared_ptr<const DetailLevels> levels;
-	/// Whether much of it has vertex normals that are far from those of its faces.
-	bool has_own_normals = false;
 };
 
 /// Reads the surfaces with triangles of a mesh of the RenderingServer, without levels of detail and

@@ -226,8 +226,6 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		const ShadowSurface shadow = material ? materials.read(material) : ShadowSurface();
 		const VertexMotion &motion = shadow.motion;
 		const bool is_moved = motion != VertexMotion();
-		r_scene.has_own_normals = r_scene.has_own_normals ||
-				(p_body.is_drawn && (surface.has_own_normals || shadow.has_own_normals));
 		ReadSurface drawn = surface;
 		const std::string unknown_reason = find_unknown_motion(p_body, motion);
 		const bool has_program = motion.function && unknown_reason.empty();
@@ -583,6 +581,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 		unculled = std::make_unique<UnculledNodes>(p_tree);
 	}
 	auto scene = std::make_shared<SceneSnapshot>();
+	scene->has_far_sides = true;
 	auto frame = std::make_shared<ScenarioFrame>();
 	world = {};
 	world.other_lights = std::move(p_hidden_lights);

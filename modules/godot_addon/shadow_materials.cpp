@@ -100,9 +100,7 @@ const ShadowMaterials::Entry &ShadowMaterials::read_shader(const godot::Shader &
 		const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
 		entry.text = ShaderText(server.shader_get_code(p_shader.get_rid()).to_utf8());
 		entry.surface = { find_shadow_kind(entry.text), /*cut_out=*/nullptr,
-			read_vertex_motion(entry.text), read_culling(entry.text),
-			entry.text.may_assign("vertex", "NORMAL") ||
-					entry.text.may_assign("fragment", "NORMAL") };
+			read_vertex_motion(entry.text), read_culling(entry.text) };
 	}
 	return entry;
 }

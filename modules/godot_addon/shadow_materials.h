@@ -25,7 +25,6 @@ struct ShadowSurface {
 	std::shared_ptr<const Material> cut_out;
 	VertexMotion motion;
 	ShadowCulling culling = ShadowCulling::BACK;
-	bool has_own_normals = false; // set by a shader
 };
 
 /// Reads how Godot's materials cast. Main thread only.

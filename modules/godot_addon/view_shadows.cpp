@@ -7,6 +7,7 @@
 #include "modules/shadows/shadow_frame.h"
 
 #include "godot_addon/godot_addon_shared.h"
+#include "shared/frame_shared.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace gnomon {
 
 namespace {
 
-const float NO_RECEIVER = -1.0f; // materials then decide by their smooth normals
+const float NO_RECEIVER = -1.0f; // as gnomon.gdshaderinc expects
 
 RasterPipelineDesc make_show_pipeline() {
 	RasterPipelineDesc desc;
@@ -145,7 +146,9 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 		const MaskValues values = read->second.get_values();
 		ReadMask mask = { scaled.get_size_px(), values.visibility, p_view.camera_transform };
 		for (size_t pixel = 0; pixel < mask.visibility.size(); ++pixel) {
-			mask.visibility[pixel] = values.receiver[pixel] > 0 ? mask.visibility[pixel] : -1.0f;
+			if (values.receiver[pixel] < RECEIVER_NEAR_SIDE) {
+				mask.visibility[pixel] = NO_RECEIVER;
+			}
 		}
 		const std::lock_guard lock(request->mutex);
 		request->masks.push_back(std::move(mask));

@@ -143,9 +143,10 @@ struct SceneSnapshot {
 	CameraSnapshot camera;
 	std::vector<LightSnapshot> lights;
 	std::vector<InstanceSnapshot> instances;
-	/// True: lighting uses normals that are not those of the faces, so that faces turned away from
-	/// a light may be lit. They are receivers too; see RECEIVER_FAR_SIDE in frame_shared.h.
-	bool has_own_normals = false;
+	/// True: the host lights with normals that are not those of the faces, so that a face turned
+	/// away from a light may be lit. It is a receiver too, on its far side; see RECEIVER_FAR_SIDE
+	/// in frame_shared.h.
+	bool has_far_sides = false;
 	double scene_size_m = 0; // the scene size S, at least 1e-9: from the file or measured at rest
 
 	/// Camera-relative space: the world's axes with the camera at the origin.

@@ -34,7 +34,7 @@ shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm
 					glm::dmat4(glm::dmat3(view.view_from_world))); // the camera is the origin
 	const glm::dmat3 &axes = camera.world_from_camera;
 	frame.right_tangent = glm::vec4(glm::vec3(axes[0]) * view.half_extent.x,
-			p_scene.has_own_normals ? FAR_SIDE_SINE : NO_FAR_SIDE);
+			p_scene.has_far_sides ? FAR_SIDE_SINE : NO_FAR_SIDE);
 	frame.up_tangent = glm::vec4(glm::vec3(axes[1]) * view.half_extent.y, 0.0f);
 	frame.forward = glm::vec4(glm::vec3(-axes[2]), 0.0f) +
 			camera.shift.x * glm::vec4(glm::vec3(frame.right_tangent), 0.0f) +

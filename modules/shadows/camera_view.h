@@ -27,10 +27,9 @@ constexpr double RECEIVER_OFFSET_ROUNDING = 1e-6;
 /// Maximum, as a fraction of S. The whole image has it if S is a few metres.
 constexpr double MAX_RECEIVER_OFFSET = 5e-5;
 
-/// Sine of the angle, 20 degrees, by which a face must be turned away from a light to be a receiver
-/// on its far side (SceneSnapshot::has_own_normals). Vertex normals of smooth surfaces differ from
-/// those of faces by less.
-constexpr float FAR_SIDE_SINE = 0.35f;
+/// Sine of the angle, half a degree, by which a face must be turned away from a light to be a
+/// receiver on its far side (SceneSnapshot::has_far_sides).
+constexpr float FAR_SIDE_SINE = 0.01f;
 constexpr float NO_FAR_SIDE = 2.0f;
 
 /// Fills the camera constants that the shaders read. p_size_px: size of the image.

@@ -4,6 +4,7 @@
 #include "modules/render_graph/fill_pass.h"
 #include "modules/render_graph/read_back.h"
 
+#include "shared/frame_shared.h"
 #include "shared/map_resolve_shared.h"
 #include "shared/mask_shared.h"
 
@@ -125,7 +126,8 @@ MaskValues MaskReadback::get_values() const {
 		if (receiver_bytes[index] == 0) {
 			continue; // the values stay 0
 		}
-		values.receiver[index] = 1.0f;
+		values.receiver[index] =
+				receiver_bytes[index] == 255 ? float(RECEIVER_NEAR_SIDE) : float(RECEIVER_FAR_SIDE);
 		switch (format) {
 			case Format::R16_SFLOAT:
 				values.visibility[index] =

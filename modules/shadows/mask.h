@@ -66,7 +66,7 @@ RasterPipelineDesc make_screen_desc(
 struct MaskValues {
 	std::vector<float> visibility; // of a coloured mask the luminance; 0 without a receiver
 	std::vector<glm::vec3> colors; // only of a coloured mask, else empty
-	std::vector<float> receiver;   // 1 or 0
+	std::vector<float> receiver;   // 1; 0 without one; RECEIVER_FAR_SIDE
 };
 /// Copies a mask and its receivers to the CPU at the end of a frame.
 class MaskReadback {

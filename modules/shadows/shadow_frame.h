@@ -84,6 +84,7 @@ public:
 	/// (gets the luminance of a coloured mask) or RGBA16_SFLOAT, usage STORAGE and COPY_TARGET, at
 	/// least of the frame's size, with TextureDesc::is_array. p_no_receiver_value: the value of
 	/// pixels without a receiver: background, out of the light's reach, or facing away from it.
+	/// Receivers on their far side with visibility v get p_no_receiver_value - 1 - v.
 	void hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer,
 			float p_no_receiver_value = 0.0f);
 

@@ -18,7 +18,7 @@ const float SURFACE_TOLERANCE = 1e-3;
 
 // Resizes the masks: averages the four mask pixels around this pixel with bilinear weights, which are reduced for
 // pixels that are not on this pixel's surface. A mask below 0 marks a pixel that is no receiver of the light and is not
-// averaged: the result is -1 if the pixel with the largest weight has such a mask.
+// averaged: it is the result if its pixel has the largest weight.
 void main() {
 	const ivec3 item = ivec3(gl_GlobalInvocationID);
 	const ivec2 size = textureSize(full_depth_texture, 0);
@@ -52,6 +52,6 @@ void main() {
 			nearest = mask;
 		}
 	}
-	const float mask = nearest >= 0.0 ? sum / weight_sum : -1.0;
+	const float mask = nearest >= 0.0 ? sum / weight_sum : nearest;
 	imageStore(result_image, item, vec4(mask));
 }

@@ -4,6 +4,7 @@
 #define HOLD_INC_GLSL
 
 #include "common/mask_inc.glsl"
+#include "shared/frame_shared.h"
 #include "shadows/shadows_shared.h"
 
 #define LIT_TILES_BINDING HOLD_BINDING_TILES
@@ -21,7 +22,11 @@ layout(push_constant) uniform Push {
 vec3 load_visibility(ivec2 p_pixel) {
 	const vec4 mask = texelFetch(mask_texture, p_pixel, 0);
 	const vec3 visibility = IS_COLORED != 0u ? mask.rgb : mask.rrr;
-	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0 ? visibility : vec3(push.no_receiver_value);
+	const float receives = texelFetch(receivers_texture, p_pixel, 0).r;
+	if (receives <= 0.0) {
+		return vec3(push.no_receiver_value);
+	}
+	return receives < 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE) ? push.no_receiver_value - 1.0 - visibility : visibility;
 }
 
 #endif

@@ -86,7 +86,7 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 }
 
 TEST_CASE("[GPU][Techniques] faces turned away from the light are receivers on their far side if "
-		  "normals are not those of faces") {
+		  "the host lights them") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
@@ -104,9 +104,9 @@ TEST_CASE("[GPU][Techniques] faces turned away from the light are receivers on t
 		request.light = scene.light->name;
 		request.scene = scene.snap();
 		const MaskResult plain = fixture.render(request);
-		auto own = std::make_shared<SceneSnapshot>(*request.scene);
-		own->has_own_normals = true;
-		request.scene = own;
+		auto two_sided = std::make_shared<SceneSnapshot>(*request.scene);
+		two_sided->has_far_sides = true;
+		request.scene = two_sided;
 		const MaskResult both = fixture.render(request);
 		CHECK(is_valid_mask(both));
 		size_t plain_dark_count = 0;
