@@ -113,15 +113,14 @@ export GALLIVM_PERF=${GALLIVM_PERF-nopt}
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
 
-# One file per lane (see run_lanes), with a line for each part in the order in which they end: "PASSED FAILED SKIPPED" and
-# text for people.
+# One file per part (see run_parts), with a line for each of its steps: "PASSED FAILED SKIPPED" and text for people.
 results=$work/results
 mkdir "$results"
 
 # add_result PART PASSED FAILED SKIPPED: adds the line of a part that began at $part_begin.
 add_result() {
     printf '%d %d %d %-16s %5d passed %4d failed %4d skipped  %4d s\n' "$2" "$3" "$4" "$1" "$2" "$3" "$4" \
-        $((SECONDS - part_begin)) >>"$results/$lane"
+        $((SECONDS - part_begin)) >>"$results/$name"
 }
 
 # keep_failures PART LOG: saves the log's lines on failures, which finish() shows again after all other output.
@@ -135,7 +134,7 @@ keep_failures() {
 # run_part PART COMMAND...: adds the counts of the command's own summary line. No such line, or a bad exit
 # code without a failed test, counts as one failure, so that a crash is never silent.
 run_part() {
-    local part=$1 log=$work/log.$lane status summary counts
+    local part=$1 log=$work/log.$name status summary counts
     shift
     part_begin=$SECONDS
     echo "== $part: $*"
@@ -170,31 +169,24 @@ run_check() {
     fi
 }
 
-# run_lanes "PART..."...: each argument is a lane. A lane runs its parts one after another, and the lanes run at the same
-# time, because most parts leave a core idle now and then. The output of the lanes after the first is shown when all have ended.
-lane=0
-run_lanes() {
-    local part parts first number=0
-    [ "$jobs" -gt 1 ] || set -- "$*" # one core: one lane
-    first=$1
-    shift
-    for parts in "$@"; do
-        number=$((number + 1))
+# run_parts PART...: runs the parts in this order, one more at a time than the build has jobs, because most parts leave a core idle now
+# and then; with one job, one at a time. The output of each part is shown when it has ended.
+run_parts() {
+    local part running=0 most=$((jobs > 1 ? jobs + 1 : 1))
+    for part in "$@"; do
+        is_requested "$part" || continue
+        if [ "$running" -ge "$most" ]; then
+            wait -n
+            running=$((running - 1))
+        fi
         (
-            lane=$number
-            for part in $parts; do
-                ! is_requested "$part" || "part_$part"
-            done
-        ) >"$work/output.$number" 2>&1 &
-    done
-    for part in $first; do
-        ! is_requested "$part" || "part_$part"
+            name=$part
+            "part_$part" >"$work/output.$part" 2>&1
+            flock "$work/output" cat "$work/output.$part"
+        ) &
+        running=$((running + 1))
     done
     wait
-    while [ "$number" -gt 0 ]; do
-        cat "$work/output.$number"
-        number=$((number - 1))
-    done
 }
 
 # finish: prints failures, one line per part and the sums, and exits with 0 if some passed and none failed.
@@ -230,12 +222,12 @@ for module in modules_builders.find_modules("modules"):  # dependencies come fir
 PYTHON
 }
 
-# build_without_device SANITIZERS TARGET...: modules that need no device, built with sanitizers.
+# build_without_device SANITIZERS TARGET...: modules that need no device, built with sanitizers. Parts may call it at the same time.
 build_without_device() {
     local sanitizers=$1 options
     shift
     mapfile -t options < <(list_device_options)
-    scons -Q -j"$jobs" compiledb=no sanitize="$sanitizers" "${options[@]}" "$@"
+    flock "$work/build.$sanitizers" scons -Q -j"$jobs" compiledb=no sanitize="$sanitizers" "${options[@]}" "$@"
 }
 
 # run_sanitized PART SANITIZERS TEST_OPTION...: tests the modules that need no device. First the sanitizers must report the
@@ -245,7 +237,7 @@ run_sanitized() {
     shift 2
     run_check "$part build" build_without_device "$sanitizers" "bin/gnomon_tests.$suffix" canaries || return
     run_part "$part canary" python3 tests/canaries/test_canaries.py "$sanitizers"
-    run_part "$part" "bin/gnomon_tests.$suffix" '--test-case-exclude=*[GPU]*' "$@"
+    run_part "$part" python3 tests/run_engine.py --processes "$jobs" "bin/gnomon_tests.$suffix" -- '--test-case-exclude=*[GPU]*' "$@"
 }
 
 part_layers() {
@@ -322,10 +314,6 @@ part_fuzz_replay() {
 part_godot_set_up() {
     run_check "godot set-up" install_godot "$root"
 }
-part_godot_build() {
-    # Quick, because godot_set_up has run. Its lane is a subshell, so $GODOT and $GODOT_TEMPLATE are exported here.
-    install_godot "$root" && run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes
-}
 part_godot_device() {
     run_part "godot device" python3 tests/godot/test_godot.py
 }
@@ -389,22 +377,30 @@ part_editor_repeats() {
 
 # shellcheck source=demo_project/install_godot.sh
 . demo_project/install_godot.sh
-run_lanes "layers scenes"
-# Most parts below run the programs that this part builds. Nothing runs at the same time: a test might use a half-built program.
+run_parts layers scenes
+run_parts godot_set_up & # next to the build
+set_up=$!
+# The parts below run the programs that are built here. Nothing runs at the same time: a test might use a half-built program.
+name=build
+part_begin=$SECONDS
 if is_requested build; then
-    part_begin=$SECONDS
     run_check build scons -Q -j"$jobs" || finish
 fi
-run_lanes "docs engine embed template stability demo bundle" "godot_set_up command_line removal" "editor drivers"
+wait "$set_up"
+part_begin=$SECONDS
+if is_requested godot_build && install_godot "$root"; then # it exports $GODOT, and $GODOT_TEMPLATE and $GODOT_RUN
+    run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes || has_godot=no
+fi
+# Long parts are first.
+run_parts sanitized godot_addon engine command_line godot_masks godot_games editor drivers godot_soak removal godot_editor \
+    stability godot_device demo bundle fuzz_replay embed docs template
 # Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
-    run_lanes blender
-fi
-run_lanes "sanitized fuzz_replay"
-if is_requested godot_build && part_godot_build; then
-    run_lanes "godot_addon" "godot_device godot_editor godot_games" "godot_masks godot_soak"
+    run_parts blender
 fi
 if [ "$is_full" = yes ]; then
-    run_lanes "sanitized_all threads tables fuzz large_meshes validator soak extremes kills editor_repeats"
+    for part in sanitized_all threads tables fuzz large_meshes validator soak extremes kills editor_repeats; do
+        run_parts "$part"
+    done
 fi
 finish

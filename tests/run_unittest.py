@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs unittest files. The last line is "N passed, N failed, N skipped", as of every test script here.
+"""Runs unittest files. The last line is "N passed, N failed, N skipped", as of every test script here. Before it are the longest tests.
 
     run_unittest.py FILE.py... [-k PATTERN]
 """
@@ -8,7 +8,10 @@ import argparse
 import importlib.util
 import os
 import sys
+import time
 import unittest
+
+LONGEST_COUNT = 8
 
 
 class CountingResult(unittest.TextTestResult):
@@ -17,6 +20,15 @@ class CountingResult(unittest.TextTestResult):
     def __init__(self, *arguments, **named):
         super().__init__(*arguments, **named)
         self.failed = set()
+        self.times_s = []  # (seconds, name)
+
+    def startTest(self, test):
+        super().startTest(test)
+        self.begin_s = time.monotonic()
+
+    def stopTest(self, test):
+        super().stopTest(test)
+        self.times_s.append((time.monotonic() - self.begin_s, test.id()))
 
     def addFailure(self, test, error):
         super().addFailure(test, error)
@@ -61,6 +73,8 @@ def main():
     # Not below 0: a setUpClass that fails or skips is counted, but its tests have not run.
     passed = max(0, result.testsRun - failed - skipped)
     sys.stderr.flush()
+    for seconds, name in sorted(result.times_s, reverse=True)[:LONGEST_COUNT]:
+        print("%6.1f s %s" % (seconds, name))
     print("%d passed, %d failed, %d skipped" % (passed, failed, skipped), flush=True)
     return 1 if failed or result.testsRun == 0 else 0
 

@@ -129,9 +129,6 @@ def measure_technique_build(jobs):
     """Measure the rebuild of both programs after a change in a technique's .cpp."""
     with tempfile.TemporaryDirectory() as folder:
         copy_tree(folder)
-        for name in os.listdir(ROOT):
-            if name.startswith(".sconsign"):
-                shutil.copy2(os.path.join(ROOT, name), folder)
         for name in ("build/release", "bin"):
             shutil.copytree(os.path.join(ROOT, name), os.path.join(folder, name))
         build = ["scons", "-Q", "-j%d" % jobs, "compiledb=no"]

@@ -19,8 +19,10 @@ sys.path.insert(0, os.path.join(addon_project.ROOT, "demo_project", "scenes"))
 import gltf_writer  # noqa: E402
 import make_foliage_scenes  # noqa: E402
 
+FOLDER = os.path.join(addon_project.ROOT, "build", "godot_soak")
 FRAMES = {"soak": 400, "room_soak": 400, "walk_soak": 400}  # hundreds, more than SETTLED
-FULL_FRAMES = {"soak": 2000, "room_soak": 2000, "walk_soak": 1000}
+FULL_FOLDER = os.path.join(addon_project.ROOT, "build", "godot_soak")
+FRAMES = {"soak": 2000, "room_soak": 2000, "walk_soak": 1000}
 SETTLED = 200  # frames; after so many the motion of the room starts again
 NAMES = ("objects", "nodes", "resources", "bytes of textures", "bytes of buffers", "bytes of the device")
 PROCESS_GROWTH = 1.1  # allowed factor of the process's memory, which the allocator and the driver round up
@@ -42,7 +44,7 @@ def find_growth(reports):
 
 def soak(scene, frames, options):
     """Return what is wrong; empty if nothing is."""
-    output = godot_project.run("res://tests/%s.tscn" % scene, [str(frames)] + options, 96, addon_project.FOLDER)
+    output = godot_project.run("res://tests/%s.tscn" % scene, [str(frames)] + options, 96, FOLDER)
     reports = [tuple(map(int, line.split()[1:])) for line in re.findall(r"^SOAK .*$", output, re.MULTILINE)]
     for report in reports:
         print("%s, frame %d: %s, %d KiB" % (scene, report[0], ", ".join("%d %s" % pair for pair in zip(report[1:], NAMES)), report[-1]))
@@ -54,7 +56,7 @@ def soak(scene, frames, options):
 
 def make_walk():
     """Write courtyard as a glTF file and return its path."""
-    folder = os.path.join(addon_project.FOLDER, "walk")
+    folder = os.path.join(FOLDER, "walk")
     os.makedirs(folder)
     open(os.path.join(folder, ".gdignore"), "w").close()  # keeps Godot from importing it: the game reads it at run time
     gltf_writer.save_files(make_foliage_scenes.build_scene("courtyard").build_files("courtyard"), folder)
@@ -65,7 +67,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--full", action="store_true", help="draw several times as many frames")
     frames = FULL_FRAMES if parser.parse_args().full else FRAMES
-    addon_project.write()
+    addon_project.write(FOLDER)
     options = {"walk_soak": [make_walk()]}
     results = {scene: soak(scene, count, options.get(scene, [])) for scene, count in frames.items()}
     passed = [scene for scene, failures in results.items() if not failures]

@@ -35,16 +35,13 @@ def find_smallest(techniques):
 
 
 def copy_tree(target):
-    """Copy the tracked files in their current state, build/release and .sconsign*, with their modification times."""
+    """Copy the tracked files in their current state, and build/release, with their modification times."""
     names = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, check=True).stdout.decode()
     for name in names.split("\0"):
         source = os.path.join(ROOT, name)
         if name and os.path.isfile(source):
             os.makedirs(os.path.dirname(os.path.join(target, name)), exist_ok=True)
             shutil.copy2(source, os.path.join(target, name))
-    for name in os.listdir(ROOT):
-        if name.startswith(".sconsign"):
-            shutil.copy2(os.path.join(ROOT, name), target)
     if os.path.isdir(os.path.join(ROOT, "build", "release")):
         shutil.copytree(os.path.join(ROOT, "build", "release"), os.path.join(target, "build", "release"))
 

@@ -7,6 +7,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/module_registry.h"
+#include "modules/core/tests/sanitized.h"
 #include "modules/rendering_device/tests/device_fixture.h"
 
 #include "tests/stability/random_scene.h"
@@ -30,11 +31,6 @@ const uint32_t IDLE_FRAME_COUNT = 4;   // the transient pool caches three frame 
 const double FRAME_LIMIT_S = 60;
 const uint64_t MIB = 1 << 20;
 const uint32_t REPEAT_COUNT = 3;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const bool IS_SANITIZED = true;
-#else
-const bool IS_SANITIZED = false;
-#endif
 const uint64_t MAX_GROWTH_BYTES = 12 * MIB; // of the process in the third run
 
 uint32_t get_number(const char *p_variable, uint32_t p_default) {

@@ -1,4 +1,5 @@
 // build: optimised
+#include "modules/core/tests/sanitized.h"
 #include "modules/scene/alpha_outline.h"
 #include "modules/scene/cut_mesh.h"
 
@@ -226,6 +227,7 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel; extreme ones ar
 	const auto plain =
 			make_mesh("plain", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 });
 	const AlphaTest test = make_alpha_test(material);
+	const OutlineBudget small = { .edges_per_tile = 1 << 10, .edges_per_mesh = 1 << 14 };
 	CHECK((cut_mesh(plain, material).mesh == plain) ==
 			(sample_alpha(test, glm::dvec2(0)) >= test.cutoff));
 	for (const float extreme : { NAN, INFINITY, 1e30f, -1e30f, 1e-38f }) {
@@ -237,7 +239,7 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel; extreme ones ar
 		attributes.uvs[0] = { { 0, 0 }, { extreme, 0 }, { 0, extreme } };
 		cut_mesh(make_mesh("odd", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 },
 						 attributes),
-				material);
+				material, small);
 	}
 	// Coordinates that are long and thin, or far away; v is repeated or clamped.
 	for (const glm::vec2 &far_uv :
@@ -249,12 +251,11 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel; extreme ones ar
 			attributes.uvs[0] = { { 0, 0 }, { far_uv.x, 0.1f }, { 0.1f, far_uv.y } };
 			cut_mesh(make_mesh("odd", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 },
 							 attributes),
-					material);
+					material, small);
 		}
 	}
 	material.base_color_texture.wrap_v = TextureWrap::REPEAT;
 	// More tiles than the mesh may have edges: each square represents many tiles.
-	const OutlineBudget small = { .edges_per_tile = 1 << 10, .edges_per_mesh = 1 << 14 };
 	const CutMesh many = cut_mesh(make_grid(1, 400), material, small);
 	REQUIRE(many.mesh);
 	CHECK(many.block_size_px > 8); // the image has 8 x 8 texels
@@ -372,7 +373,7 @@ TEST_CASE("[CutMesh] unused cut meshes are freed") {
 TEST_CASE("[CutMesh] random masks at random texture coordinates keep their area") {
 	std::minstd_rand random(11);
 	std::uniform_real_distribution<double> uniform(0, 1);
-	for (int i = 0; i < 60; ++i) {
+	for (int i = 0; i < limit_rounds(60); ++i) {
 		CAPTURE(i);
 		std::vector<uint8_t> texels;
 		const glm::uvec2 size_px(1 + random() % 12, 1 + random() % 12);

@@ -1,4 +1,5 @@
 // build: optimised
+#include "modules/core/tests/sanitized.h"
 #include "modules/scene/line_moments.h"
 #include "modules/scene/loop_intersections.h"
 #include "modules/scene/loop_nesting.h"
@@ -151,11 +152,11 @@ TEST_CASE("[Loops] a circle gets as few points as the tolerance allows, and line
 }
 
 TEST_CASE("[Loops] small shapes that are close together keep their areas at every tolerance") {
-	for (const uint32_t seed : { 1u, 2u, 3u }) {
+	for (int seed = 1; seed <= limit_rounds(3); ++seed) {
 		for (const int32_t tolerance : { 64, 256, 512, 1024 }) {
 			CAPTURE(seed);
 			CAPTURE(tolerance);
-			const std::vector<PolygonLoop> loops = make_shapes(seed);
+			const std::vector<PolygonLoop> loops = make_shapes(uint32_t(seed));
 			const auto simplified = simplify_loops(loops, tolerance, SIZE);
 			REQUIRE(simplified.size() == loops.size());
 			CHECK(find_intersections(simplified).empty());
@@ -207,7 +208,7 @@ TEST_CASE("[Loops] tiny and thin loops remain triangles at least") {
 TEST_CASE("[Loops] lines do not pass over a tiny hole or island near a border") {
 	const double RADIUS = 4000;
 	const int HALF = 5; // of the diagonal of a hole or island
-	const int COUNT = 60;
+	const int COUNT = limit_rounds(60);
 	for (int i = 0; i < COUNT; ++i) {
 		CAPTURE(i);
 		const bool is_hole = i % 2 == 0;
