@@ -463,6 +463,9 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 	}
 	if (unknown_objects.is_checking() && grid_map) {
 		unknown_objects.add_everywhere(size_t(grid_map.get_meshes().get_size()) * MAX_PASSES);
+	} else if (unknown_objects.is_checking() && godot::cast<godot::SoftBody3D>(object)) {
+		// Physics sets the box by which it is culled, which cannot be read.
+		unknown_objects.add_everywhere(count_draws(geometry, materials));
 	} else if (unknown_objects.is_checking()) {
 		unknown_objects.add(geometry, count_draws(geometry, materials));
 	}
