@@ -445,6 +445,28 @@ func test_surfaces_with_normals_of_their_own_are_shadowed_by_what_is_above() -> 
 		await _end()
 
 
+## The faces of a box whose normals are those of a sphere: the upper part of a face that is turned away from the sun has normals that
+## face it, but is in the shadow of the box. A sphere of few facets is lit up to its terminator.
+func test_smooth_boxes_are_dark_in_their_own_shadow() -> void:
+	_begin()
+	_sun.rotation_degrees = Vector3(-50, 215, 0)
+	var arrays := BoxMesh.new().get_mesh_arrays()
+	for index: int in arrays[Mesh.ARRAY_VERTEX].size():
+		arrays[Mesh.ARRAY_NORMAL][index] = arrays[Mesh.ARRAY_VERTEX][index].normalized()
+	var smooth := ArrayMesh.new()
+	smooth.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	_add(smooth, Vector3(-1.2, 0.5, 0))
+	var sphere := SphereMesh.new()
+	sphere.radial_segments = 16
+	sphere.rings = 8
+	_add(sphere, Vector3(1.2, 0.5, 0))
+	var points: Array[Vector3] = [Vector3(-1.5, 0.85, 0.5), Vector3(-1.2, 0.85, 0.5), Vector3(-0.9, 0.85, 0.5), Vector3(-1.2, 0.3, 0.5)]
+	for angle: float in [-30.0, -10.0, 20.0, 45.0]:  # from the terminator to the shadow
+		points.append(Vector3(1.2, 0.5, 0) + 0.49 * _sun.global_basis.z.rotated(_sun.global_basis.x, deg_to_rad(90 + angle)))
+	await _compare("smooth box", points)
+	await _end()
+
+
 ## Godot's shadow maps leave out faces that are seen from behind, so a lamp shines out of its bulb.
 func test_a_lamp_inside_a_closed_mesh_shines_through_it() -> void:
 	for mesh: PrimitiveMesh in [SphereMesh.new(), BoxMesh.new()]:
