@@ -21,8 +21,7 @@ import make_foliage_scenes  # noqa: E402
 
 FOLDER = os.path.join(addon_project.ROOT, "build", "godot_soak")
 FRAMES = {"soak": 400, "room_soak": 400, "walk_soak": 400}  # hundreds, more than SETTLED
-FULL_FOLDER = os.path.join(addon_project.ROOT, "build", "godot_soak")
-FRAMES = {"soak": 2000, "room_soak": 2000, "walk_soak": 1000}
+FULL_FRAMES = {"soak": 2000, "room_soak": 2000, "walk_soak": 1000}
 SETTLED = 200  # frames; after so many the motion of the room starts again
 NAMES = ("objects", "nodes", "resources", "bytes of textures", "bytes of buffers", "bytes of the device")
 PROCESS_GROWTH = 1.1  # allowed factor of the process's memory, which the allocator and the driver round up

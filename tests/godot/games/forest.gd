@@ -24,7 +24,7 @@ var _trunk := make_cylinder(0.2, 0.14, 1.4, 8)
 
 
 func _ready() -> void:
-	most_other_px = 220  # grass, tips of far trees
+	most_other_px = 220  # grass, and tips of far trees inside of near ones that fade: the bias of Godot's shadow lights them
 	_random.seed = 29
 	add_environment(Color(0.6, 0.7, 0.8), Color(0.4, 0.45, 0.5))
 	main_light = add_sun(Vector3(-50, 30, 0), 1.0, 1.1)
