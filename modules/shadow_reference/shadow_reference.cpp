@@ -16,9 +16,6 @@ namespace gnomon {
 
 namespace {
 
-// Of receivers as bytes, see RECEIVER_FAR_SIDE.
-const uint8_t LEAST_NEAR_SIDE = uint8_t(255 * 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE));
-
 // Increase it when the definition of the reference or the tracer changes, so that older cache
 // entries are not found.
 constexpr uint64_t REFERENCE_VERSION = 2;
@@ -123,7 +120,7 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 					p_job.material ? p_context.get_mapped(p_job.material) : nullptr });
 	const auto is_receiver = [&](size_t p_pixel) { return receivers[p_pixel] != 0; };
 	for (size_t pixel = 0; pixel < surfaces.size(); ++pixel) {
-		if (is_receiver(pixel) && receivers[pixel] < LEAST_NEAR_SIDE) {
+		if (is_receiver(pixel) && shader::is_on_far_side(float(receivers[pixel]) / 255.0f)) {
 			surfaces[pixel].geometric_normal *= -1.0f;
 		}
 	}

@@ -126,8 +126,8 @@ MaskValues MaskReadback::get_values() const {
 		if (receiver_bytes[index] == 0) {
 			continue; // the values stay 0
 		}
-		values.receiver[index] =
-				receiver_bytes[index] == 255 ? float(RECEIVER_NEAR_SIDE) : float(RECEIVER_FAR_SIDE);
+		const bool is_far = shader::is_on_far_side(float(receiver_bytes[index]) / 255.0f);
+		values.receiver[index] = is_far ? float(RECEIVER_FAR_SIDE) : float(RECEIVER_NEAR_SIDE);
 		switch (format) {
 			case Format::R16_SFLOAT:
 				values.visibility[index] =

@@ -36,7 +36,7 @@ struct ReceiverPixel {
 /// Loads a pixel's receiver. Call it only where is_receiver_pixel is true. p_frame: `frame`, or a
 /// copy of it.
 ReceiverPixel load_receiver(FrameConstants p_frame, ivec2 p_pixel) {
-	const bool is_far = texelFetch(receivers_texture, p_pixel, 0).r < 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE);
+	const bool is_far = is_on_far_side(texelFetch(receivers_texture, p_pixel, 0).r);
 	const vec3 normal = (is_far ? -1.0 : 1.0) * unpack_normal(texelFetch(normal_texture, p_pixel, 0).r);
 	const float depth = texelFetch(depth_texture, p_pixel, 0).r;
 	const float offset_m = compute_receiver_offset_m(p_frame, distance_from_depth(p_frame, depth));

@@ -64,7 +64,7 @@ void main() {
 		discard;
 	}
 	// Of a receiver on its far side, the position is behind the surface.
-	const float side = receives < 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE) ? -1.0 : 1.0;
+	const float side = is_on_far_side(receives) ? -1.0 : 1.0;
 	const float depth = texelFetch(depth_texture, pixel, 0).r;
 	const vec3 normal = side * unpack_normal(texelFetch(normal_texture, pixel, 0).r);
 	const vec3 position = position_from_depth(frame, pixel, depth);

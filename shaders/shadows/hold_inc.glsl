@@ -26,7 +26,7 @@ vec3 load_visibility(ivec2 p_pixel) {
 	if (receives <= 0.0) {
 		return vec3(push.no_receiver_value);
 	}
-	return receives < 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE) ? push.no_receiver_value - 1.0 - visibility : visibility;
+	return is_on_far_side(receives) ? push.no_receiver_value - 1.0 - visibility : visibility;
 }
 
 #endif

@@ -31,6 +31,11 @@ SHARED_OFFSET(FrameConstants, size_px, 112);
 #define RECEIVER_FAR_SIDE 0.5
 #define RECEIVER_NEAR_SIDE 1.0
 
+/// p_receiver: of a receiver, its value in that texture, which rounds it to 8 bits.
+SHARED_FUNCTION bool is_on_far_side(float p_receiver) {
+	return p_receiver < 0.5 * (RECEIVER_FAR_SIDE + RECEIVER_NEAR_SIDE);
+}
+
 /// How far a receiver is moved along its normal before its visibility is tested, in metres. The
 /// reference and all techniques do this, so that all results refer to the same point. Exceptions:
 /// planar moves the plane, and the shadow volumes the depth along the view ray. p_distance_m: of
