@@ -111,6 +111,10 @@ std::shared_ptr<CountPosedMesh> CountMeshPools::get_posed(
 		entry->points = points->allocate(get(r_store, p_mesh).vertex_count);
 		entry->mesh = p_mesh;
 	}
+	if (entry->forget_count != r_store.get_forget_count()) {
+		entry->forget_count = r_store.get_forget_count();
+		entry->pose_hash = 0;
+	}
 	return entry;
 }
 

@@ -47,6 +47,7 @@ struct CountPosedMesh {
 	/// may make the pool grow while the copies of another one are not yet recorded.
 	uint64_t pose_hash = 0;
 	BufferRID buffer;
+	uint64_t forget_count = 0; // of the MeshStore when the hash was recorded
 };
 
 /// The meshes of all casters in GPU memory, shared by all lights: a buffer each for faces, edges

@@ -394,6 +394,7 @@ void MeshStore::prepare_deform(const std::shared_ptr<const Mesh> &p_mesh, bool p
 }
 
 void MeshStore::forget_poses() {
+	++forget_count;
 	for (auto &[id, mesh] : meshes) {
 		mesh.pose_hash = 0;
 	}

@@ -71,8 +71,11 @@ public:
 	void set_texture_source(std::function<TextureRID(const ProgramTexture &)> p_source) {
 		texture_source = std::move(p_source);
 	}
-	/// Makes the next deform pass deform all meshes again.
+	/// Makes the next deform pass deform all meshes again. Call it after a frame whose commands
+	/// were recorded but not executed.
 	void forget_poses();
+	/// Number of calls of forget_poses(). Copies of deformed vertices are valid until it changes.
+	uint64_t get_forget_count() const { return forget_count; }
 	/// Adds the pass that deforms meshes to the scene's poses. Call it before all passes that read
 	/// vertices; buffers that are requested later in the frame are deformed too. With p_may_reuse,
 	/// vertices whose pose did not change stay as they are. Returns the number of instances that
@@ -100,6 +103,7 @@ private:
 	std::map<std::pair<bool, bool>, OwnedSampler> samplers; // by is_nearest and repeats
 	std::map<std::type_index, std::shared_ptr<void>> shared;
 	std::map<uint64_t, GpuMesh> meshes; // by Mesh::id
+	uint64_t forget_count = 0;
 	std::map<uint64_t, GpuTopology> topologies;
 	std::map<std::pair<uint64_t, std::type_index>, Derived> derived;
 };

@@ -104,6 +104,9 @@ struct MaskRequest {
 	/// False: the host does not provide normals, or materials.
 	bool has_normals = true;
 	bool has_materials = true;
+	/// True: a pass that reads the mask fails when it is recorded, so that no command of the frame
+	/// is executed.
+	bool fails = false;
 };
 
 struct MaskResult : MaskValues {
@@ -147,6 +150,12 @@ struct MaskFixture {
 		for (const LightSnapshot &light : p_request.scene->lights) {
 			if (p_request.light.empty() || light.name == p_request.light) {
 				const LightShadow shadow = frame.add_light(light, !p_request.debug_view.empty());
+				if (p_request.fails) {
+					graph.add_pass("failing")
+							.reads(shadow.mask, Access::SHADER_READ_COMPUTE)
+							.keep()
+							.execute([](PassContext &) { fail("as requested"); });
+				}
 				readbacks[light.name].add(graph, shadow.mask, shadow.receivers);
 				add_debug_readback(graph, p_request, shadow, debug_texels);
 			}
