@@ -21,6 +21,14 @@ bool is_nearest(const godot::BaseMaterial3D &p_material) {
 	}
 }
 
+/// Copies the channel that the alpha is made of into the alpha of all texels.
+void select_alpha(const AlphaSource &p_source, std::vector<uint8_t> &r_texels) {
+	for (size_t texel = 0; p_source != AlphaSource() && texel < r_texels.size(); texel += 4) {
+		const uint8_t value = r_texels[texel + size_t(p_source.channel)];
+		r_texels[texel + 3] = p_source.is_inverted ? uint8_t(255 - value) : value;
+	}
+}
+
 /// Returns the image as RGBA8, or null if its texels cannot be read.
 std::shared_ptr<const Image> decode(
 		const godot::Ref<godot::Image> &p_image, const AlphaSource &p_source) {
@@ -43,10 +51,7 @@ std::shared_ptr<const Image> decode(
 		return nullptr;
 	}
 	std::vector<uint8_t> texels(bytes.begin(), bytes.begin() + size);
-	for (size_t texel = 0; p_source != AlphaSource() && texel < size; texel += 4) {
-		const uint8_t value = texels[texel + size_t(p_source.channel)];
-		texels[texel + 3] = p_source.is_inverted ? uint8_t(255 - value) : value;
-	}
+	select_alpha(p_source, texels);
 	return make_image("albedo", glm::uvec2(width, height), std::move(texels));
 }
 
@@ -79,6 +84,17 @@ bool has_sampler_hint(const ShaderText &p_text, const std::string &p_sampler, co
 	const size_t end = code.find(';', name);
 	return name != std::string::npos && end != std::string::npos &&
 			code.substr(name, end - name).find(p_hint) != std::string::npos;
+}
+
+/// Returns the texture of a sampler that no texture is set for.
+std::shared_ptr<const Image> make_default_image(
+		const ShaderText &p_text, const std::string &p_sampler, const AlphaSource &p_source) {
+	const bool is_transparent = has_sampler_hint(p_text, p_sampler, "hint_default_transparent");
+	const bool is_black = has_sampler_hint(p_text, p_sampler, "hint_default_black");
+	const uint8_t color = is_transparent || is_black ? 0 : 255;
+	std::vector<uint8_t> texels = { color, color, color, uint8_t(is_transparent ? 0 : 255) };
+	select_alpha(p_source, texels);
+	return make_image("default", glm::uvec2(1), std::move(texels));
 }
 
 } // namespace
@@ -137,8 +153,10 @@ std::shared_ptr<const Material> CutOutMaterials::read(
 				shader.get_default_texture_parameter(alpha->sampler.c_str(), /*index=*/0);
 		texture = godot::Ref<godot::Texture2D>::share(godot::cast<godot::Texture2D>(by_default));
 	}
-	const std::shared_ptr<const Image> image =
-			texture ? read_image(texture, { alpha->channel, alpha->is_inverted }) : nullptr;
+	const AlphaSource source = { alpha->channel, alpha->is_inverted };
+	const std::shared_ptr<const Image> image = texture
+			? read_image(texture, source)
+			: make_default_image(p_text, alpha->sampler, source);
 	if (!image) {
 		return nullptr;
 	}

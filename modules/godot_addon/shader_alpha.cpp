@@ -31,6 +31,9 @@ struct Linear {
 
 Linear scale(Linear p_value, double p_factor) {
 	p_value.constant *= p_factor;
+	if (p_factor == 0) {
+		p_value.terms.clear();
+	}
 	for (auto &[basis, coefficient] : p_value.terms) {
 		coefficient *= p_factor;
 	}
@@ -145,7 +148,10 @@ const std::set<std::string> QUALIFIERS = { "const", "highp", "mediump", "lowp" }
 /// Follows the statements of a function, and keeps the values of variables.
 class Tracer {
 public:
-	explicit Tracer(const UniformLookup &p_uniforms) : uniforms(p_uniforms) {
+	Tracer(const ShaderText &p_shader, const UniformLookup &p_uniforms) {
+		for (const std::string &statement : p_shader.get_global_statements()) {
+			read_uniform(split_tokens(statement), p_uniforms);
+		}
 		variables["UV"] = { Linear::of_basis(BASIS_U), Linear::of_basis(BASIS_V) };
 	}
 
@@ -167,6 +173,27 @@ public:
 	bool has_unknown_discard = false;
 
 private:
+	/// Uniforms without a value are 0. Those of instances and of the project have unknown values.
+	void read_uniform(const std::vector<std::string> &p_tokens, const UniformLookup &p_uniforms) {
+		const auto type = std::find_if(p_tokens.begin(), p_tokens.end(),
+				[](const std::string &p_token) { return TYPES.contains(p_token); });
+		const auto has = [&](const char *p_word) {
+			return std::find(p_tokens.begin(), type, p_word) != type;
+		};
+		if (type == p_tokens.end() || type + 1 == p_tokens.end() || !has("uniform")) {
+			return;
+		}
+		Value value;
+		if (!has("instance") && !has("global")) {
+			for (const double number : p_uniforms(type[1])) {
+				value.push_back(Linear::of(number));
+			}
+			if (value.empty() && (type->starts_with("vec") || *type == "float")) {
+				value.resize(*type == "float" ? 1 : size_t((*type)[3] - '0'), Linear::of(0));
+			}
+		}
+		uniforms[type[1]] = value;
+	}
 	const std::string &peek(size_t p_ahead = 0) const {
 		static const std::string end;
 		return position + p_ahead < tokens.size() ? tokens[position + p_ahead] : end;
@@ -422,11 +449,8 @@ private:
 		if (const auto found = variables.find(token); found != variables.end()) {
 			return found->second;
 		}
-		Value value;
-		for (const double number : uniforms(token)) {
-			value.push_back(Linear::of(number));
-		}
-		return value;
+		const auto uniform = uniforms.find(token);
+		return uniform == uniforms.end() ? Value() : uniform->second;
 	}
 
 	Value read_call(const std::string &p_function) {
@@ -477,7 +501,7 @@ private:
 		return {};
 	}
 
-	const UniformLookup &uniforms;
+	std::map<std::string, Value> uniforms;
 	std::vector<std::string> tokens;
 	size_t position = 0;
 	size_t nesting = 0;
@@ -533,7 +557,7 @@ std::optional<ShaderAlpha> read_condition(
 
 std::optional<ShaderAlpha> read_shader_alpha(
 		const ShaderText &p_shader, const UniformLookup &p_uniforms, float p_default_threshold) {
-	Tracer tracer(p_uniforms);
+	Tracer tracer(p_shader, p_uniforms);
 	tracer.trace(p_shader.get_global_constants());
 	for (const char *name : { "vertex", "fragment" }) {
 		if (const ShaderFunction *function = p_shader.find_function(name)) {

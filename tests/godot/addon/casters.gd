@@ -117,12 +117,20 @@ func test_changes_of_cut_out_materials_update_the_mask() -> void:
 
 ## test_addon.py checks the warning.
 func test_shaders_that_cut_out_nothing_cast_whole() -> void:
-	var shader := func(scene: StudyScene) -> void:
-		var material := ShaderMaterial.new()
-		material.shader = Shader.new()
-		material.shader.code = "shader_type spatial;\nvoid fragment() { ALPHA = 0.9; ALPHA_SCISSOR_THRESHOLD = 0.5; }"
-		scene.caster.material_override = material
-	await _check_same(shader, "a shader that is cut out")
+	const FORMS: Array[String] = [
+		"void fragment() { ALPHA = 0.9; ALPHA_SCISSOR_THRESHOLD = 0.5; }",
+		# Uniforms without a value are 0, and samplers without a texture white.
+		"uniform vec4 tint : source_color;\nuniform float limit;\nuniform sampler2D leaf : source_color;\nvoid fragment() { ALPHA = tint.a * texture(leaf, UV).a; ALPHA_SCISSOR_THRESHOLD = limit; }",
+		"uniform sampler2D leaf : repeat_disable;\nvoid fragment() { if (texture(leaf, 2.0 * UV).r < 0.5) { discard; } }",
+		"uniform sampler2D leaf : hint_default_black;\nvoid fragment() { ALPHA = 1.0 - texture(leaf, UV).g; ALPHA_SCISSOR_THRESHOLD = 0.5; }",
+	]
+	for form in FORMS:
+		var shader := func(scene: StudyScene) -> void:
+			var material := ShaderMaterial.new()
+			material.shader = Shader.new()
+			material.shader.code = "shader_type spatial;\n" + form
+			scene.caster.material_override = material
+		await _check_same(shader, form)
 
 
 func test_blended_materials_cast_nothing() -> void:

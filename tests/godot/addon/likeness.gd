@@ -236,6 +236,7 @@ func test_cards_cut_out_by_a_shader_cast_their_opaque_part() -> void:
 		["void fragment() { ALPHA = 1.0 - texture(leaf, UV).g; ALPHA_SCISSOR_THRESHOLD = 0.5; }", 1, true],
 		["uniform vec2 size = vec2(2.0, 1.0);\nvarying vec2 base;\nvoid vertex() { UV = UV * size; base = UV; }\nvoid fragment() { vec2 uv = base / size; float a = texture(leaf, uv).a; ALPHA = clamp(a, 0.0, 1.0); ALPHA_SCISSOR_THRESHOLD = 0.5; }", 3],
 		["void fragment() {\n// Texture:2\n\tvec4 n_out2p0 = texture(leaf, UV);\n\tfloat n_out2p4 = n_out2p0.a;\n\n// FloatConstant:3\n\tfloat n_out3p0 = 0.500000;\n\n\tALBEDO = vec3(n_out2p0.xyz);\n\tALPHA = n_out2p4;\n\tALPHA_SCISSOR_THRESHOLD = n_out3p0;\n}", 3],
+		["uniform vec4 tint : source_color;\nuniform float limit;\nvoid fragment() { vec4 c = texture(leaf, UV); ALBEDO = c.rgb; ALPHA = c.a * (1.0 + tint.a) - 0.5; ALPHA_SCISSOR_THRESHOLD = limit; }", 3],
 		["uniform bool dim = true;\nvoid fragment() { vec4 c = texture(leaf, UV); ALBEDO = c.rgb; if (dim) { ALBEDO *= 0.8; } for (int i = 0; i < 2; i++) { ROUGHNESS *= 0.9; } ALPHA = c.a; ALPHA_SCISSOR_THRESHOLD = 0.5; }", 3],
 	]
 	for index in FORMS.size():
