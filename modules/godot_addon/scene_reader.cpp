@@ -16,15 +16,15 @@ using godot::GeometryInstance3D;
 const float MAX_COORDINATE_M = 1e8f;   // nodes beyond are not found
 const size_t MAX_PASSES = 64;		   // of materials
 const size_t MAX_MOVED_INSTANCES = 64; // of a node, each moved by vertex() in its own way
-const double MAX_MOVE_M = 5; // of find_move_margin, which is at most the box's longest side
-const double MIN_SCENE_SIZE_M = 1e-9; // it is a divisor, also in a world without casters
+const double MAX_MOVE_PER_SIDE = 4.0;  // of find_move_margin, times the box's longest side
+const double MIN_SCENE_SIZE_M = 1e-9;  // it is a divisor, also in a world without casters
 // In a MultiMesh's buffer: floats of an instance's colour, and of its custom data.
 const size_t COLOR_FLOATS = 4;
 
 /// Returns how far vertex() may move vertices out of the box of their mesh, in metres.
 double find_move_margin(const Bounds &p_box) {
 	const glm::dvec3 size = p_box.maximum - p_box.minimum;
-	return std::min(MAX_MOVE_M, std::max({ size.x, size.y, size.z }));
+	return MAX_MOVE_PER_SIDE * std::max({ size.x, size.y, size.z });
 }
 
 /// Returns the id of each node in the world once. All instances of a node, and its gizmos, have the

@@ -125,6 +125,8 @@ func test_attributes_of_vertices_move_them() -> void:
 	var leaning := _make_shader("uniform vec3 lean = vec3(0.8, 0.0, 0.3);\nvoid vertex() { VERTEX += COLOR.r * COLOR.r * lean; }\nvoid fragment() { ALBEDO = vec3(0.5); }")
 	await _check_moved("colour by default", _make_box(), leaning,
 		func(at: Vector3, _normal: Vector3, _uv: Vector2, color: Color) -> Vector3: return at + color.r * color.r * Vector3(0.8, 0.0, 0.3))
+	await _check_moved("far", _make_box(), _make_shader("void vertex() { VERTEX.x += 2.5 + 0.3 * COLOR.r; }\nvoid fragment() { ALBEDO = vec3(0.5); }"),
+		func(at: Vector3, _normal: Vector3, _uv: Vector2, color: Color) -> Vector3: return at + Vector3(2.5 + 0.3 * color.r, 0, 0), Vector3(-2.5, 0.8, 0))
 	await _check_moved("coordinates", _make_plane(), _make_shader("void vertex() { VERTEX.y += UV.x * UV.y; }\nvoid fragment() { ALBEDO = vec3(0.5); }"),
 		func(at: Vector3, _normal: Vector3, uv: Vector2, _color: Color) -> Vector3: return at + Vector3(0, uv.x * uv.y, 0))
 
