@@ -30,9 +30,6 @@ inline godot::Transform3D get_drawn_transform(const godot::Node3D &p_node) {
 }
 
 /// Returns the node's box, in its own space, by which Godot culls it, without extra_cull_margin.
-inline godot::AABB get_culling_box(const godot::GeometryInstance3D &p_node) {
-	const godot::AABB custom = p_node.get_custom_aabb();
-	return custom.size == glm::vec3(0.0f) ? p_node.get_aabb() : custom;
-}
+godot::AABB get_culling_box(const godot::GeometryInstance3D &p_node);
 
 } // namespace gnomon

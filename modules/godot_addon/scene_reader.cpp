@@ -415,11 +415,11 @@ bool SceneReader::casts_in_godot(const godot::ObjectHandle &p_node) {
 	return cast_particles(meshes_of_particles, override_material, materials);
 }
 
-void SceneReader::read_box(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
-		SceneSnapshot &r_scene) {
+void SceneReader::read_box(
+		const SceneBody &p_body, const GeometryInstance3D &p_instance, SceneSnapshot &r_scene) {
 	static const std::shared_ptr<const Mesh> box =
 			make_box_mesh("box", /*p_half_size_m=*/glm::vec3(0.5f));
-	const godot::AABB bounds = p_instance.get_aabb();
+	const godot::AABB bounds = get_culling_box(p_instance);
 	if (glm::any(glm::lessThanEqual(bounds.size, glm::vec3(0.0f)))) {
 		return;
 	}
@@ -501,7 +501,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 							" cannot be read. Set its cast_shadow to Off, or use a "
 							"MeshInstance3D."));
 		}
-		read_box(body, visual, r_scene);
+		read_box(body, geometry, r_scene);
 	}
 	if (has_range) {
 		visibility.hide(geometry, first_instance, r_scene.instances.size());

@@ -65,7 +65,7 @@ private:
 	/// Whether Godot draws a node whose mesh cannot be read into shadow maps.
 	bool casts_in_godot(const godot::ObjectHandle &p_node);
 	/// Adds only the box of a node whose mesh cannot be read, because it may receive shadows.
-	void read_box(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
+	void read_box(const SceneBody &p_body, const godot::GeometryInstance3D &p_instance,
 			SceneSnapshot &r_scene);
 	void read_light_node(const godot::Light3D &p_light);
 	/// Returns whether masks can be made for any of the views.

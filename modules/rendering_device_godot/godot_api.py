@@ -81,7 +81,7 @@ USED = {
             light_omni_set_shadow_mode light_directional_set_shadow_mode light_directional_set_blend_splits
             light_directional_set_sky_mode instance_create2 instance_set_layer_mask instance_set_transform
             instance_set_visible
-            instances_cull_aabb multimesh_instance_get_transform multimesh_get_buffer mesh_get_surface
+            instances_cull_aabb multimesh_get_aabb multimesh_instance_get_transform multimesh_get_buffer mesh_get_surface
             skeleton_get_bone_count skeleton_bone_get_transform free_rid
         """,
         "enums": """CompositorEffectFlags CompositorEffectCallbackType GlobalShaderParameterType
@@ -106,7 +106,7 @@ USED = {
         "methods": """get_global_transform get_global_transform_interpolated is_visible_in_tree get_world_3d
             get_visibility_parent"""
     },
-    "VisualInstance3D": {"methods": "get_layer_mask get_aabb get_instance"},
+    "VisualInstance3D": {"methods": "get_layer_mask get_aabb get_instance get_base"},
     "ReflectionProbe": {"methods": ""},
     "VoxelGI": {"methods": ""},
     "GeometryInstance3D": {
@@ -125,8 +125,8 @@ USED = {
     "MeshLibrary": {"methods": "get_item_mesh get_item_mesh_cast_shadow"},
     "SpriteBase3D": {"methods": "get_draw_flag get_alpha_cut_mode", "enums": "DrawFlags AlphaCutMode"},
     "Label3D": {"methods": "get_draw_flag get_alpha_cut_mode", "enums": "DrawFlags AlphaCutMode"},
-    "GPUParticles3D": {"methods": "get_draw_passes get_draw_pass_mesh"},
-    "CPUParticles3D": {"methods": "get_mesh"},
+    "GPUParticles3D": {"methods": "get_draw_passes get_draw_pass_mesh get_visibility_aabb"},
+    "CPUParticles3D": {"methods": "get_mesh get_visibility_aabb"},
     "Light3D": {
         "methods": """get_param get_shadow_caster_mask is_editor_only has_shadow get_color get_correlated_color is_negative
             get_shadow_reverse_cull_face is_distance_fade_enabled get_distance_fade_begin get_distance_fade_shadow
