@@ -235,7 +235,9 @@ std::vector<NeededStandIn> AddonServer::choose_stand_ins(
 	for (size_t index = 0; index < p_world.masked_lights.size(); ++index) {
 		const godot::Light3D &light = p_world.masked_lights[index];
 		needed.push_back({ light, static_cast<int32_t>(index),
-				all_need_godot_shadow || reaches(light, p_world.receivers.others) });
+				// Godot draws a projector's texture only with its shadow.
+				all_need_godot_shadow || light.get_projector() ||
+						reaches(light, p_world.receivers.others) });
 	}
 	for (const godot::Light3D &light : p_world.other_lights) {
 		if ((!godot::cast<godot::DirectionalLight3D>(light) || light.has_shadow()) &&
