@@ -132,11 +132,13 @@ void ReceiverTextures::reserve(const ReceiverSpace &p_space) {
 	}
 }
 
-void ReceiverTextures::write_lights(const GodotView &p_view, const ScenarioFrame &p_frame) {
+void ReceiverTextures::write_lights(
+		const GodotView &p_view, const ScenarioFrame &p_frame, bool p_has_masks) {
 	Table table = {};
 	table[0] = make_view_row(p_view, p_frame.has_faded);
 	const glm::dmat4 view_from_world = glm::inverse(p_view.camera_transform.to_matrix());
-	for (const ReceiverLight &light : p_frame.receiver_lights) {
+	for (ReceiverLight light : p_frame.receiver_lights) {
+		light.mask = p_has_masks ? light.mask : -1;
 		table[light.row] = make_light_row(light, view_from_world, p_view.camera.position_world);
 	}
 	write(table);

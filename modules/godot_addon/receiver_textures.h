@@ -66,8 +66,9 @@ public:
 	/// neighbour's is. Null before a reserve() with has_depth.
 	TextureRID get_depth() const { return depth.get(); }
 	/// Writes the table of lights, which also identifies the view of the masks. Call it before the
-	/// view's opaque objects are drawn.
-	void write_lights(const GodotView &p_view, const ScenarioFrame &p_frame);
+	/// view's opaque objects are drawn. p_has_masks: false: all lights keep Godot's shadow.
+	void write_lights(
+			const GodotView &p_view, const ScenarioFrame &p_frame, bool p_has_masks = true);
 
 	/// Makes materials ignore the masks until the next write_lights(), because those of the view
 	/// could not be made.

@@ -117,7 +117,8 @@ void RenderSide::make(
 	} catch (const NothingExecuted &) {
 		const bool has_compiled_all = device->has_compiled_all();
 		device->compile_only({});
-		forget_view();
+		// Materials need the sizes of the lights.
+		receivers->write_lights(p_view, p_frame, /*p_has_masks=*/false);
 		if (!has_compiled_all) {
 			return;
 		}
