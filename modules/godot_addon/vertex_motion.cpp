@@ -8,6 +8,7 @@ namespace {
 
 using godot::BaseMaterial3D;
 
+const char DRAWN_AS_POINTS[] = "is drawn as points";
 const char UNKNOWN_MOTION[] = "moves its vertices in a way that is not read";
 
 } // namespace
@@ -21,6 +22,9 @@ VertexMotion read_vertex_motion(const BaseMaterial3D &p_material) {
 		if (p_material.get_flag(flag)) {
 			motion.unknown_reason = UNKNOWN_MOTION;
 		}
+	}
+	if (p_material.get_flag(BaseMaterial3D::FLAG_USE_POINT_SIZE)) {
+		motion.unknown_reason = DRAWN_AS_POINTS;
 	}
 	if (p_material.is_grow_enabled()) {
 		motion.grow_m = static_cast<float>(p_material.get_grow());
@@ -57,6 +61,9 @@ VertexMotion read_vertex_motion(const ShaderText &p_shader) {
 		if (p_shader.has_word(mode)) {
 			motion.unknown_reason = UNKNOWN_MOTION;
 		}
+	}
+	if (p_shader.may_assign("vertex", "POINT_SIZE")) {
+		motion.unknown_reason = DRAWN_AS_POINTS;
 	}
 	if (p_shader.may_assign("fragment", "DEPTH")) {
 		motion.unknown_reason = "writes DEPTH";
