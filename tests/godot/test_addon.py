@@ -32,6 +32,7 @@ EXPECTED = (
     ("moves its vertices in a way that is not read", 1),
     ("is transparent or drawn without depth", 1),
     ("the vertices of a SoftBody3D", 1),
+    ("is drawn as points", 1),
     ("has a rim", 1),
     ("has toon shading", 1),
     ("Shader compilation failed", 1),

@@ -468,6 +468,118 @@ func test_smooth_boxes_are_dark_in_their_own_shadow() -> void:
 	await _end()
 
 
+## Triangles that are turned away from the sun but have normals that face it are lit as Godot lights them, up to the terminator.
+func test_columns_of_few_facets_are_lit_by_their_normals() -> void:
+	for segments: int in [10, 14, 24]:
+		_begin()
+		_sun.rotation_degrees = Vector3(-20, 90, 0)
+		_camera.look_at_from_position(Vector3(0, 1.3, 2.0), Vector3(0, 1, 0))
+		var column := CylinderMesh.new()
+		column.radial_segments = segments
+		column.rings = 0
+		# A facet is turned away from the sun by more than half of its angle, but some of its normals face the sun.
+		_add(column, Vector3(0, 1, 0)).rotation.y = 0.5 * TAU / segments
+		_sun.rotation_degrees.y += 0.28 * 360.0 / segments
+		var points: Array[Vector3] = []
+		var towards_sun := Vector3(_sun.global_basis.z.x, 0, _sun.global_basis.z.z).normalized()
+		for angle: float in range(50, 110, 2):
+			points.append(Vector3(0, 1, 0) + 0.5 * towards_sun.rotated(Vector3.UP, -deg_to_rad(angle)))
+		await _compare("column of %d facets" % segments, points)
+		await _end()
+
+
+## The box of particles is that of their property, not of their mesh.
+func test_particles_are_in_the_shadow_of_a_roof() -> void:
+	var cube := BoxMesh.new()
+	cube.size = Vector3.ONE * 0.6
+	cube.material = StandardMaterial3D.new()
+	var process := ParticleProcessMaterial.new()
+	process.gravity = Vector3.ZERO
+	for is_simulated_on_gpu: bool in [true, false]:
+		_begin()
+		var particles: GeometryInstance3D
+		if is_simulated_on_gpu:
+			var simulated := GPUParticles3D.new()
+			simulated.amount = 1
+			simulated.lifetime = 1000
+			simulated.process_material = process
+			simulated.draw_pass_1 = cube
+			particles = simulated
+		else:
+			var simulated := CPUParticles3D.new()
+			simulated.amount = 1
+			simulated.lifetime = 1000
+			simulated.gravity = Vector3.ZERO
+			simulated.mesh = cube
+			particles = simulated
+		particles.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+		particles.position = Vector3(0, 0.8, 0)
+		_root.add_child(particles)
+		var roof := BoxMesh.new()
+		roof.size = Vector3(1.5, 0.1, 1.5)
+		_add(roof, Vector3(0, 1.1, 0) + 1.5 * _sun.global_basis.z)
+		await draw_frames(5)
+		await _compare("particles %s" % is_simulated_on_gpu, [Vector3(0, 1.1, 0), Vector3(0, 0.9, 0.3), Vector3(2, 0, 1)])
+		var image := _viewport.get_texture().get_image()
+		var top := image.get_pixelv(Vector2i(_camera.unproject_position(Vector3(0, 1.1, 0)))).get_luminance()
+		check(top < 0.4, "the roof darkens them: %.2f" % top)
+		await _end()
+
+
+## Godot draws a projector only with its own shadow. Gnomon's node is there from the first frame, so that Godot never drew its own light.
+func test_projectors_show_their_texture() -> void:
+	var pattern := Image.create(32, 32, false, Image.FORMAT_RGB8)
+	pattern.fill(Color.WHITE)
+	pattern.fill_rect(Rect2i(0, 0, 16, 32), Color.BLACK)
+	var texture := ImageTexture.create_from_image(pattern)
+	for light: Light3D in [OmniLight3D.new(), SpotLight3D.new()]:
+		_begin()
+		_sun.visible = false
+		light.shadow_enabled = true
+		light.light_energy = 6.0
+		light.set_param(Light3D.PARAM_RANGE, 8.0)
+		light.set_param(Light3D.PARAM_SPOT_ANGLE, 50.0)
+		light.light_projector = texture
+		light.position = Vector3(0.3, 3, 0.2)
+		light.rotation_degrees.x = -90.0
+		var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
+		light.add_child(shadow)
+		_root.add_child(light)
+		_add_box(Vector3(0, 0.5, 0))
+		await draw_frames(5)
+		var gnomon := await _take()
+		shadow.free()
+		var godot := await _take()
+		var is_dark := false
+		var is_lit := false
+		for point: Vector3 in [Vector3(-1.5, 0, 1), Vector3(1.8, 0, 1), Vector3(-1.5, 0, -1), Vector3(1.8, 0, -1), Vector3(0.2, 1, 0), Vector3(-0.3, 1, 0)]:
+			var pixel := Vector2i(_camera.unproject_position(point))
+			var expected := godot.get_pixelv(pixel).get_luminance()
+			is_dark = is_dark or expected < 0.35
+			is_lit = is_lit or expected > 0.5
+			var found := gnomon.get_pixelv(pixel).get_luminance()
+			check(absf(found - expected) < POINT_TOLERANCE, "%s at %s: %.3f, Godot %.3f" % [light.get_class(), point, found, expected])
+		check(is_dark and is_lit, light.get_class() + ": the pattern has dark and lit parts")
+		await _end()
+
+
+## Godot draws the vertices of such a mesh, not its triangles.
+func test_meshes_drawn_as_points_do_not_shadow_themselves() -> void:
+	for has_shader: bool in [false, true]:
+		_begin()
+		var material: Material
+		if has_shader:
+			material = _make_shader("void vertex() { POINT_SIZE = 4.0; }\nvoid fragment() { ALBEDO = vec3(0.8); }")
+		else:
+			material = StandardMaterial3D.new()
+			material.use_point_size = true
+			material.point_size = 4.0
+		_add(SphereMesh.new(), Vector3(0, 0.6, 0), material)
+		_add_box(Vector3(1.6, 0.5, 0))
+		await _compare("points %s" % has_shader, [Vector3(0, 1.0, 0.3), Vector3(0.1, 0.8, 0.46), Vector3(-0.3, 0.8, 0.35), Vector3(1.6, 1, 0), Vector3(-2, 0, 1)])
+		await _end()
+
+
 ## Godot's shadow maps leave out faces that are seen from behind, so a lamp shines out of its bulb.
 func test_a_lamp_inside_a_closed_mesh_shines_through_it() -> void:
 	for mesh: PrimitiveMesh in [SphereMesh.new(), BoxMesh.new()]:
