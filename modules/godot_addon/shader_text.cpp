@@ -11,10 +11,12 @@ bool is_identifier_character(char p_character) {
 	return std::isalnum(static_cast<unsigned char>(p_character)) != 0 || p_character == '_';
 }
 
+/// Also blanks the lines with which Godot's preprocessor marks where an included file begins and
+/// ends.
 std::string blank_comments(std::string p_code) {
 	for (size_t index = 0; index + 1 < p_code.size();) {
 		size_t end = index;
-		if (p_code.compare(index, 2, "//") == 0) {
+		if (p_code.compare(index, 2, "//") == 0 || p_code.compare(index, 2, "@@") == 0) {
 			end = std::min(p_code.find('\n', index), p_code.size());
 		} else if (p_code.compare(index, 2, "/*") == 0) {
 			const size_t found = p_code.find("*/", index + 2);

@@ -146,6 +146,18 @@ func test_a_texture_moves_vertices() -> void:
 	await _check_moved("textures by default", _make_plane(), empty, func(at: Vector3, _normal: Vector3, _uv: Vector2, _color: Color) -> Vector3: return at + Vector3(0, 0.5, 0))
 
 
+func test_functions_of_included_files_move_vertices() -> void:
+	var turning := ShaderInclude.new()
+	turning.code = "mat3 turn_around_z(float angle) {\n\tfloat c = cos(angle);\n\tfloat s = sin(angle);\n\treturn mat3(vec3(c, -s, 0), vec3(s, c, 0), vec3(0, 0, 1));\n}"
+	turning.take_over_path("res://turning.gdshaderinc")
+	var stretching := ShaderInclude.new()
+	stretching.code = "uniform float length_factor = 1.5;\n#include \"res://turning.gdshaderinc\"\nvec3 stretch(vec3 at) { return vec3(at.x, length_factor * at.y, at.z); }\n"
+	stretching.take_over_path("res://stretching.gdshaderinc")
+	var material := _make_shader("#include \"res://stretching.gdshaderinc\"\nvoid vertex() { VERTEX = stretch(VERTEX) * turn_around_z(0.7); }\nvoid fragment() { ALBEDO = vec3(0.5); }")
+	await _check_moved("includes", _make_box(), material, func(at: Vector3, _normal: Vector3, _uv: Vector2, _color: Color) -> Vector3:
+		return Vector3(at.x, 1.5 * at.y, at.z).rotated(Vector3.BACK, 0.7))
+
+
 func test_the_place_of_a_node_moves_its_vertices() -> void:
 	const CODE := "instance uniform float strength = 0.5;\nvoid vertex() { VERTEX.x += strength * sin(3.0 * NODE_POSITION_WORLD.x) * (VERTEX.y + 0.5); }\nvoid fragment() { ALBEDO = vec3(0.5); }"
 	const PLACES: Array[float] = [-2.0, -0.6, 1.2]
