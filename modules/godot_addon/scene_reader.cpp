@@ -104,6 +104,13 @@ void set_casting(SceneBody &r_body, int64_t p_setting) {
 	r_body.is_drawn = p_setting != GeometryInstance3D::SHADOW_CASTING_SETTING_SHADOWS_ONLY;
 }
 
+/// Whether the box by which Godot culls a node cannot be read: physics or bones set it.
+bool has_hidden_culling_box(const godot::ObjectHandle &p_node) {
+	const auto mesh_instance = godot::cast<godot::MeshInstance3D>(p_node);
+	return godot::cast<godot::SoftBody3D>(p_node) ||
+			(mesh_instance && mesh_instance.get_skin_reference());
+}
+
 /// Whether Godot draws a sprite or label into shadow maps: only if its alpha is cut.
 template <typename Node> bool is_alpha_cut(const Node &p_node) {
 	return p_node && p_node.get_alpha_cut_mode() != Node::ALPHA_CUT_DISABLED;
@@ -463,8 +470,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 	}
 	if (unknown_objects.is_checking() && grid_map) {
 		unknown_objects.add_everywhere(size_t(grid_map.get_meshes().get_size()) * MAX_PASSES);
-	} else if (unknown_objects.is_checking() && godot::cast<godot::SoftBody3D>(object)) {
-		// Physics sets the box by which it is culled, which cannot be read.
+	} else if (unknown_objects.is_checking() && has_hidden_culling_box(object)) {
 		unknown_objects.add_everywhere(count_draws(geometry, materials));
 	} else if (unknown_objects.is_checking()) {
 		unknown_objects.add(geometry, count_draws(geometry, materials));
