@@ -53,7 +53,7 @@ SKIPPED = (
     # The cause is not known.
     # Limits on wrong pixels at the borders of hard shadows, measured with the rasterizer of Mesa 22. Mesa 26 has a few
     # more, all of them at borders.
-    "*a flight through volumes*",
+    "*300 frames through volumes*",
     "*the mask is that of rays*for every light*",
     "*all ways to make and count volumes*",
     "*a light inside a solid and one in the planes*",
