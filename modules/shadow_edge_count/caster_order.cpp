@@ -13,7 +13,7 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t CURVE_BITS = 20; // cells of 2 mm in a world of 2 km
-constexpr uint32_t EDGES_PER_GROUP = EDGE_COUNT_BUNDLE_SIZE * EDGE_COUNT_BUNDLES_PER_GROUP;
+constexpr uint32_t EDGES_PER_GROUP = EDGE_COUNT_CLUSTER_SIZE * 32;
 // Growth of the groups' area since the last sort at which casters are sorted again.
 constexpr double MAX_GROWTH = 1.5;
 

@@ -14,8 +14,8 @@ struct OrderedCaster {
 	uint32_t edge_count = 0; // of its silhouette edges, or an estimate
 };
 
-/// The order of a light's casters, in which those whose edges share a group of bundles (see
-/// EDGE_COUNT_BUNDLES_PER_GROUP) are close to each other, so that one test of the group's bounds
+/// The order of a light's casters, in which those whose edges share a node of a tree (see
+/// CountNode) are close to each other, so that one test of the group's bounds
 /// can reject them all. The order is cached, so that edges of casters that did not move are reused.
 class CasterOrder {
 public:
@@ -36,7 +36,7 @@ private:
 	uint32_t sort_count = 0;
 };
 
-/// The summed surface area of the bounds of casters that share a group of bundles, in square
+/// The summed surface area of the bounds of casters that share a node of 512 edges, in square
 /// metres. A measure of how many groups a receiver's shaft meets. p_order: indices into p_casters.
 double sum_group_areas(std::span<const OrderedCaster> p_casters, std::span<const uint32_t> p_order);
 

@@ -24,82 +24,8 @@ constexpr uint32_t MAX_COUNT = 10'000'000;
 // buffers exceed the device's maximum size.
 constexpr uint64_t MAX_COUNT_WITH_LEVELS = 1'000'000;
 
-// Maximum number of faces to examine one by one, which takes some tenths of a millisecond.
-constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
-
 const double SIDE_TOLERANCE_SIZES = 2.5e-7; // maximum shift of a plane by rounding, in S
 const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same for a directional light, as a cosine
-
-/// Upper bound of the number of texels that the faces of a mesh overlap, summed over the faces.
-/// p_size_px: size of the view's map.
-uint64_t compute_max_overlapped_texels(
-		const MeshTopology &p_topology, const glm::mat4 &p_clip_from_node, glm::vec2 p_size_px) {
-	const double whole = double(p_size_px.x) * p_size_px.y;
-	std::vector<glm::vec4> clip;
-	for (const glm::vec3 &position : p_topology.welded_positions_node) {
-		clip.push_back(p_clip_from_node * glm::vec4(position, 1.0f));
-	}
-	double sum = 0;
-	for (size_t first = 0; first < p_topology.triangles.size(); first += 3) {
-		glm::dvec2 positions[3];
-		bool crosses_near_plane = false; // then the face may overlap every texel
-		int outside_counts[5] = {};		 // vertices outside each view plane; 3: the face is outside
-		for (size_t corner = 0; corner < 3; ++corner) {
-			const glm::dvec4 point(clip[p_topology.triangles[first + corner]]);
-			outside_counts[0] += point.x > point.w;
-			outside_counts[1] += point.x < -point.w;
-			outside_counts[2] += point.y > point.w;
-			outside_counts[3] += point.y < -point.w;
-			outside_counts[4] += point.z > point.w;
-			crosses_near_plane = crosses_near_plane || !(point.z <= point.w) || !(point.w > 0.0);
-			positions[corner] = (glm::dvec2(point) / point.w * 0.5 + 0.5) * glm::dvec2(p_size_px);
-		}
-		if (std::any_of(std::begin(outside_counts), std::end(outside_counts),
-					[](int p_count) { return p_count == 3; })) {
-			continue;
-		}
-		const glm::dvec2 minimum = glm::min(positions[0], glm::min(positions[1], positions[2]));
-		const glm::dvec2 maximum = glm::max(positions[0], glm::max(positions[1], positions[2]));
-		const glm::dvec2 size =
-				glm::min(maximum, glm::dvec2(p_size_px)) - glm::max(minimum, glm::dvec2(0.0)) + 2.0;
-		const double box = std::max(size.x, 0.0) * std::max(size.y, 0.0);
-		// Upper bound of the unit squares that the triangle overlaps: of the lattice points in its
-		// Minkowski sum with a unit square, at most area + perimeter / 2 + 1 (Nosarzewska 1948).
-		const glm::dvec2 u = positions[1] - positions[0];
-		const glm::dvec2 v = positions[2] - positions[0];
-		const double perimeter = glm::length(u) + glm::length(v) + glm::length(u - v);
-		const glm::dvec2 sides = maximum - minimum;
-		const double triangle =
-				0.5 * std::abs(u.x * v.y - u.y * v.x) + sides.x + sides.y + 0.5 * perimeter + 4.0;
-		const double covered = std::min(box, triangle);
-		sum += crosses_near_plane || !std::isfinite(covered)
-				? whole
-				: std::min(covered * 1.01 + 1.0, whole); // more than the rounding
-	}
-	return static_cast<uint64_t>(std::ceil(sum));
-}
-
-/// A mesh with faces that casts an instance's shadow, and the views that may see it.
-struct SeenMesh {
-	std::shared_ptr<const Mesh> mesh;
-	uint32_t instance_index = 0;
-	uint32_t views = 0;
-};
-
-/// The sum of compute_max_overlapped_texels over the meshes in one view.
-uint64_t sum_max_overlapped_texels(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
-		const std::vector<SeenMesh> &p_meshes) {
-	const LightView &view = p_inputs.views[p_view_index];
-	uint64_t sum = 0;
-	for (const SeenMesh &seen : p_meshes) {
-		if ((seen.views >> p_view_index & 1u) != 0) {
-			const InstanceSnapshot &instance = p_inputs.scene.instances[seen.instance_index];
-			sum += compute_max_overlapped_texels(*get_topology(seen.mesh),
-					view.compute_clip_from_node(instance.world_from_node), glm::vec2(view.size_px));
-		}
-	}
-	return sum;
-}
 
 /// Lower bound of the distance of a point from the instance's casters: from their box along the
 /// world's axes, and from the planes of their box along the node's axes.
@@ -234,8 +160,6 @@ CountCasters build_count_casters(
 			static_cast<float>(is_directional ? SIDE_TOLERANCE_COSINE
 											  : SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
 	const Bounds scene_bounds = p_inputs.scene.compute_bounds();
-	std::vector<SeenMesh> meshes_with_faces; // as long as their faces are few enough to examine
-	bool is_deformed = false; // some mesh is deformed on the GPU, so the CPU has no face positions
 	uint32_t views_with_faces = 0;
 	const std::vector<uint32_t> indices = collect_casters(p_inputs, view_indices);
 	uint64_t triangle_count = 0;
@@ -270,14 +194,10 @@ CountCasters build_count_casters(
 		for (const CasterMesh &level : meshes) {
 			if (add_caster(p_inputs, level, caster, result)) {
 				has_faces = true;
-				if (result.face_count <= MAX_BOUNDED_FACES) {
-					meshes_with_faces.push_back({ level.mesh, index, caster.views });
-				}
 			}
 		}
 		if (has_faces) {
 			views_with_faces |= caster.views;
-			is_deformed = is_deformed || instance.pose;
 			result.may_cut_disc = result.may_cut_disc ||
 					(!is_directional && p_disc_radius > 0 &&
 							compute_min_distance_m(instance, light_world) <=
@@ -285,14 +205,6 @@ CountCasters build_count_casters(
 		}
 	}
 	result.empty_views = ~views_with_faces & ~0u >> (32 - view_indices.size());
-	if (result.face_count > MAX_BOUNDED_FACES || is_deformed) {
-		result.max_nodes_per_view = CountCasters::UNBOUNDED;
-	} else {
-		for (const uint32_t view : view_indices) {
-			result.max_nodes_per_view = std::max(result.max_nodes_per_view,
-					sum_max_overlapped_texels(p_inputs, view, meshes_with_faces));
-		}
-	}
 	return result;
 }
 

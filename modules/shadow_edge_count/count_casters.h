@@ -38,13 +38,8 @@ struct CountCasters {
 	double disc_radius = 0;				   // R, see CountSettings
 	float side_tolerance = 0;			   // see shader::CountFindPush
 	uint32_t collapsed_instance_count = 0; // instances collapsed to a line or a point
-	/// Upper bound of the linked-list nodes in the face lists of any view. UNBOUNDED if there are
-	/// too many faces to examine each, or if some are deformed.
-	uint64_t max_nodes_per_view = 0;
-	bool may_cut_disc = false; // a caster's bounds come within R of the light's centre
-	uint32_t empty_views = 0;  // bit i: no caster of view i has a face
-
-	static constexpr uint64_t UNBOUNDED = ~uint64_t(0);
+	bool may_cut_disc = false;			   // a caster's bounds come within R of the light's centre
+	uint32_t empty_views = 0;			   // bit i: no caster of view i has a face
 
 	/// True if both have the same meshes and flags in the same order, so that face indices stay
 	/// valid.

@@ -15,32 +15,30 @@ namespace {
 
 constexpr uint32_t CURVE_BITS = 10; // the curve has 2^CURVE_BITS cells per axis
 
-/// The mesh's edges, sorted by their midpoints along a Hilbert curve through a cube around the
-/// mesh, so that bundles of consecutive edges are compact.
-std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
-	const std::vector<glm::vec3> &positions = p_topology.welded_positions_node;
+/// Sorts things by their positions along a Hilbert curve through a cube around the mesh, so that
+/// clusters of consecutive ones are compact. p_get_middle(index): where a thing is. Returns their
+/// indices in order.
+std::vector<uint32_t> sort_along_curve(
+		const MeshTopology &p_topology, size_t p_count, const auto &p_get_middle) {
 	glm::dvec3 minimum(1e300);
 	glm::dvec3 maximum(-1e300);
-	for (const glm::vec3 &position : positions) {
+	for (const glm::vec3 &position : p_topology.welded_positions_node) {
 		minimum = glm::min(minimum, glm::dvec3(position));
 		maximum = glm::max(maximum, glm::dvec3(position));
 	}
 	const HilbertCurve curve(minimum, maximum, CURVE_BITS);
-	std::vector<std::pair<uint64_t, MeshEdge>> ordered;
-	ordered.reserve(p_topology.edges.size());
-	for (const MeshEdge &edge : p_topology.edges) {
-		const glm::dvec3 middle =
-				0.5 * (glm::dvec3(positions[edge.a]) + glm::dvec3(positions[edge.b]));
-		ordered.emplace_back(curve.find_position(middle), edge);
+	std::vector<std::pair<uint64_t, uint32_t>> keys;
+	keys.reserve(p_count);
+	for (size_t index = 0; index < p_count; ++index) {
+		keys.emplace_back(curve.find_position(p_get_middle(index)), uint32_t(index));
 	}
-	std::stable_sort(ordered.begin(), ordered.end(),
-			[](const auto &p_left, const auto &p_right) { return p_left.first < p_right.first; });
-	std::vector<MeshEdge> edges;
-	edges.reserve(ordered.size());
-	for (const auto &[key, edge] : ordered) {
-		edges.push_back(edge);
+	std::sort(keys.begin(), keys.end()); // equal positions: in mesh order
+	std::vector<uint32_t> order;
+	order.reserve(p_count);
+	for (const auto &[key, index] : keys) {
+		order.push_back(index);
 	}
-	return edges;
+	return order;
 }
 
 } // namespace
@@ -53,22 +51,43 @@ CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_s
 		parts = find_source_parts(*source);
 	}
 	mesh.source_parts = source ? parts.spheres : std::vector(1, glm::vec4(0.0f));
-	mesh.faces.reserve(p_topology.get_face_count());
-	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
-		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
+	const auto get_position = [&](uint32_t p_vertex) {
+		return glm::dvec3(p_topology.welded_positions_node[p_vertex]);
+	};
+	const auto get_corners = [&](size_t p_face) { return &p_topology.triangles[3 * p_face]; };
+	const uint32_t face_count = p_topology.get_face_count();
+	const std::vector<uint32_t> face_order =
+			sort_along_curve(p_topology, face_count, [&](size_t p_face) {
+				const uint32_t *corners = get_corners(p_face);
+				return (get_position(corners[0]) + get_position(corners[1]) +
+							   get_position(corners[2])) /
+						3.0;
+			});
+	std::vector<uint32_t> new_faces(face_count); // by index in the topology
+	mesh.faces.reserve(face_count);
+	for (const uint32_t face : face_order) {
+		new_faces[face] = uint32_t(mesh.faces.size());
+		const uint32_t *corners = get_corners(face);
 		const uint32_t source_part = source ? parts.part_of_triangle.at(p_source.triangles.at(
 													  p_topology.source_triangles[face]))
 											: 0u;
-		const uint32_t *plane = &p_topology.triangles[3 * size_t(p_topology.plane_faces[face])];
+		const uint32_t *plane = get_corners(p_topology.plane_faces[face]);
 		mesh.faces.push_back({ corners[0], corners[1], corners[2],
 				(p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u) | source_part,
 				plane[0], plane[1], plane[2], /*padding=*/0 });
 	}
-	for (const MeshEdge &edge : sort_edges(p_topology)) {
+	const std::vector<uint32_t> edge_order =
+			sort_along_curve(p_topology, p_topology.edges.size(), [&](size_t p_edge) {
+				const MeshEdge &edge = p_topology.edges[p_edge];
+				return 0.5 * (get_position(edge.a) + get_position(edge.b));
+			});
+	for (const uint32_t index : edge_order) {
+		const MeshEdge &edge = p_topology.edges[index];
 		if (!edge.is_coplanar) {
 			const uint32_t kind = (edge.is_inconsistent ? EDGE_COUNT_INCONSISTENT : 0u) |
-					(mesh.faces[edge.face0].kind & EDGE_COUNT_DOUBLE_SIDED);
-			mesh.edges.push_back({ edge.a, edge.b, edge.face0 | kind, edge.face1 });
+					(p_topology.is_double_sided(edge.face0) ? EDGE_COUNT_DOUBLE_SIDED : 0u);
+			mesh.edges.push_back({ edge.a, edge.b, new_faces[edge.face0] | kind,
+					edge.face1 == NO_FACE ? EDGE_COUNT_NO_FACE : new_faces[edge.face1] });
 		}
 	}
 	return mesh;

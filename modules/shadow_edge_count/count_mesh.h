@@ -16,9 +16,9 @@ namespace gnomon {
 /// A mesh in the format that the passes that find faces and edges read. Vertices are welded.
 struct CountMesh {
 	/// The edges that can be silhouettes: all but those inside a flat region. Sorted for spatial
-	/// locality, so that bundles of consecutive edges are small, see CountEdgeBundle.
+	/// locality, so that clusters of consecutive edges are small, see CountNode.
 	std::vector<shader::CountMeshEdge> edges;
-	std::vector<shader::CountMeshFace> faces;
+	std::vector<shader::CountMeshFace> faces; // all, sorted likewise
 	/// For each connected part of the mesh that this one was cut out of: centre and radius of a
 	/// sphere around the part before the alpha test (connected by edges, whatever their winding).
 	/// All levels of detail have the same source parts, so they switch at the same distance. One
@@ -26,7 +26,7 @@ struct CountMesh {
 	std::vector<glm::vec4> source_parts;
 };
 
-/// Converts a mesh. Faces retain their order, edges are sorted. p_source: what the mesh was cut out
+/// Converts a mesh. p_source: what the mesh was cut out
 /// of, see Mesh::source.
 CountMesh build_count_mesh(const MeshTopology &p_topology, const MeshSource &p_source = {});
 

@@ -20,10 +20,10 @@ uint32_t get_count_subgroup_size(const RenderingDevice &p_device) {
 	return std::min<uint32_t>(p_device.get_features().subgroup_size, EDGE_COUNT_MAX_SUBGROUP);
 }
 
-CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_view_count,
-		uint32_t p_edge_count, uint32_t p_subgroup_size, uint32_t p_sample_set_count) {
-	// An edge needs at most 1.5 iterations for each part of a block's receivers.
-	const uint64_t iterations = uint64_t(p_edge_count) * EDGE_COUNT_PARTS(p_view_count) * 3 / 2;
+CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_edge_count,
+		uint32_t p_subgroup_size, uint32_t p_sample_set_count) {
+	// An edge needs at most 1.5 iterations, and some more to walk through the tree.
+	const uint64_t iterations = uint64_t(p_edge_count) * 2;
 	if (iterations <= EDGE_COUNT_MAX_ITERATIONS) {
 		return {};
 	}
@@ -65,8 +65,8 @@ CountRounds create_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p
 	rounds.counts = make_words("unfinished counts", EDGE_COUNT_UNFINISHED_COUNTS,
 			BufferUsage::STORAGE | BufferUsage::COPY_TARGET);
 	// Without rounds nothing is added, but the passes need buffers.
-	const uint64_t subgroup_count = uint64_t(p_light.block_count.x) * p_light.block_count.y *
-			(BLOCK_PIXELS / subgroup_size);
+	const uint64_t subgroup_count =
+			uint64_t(p_light.leaf_capacity) * (BLOCK_PIXELS / subgroup_size);
 	rounds.items = make_words("unfinished subgroups", slot_count == 0 ? 1 : subgroup_count);
 	for (uint32_t round = 0; round <= p_light.unfinished_round_count; ++round) {
 		rounds.dispatches.push_back(make_words(text("dispatch of round ", round), 3,
@@ -96,7 +96,7 @@ void add_rounds_pass(RenderGraph &r_graph, const CountRounds &p_rounds, Pipeline
 				PassBinding::write(COUNT_BINDING_ROUND, p_rounds.slots[round % 2], update));
 		bindings.push_back(PassBinding::write(
 				COUNT_BINDING_NEXT_ROUND, p_rounds.slots[(round + 1) % 2], update));
-		const shader::CountBlockPush push = { EDGE_COUNT_BLOCKS_UNLISTED, /*first_block=*/0,
+		const shader::CountLeafPush push = { EDGE_COUNT_LEAVES_UNLISTED, /*first_leaf=*/0,
 			/*nearest_w=*/0.0f, round };
 		steps.push_back({ .pipeline = p_pipeline,
 				.bindings = std::move(bindings),

@@ -21,8 +21,8 @@ struct CountRoundLimits {
 };
 /// p_size_px: of the image. p_edge_count: number of edges of the casters. p_sample_set_count: sets
 /// of 64 points on the light, 1 or 4.
-CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_view_count,
-		uint32_t p_edge_count, uint32_t p_subgroup_size, uint32_t p_sample_set_count);
+CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_edge_count,
+		uint32_t p_subgroup_size, uint32_t p_sample_set_count);
 
 /// The buffers of all rounds of a light.
 struct CountRounds {

@@ -26,18 +26,6 @@ double compute_disc_radius(const LightSnapshot &p_light, const SceneSnapshot &p_
 	return 0.5 * (outer + inner);
 }
 
-/// Returns edge_count_map_size if it is -1. Large faces have an entry in each texel that they
-/// cover, in each of an omni light's maps, which together serve no more pixels than one spot
-/// light's.
-uint32_t derive_map_size(const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
-	const uint64_t MAX_FEW_TRIANGLES = 20'000;
-	uint64_t triangle_count = 0;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		triangle_count += instance.casts_shadow ? instance.caster_mesh->get_triangle_count() : 0;
-	}
-	return p_light.type == LightType::OMNI && triangle_count <= MAX_FEW_TRIANGLES ? 128 : 256;
-}
-
 } // namespace
 
 void add_count_properties(PropertyList &r_list) {
@@ -46,22 +34,19 @@ void add_count_properties(PropertyList &r_list) {
 			"Points of the light that are counted where several casters overlap. More have finer "
 			"steps there and cost time.",
 			"", group });
-	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(-1), "16,1024,16",
-			"Width and height of each map whose texels list the faces above them. It changes time "
-			"and memory, and the mask only by rounding: more texels have shorter lists. -1: 128 "
-			"for an omni light, whose six maps share the image, if at most 20,000 triangles cast "
-			"shadows, else 256.",
-			"px", group, /*special=*/"-1", "derived" });
 	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(-1), "0,65536,1",
-			"Edges that one block of 8 x 8 pixels may have. Blocks with more are filtered with 64 "
-			"taps, which is faster and less exact. -1: no limit; 0: every block that has an edge "
-			"is filtered.",
+			"Edges that one block of 8 x 8 pixels may have. What has more is filtered with 64 "
+			"taps, which is faster and less exact. -1: no limit; 0: all that has an edge is "
+			"filtered.",
 			"", group, /*special=*/"-1", "no limit" });
 	r_list.add({ "edge_count_interpolation", PropertyType::FLOAT, 0.5, "0,1,0.01",
 			"Where the image of every edge on the light moves by no more than this share of the "
 			"light's radius within a block of 8 x 8 pixels, 16 of these are counted and the others "
 			"interpolated. More is faster and less exact; 0: each pixel is counted.",
 			"", group });
+	r_list.add_removed({ "edge_count_map_size",
+			"There are no maps any more: faces are found in a tree, at the same cost "
+			"everywhere." });
 	r_list.add_removed(
 			{ "edge_count_layers", "All solids in front of the light are counted exactly." });
 }
@@ -71,9 +56,6 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 	CountSettings settings;
 	settings.sample_count =
 			std::get<std::string>(p_properties.at("edge_count_quality")) == "256" ? 256 : 64;
-	const int64_t map_size = std::get<int64_t>(p_properties.at("edge_count_map_size"));
-	settings.map_size_px =
-			map_size < 0 ? derive_map_size(p_light, p_scene) : static_cast<uint32_t>(map_size);
 	settings.interpolation =
 			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
@@ -83,26 +65,15 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 }
 
 shader::CountLightConstants make_count_light_constants(
-		const std::vector<LightView> &p_views, double p_disc_radius, double p_scene_size_m) {
+		const LightView &p_view, double p_disc_radius, double p_scene_size_m) {
 	shader::CountLightConstants constants = {};
-	const LightView &first = p_views.front();
-	const glm::dmat3 light_from_world(first.view_from_world);
-	for (size_t index = 0; index < p_views.size(); ++index) {
-		const LightView &view = p_views[index];
-		const glm::dmat3 light_from_view =
-				light_from_world * glm::transpose(glm::dmat3(view.view_from_world));
-		constants.views[index] = { glm::vec4(glm::vec3(light_from_view[0]), 0.0f),
-			glm::vec4(glm::vec3(light_from_view[1]), 0.0f),
-			glm::vec4(glm::vec3(light_from_view[2]), 0.0f), view.half_extent, view.size_px };
-	}
-	const double depth_range_m = double(first.far_m) - first.near_m;
+	const double depth_range_m = double(p_view.far_m) - p_view.near_m;
 	constants.disc_radius = static_cast<float>(p_disc_radius);
-	constants.depth_far_m = first.far_m;
+	constants.depth_far_m = p_view.far_m;
 	constants.scene_size_m = static_cast<float>(p_scene_size_m);
 	constants.nearer_tolerance = static_cast<float>(NEARER_TOLERANCE *
-			(first.is_orthographic ? std::max(p_scene_size_m, depth_range_m / DEPTH_RANGE_DIVISOR)
-								   : 1.0));
-	constants.view_count = static_cast<uint32_t>(p_views.size());
+			(p_view.is_orthographic ? std::max(p_scene_size_m, depth_range_m / DEPTH_RANGE_DIVISOR)
+									: 1.0));
 	return constants;
 }
 

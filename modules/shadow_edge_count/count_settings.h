@@ -9,8 +9,7 @@ namespace gnomon {
 /// Settings of the technique for one light, from its light properties.
 struct CountSettings {
 	uint32_t sample_count = 64;				// points of the light: 64 or 256
-	uint32_t map_size_px = 256;				// width and height of each view's map of face lists
-	uint32_t budget = EDGE_COUNT_NO_BUDGET; // maximum number of edges of one block of pixels
+	uint32_t budget = EDGE_COUNT_NO_BUDGET; // maximum number of edges of one leaf
 	float interpolation = 0; // maximum motion of an edge's projection onto the disc, see
 							 // CountLightConstants
 	/// R: the mean of the light's two penumbra widths in metres, by default its radius.
@@ -28,10 +27,9 @@ void add_count_properties(PropertyList &r_list);
 CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues &p_properties);
 
-/// The light's constants that every pass over its views and pixels reads. Image sizes and
-/// capacities stay 0. All views must look from the light's centre, so that they differ from the
-/// first only by a rotation (directional: there is one view). p_disc_radius: as in CountSettings.
+/// The light's constants that every pass reads. Image sizes and capacities stay 0. p_view: its
+/// first view. p_disc_radius: as in CountSettings.
 shader::CountLightConstants make_count_light_constants(
-		const std::vector<LightView> &p_views, double p_disc_radius, double p_scene_size_m);
+		const LightView &p_view, double p_disc_radius, double p_scene_size_m);
 
 } // namespace gnomon

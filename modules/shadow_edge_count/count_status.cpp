@@ -9,9 +9,9 @@ namespace gnomon {
 
 namespace {
 
-/// By bit of a fault: kinds of blocks that are resolved, then EDGE_COUNT_PASS_LIST_BLOCKS.
+/// By bit of a fault: kinds of leaves that are resolved, then EDGE_COUNT_PASS_LIST_LEAVES.
 const char *const PASS_NAMES[] = { "resolve dark", "resolve plain", "resolve",
-	"resolve without lists", "filter", "resolve smooth", "list blocks" };
+	"resolve without lists", "filter", "resolve smooth", "list leaves" };
 
 struct FaultKind {
 	uint32_t bits;
@@ -23,9 +23,9 @@ const FaultKind FAULT_KINDS[] = {
 	{ EDGE_COUNT_FAULT_LOOP, "the driver ended a loop before all edges were counted",
 			"Make the light smaller, let fewer casters cast shadows, or set edge_count_budget; on "
 			"llvmpipe an invocation makes at most 65535 iterations." },
-	{ EDGE_COUNT_FAULT_FACE_LIST, "a list of faces has no end, or an index out of range",
+	{ EDGE_COUNT_FAULT_TREE, "a walk through a tree of faces or edges has no end",
 			"Please report it with the scene and the device; another shadow_technique avoids it." },
-	{ EDGE_COUNT_FAULT_EDGE_LIST, "a list of edges has no end, or an index out of range",
+	{ EDGE_COUNT_FAULT_LIST, "a list of faces or edges has an index out of range",
 			"Please report it with the scene and the device; another shadow_technique avoids it." },
 };
 
@@ -70,6 +70,7 @@ void CountStatus::get_counters(std::vector<WorkCounter> &r_counters) const {
 	if (latest->words) {
 		r_counters.push_back({ "listed_edges", (*latest->words)[EDGE_COUNT_STATUS_LISTED_EDGES] });
 		r_counters.push_back({ "longest_list", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_LIST] });
+		r_counters.push_back({ "rays", (*latest->words)[EDGE_COUNT_STATUS_RAYS] });
 	}
 }
 

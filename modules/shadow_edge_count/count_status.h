@@ -13,12 +13,12 @@
 
 namespace gnomon {
 
-/// What the passes over blocks reported of themselves: faults, and counts of their work. Read back
+/// What the passes over leaves reported of themselves: faults, and counts of their work. Read back
 /// without waiting, so it is that of a frame whose submission has finished.
 class CountStatus {
 public:
-	/// Adds a pass that reads p_status (EDGE_COUNT_STATUS_*) back. When the values arrive, each kind
-	/// of fault of each pass is logged once (log_fault), with the light's name.
+	/// Adds a pass that reads p_status (EDGE_COUNT_STATUS_*) back. When the values arrive, each
+	/// kind of fault of each pass is logged once (log_fault), with the light's name.
 	void add_read_back(RenderGraph &r_graph, RGBuffer p_status, const std::string &p_light);
 	/// Appends the counts of the newest frame that was read back, if any.
 	void get_counters(std::vector<WorkCounter> &r_counters) const;

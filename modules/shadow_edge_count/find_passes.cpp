@@ -144,45 +144,39 @@ void add_edge_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 					PassBinding::read(FIND_BINDING_BLOCKS, buffers.blocks),
 					PassBinding::write(FIND_BINDING_EDGES, buffers.edges, Content::UPDATE),
 					PassBinding::write(FIND_BINDING_TOTALS, buffers.totals, Content::UPDATE) });
-	add_compute_pass(r_graph, "bound edges",
-			p_device.get_compute_pipeline({ "bound edges",
-					choose_fetching_shader(p_device, "shadow_edge_count/bound_edges.comp"),
-					/*constants=*/{} }),
-			{ PassBinding::constants(FIND_BINDING_LIGHT, p_passes.constants),
-					PassBinding::read(FIND_BINDING_EDGES, buffers.edges),
-					PassBinding::read(FIND_BINDING_FACES, buffers.faces),
-					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
-					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
-			{ p_passes.capacities.get_bundle_count(), 1, 1 });
-	add_compute_pass(r_graph, "bound bundles",
-			p_device.get_compute_pipeline(
-					{ "bound bundles", "shadow_edge_count/bound_bundles.comp", /*constants=*/{} }),
-			{ PassBinding::constants(FIND_BINDING_LIGHT, p_passes.constants),
-					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
-					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
-			{ p_passes.capacities.get_bundle_group_count(), 1, 1 });
 }
 
-struct FaceRange {
-	uint32_t first = 0;
-	uint32_t count = 0;
-};
-
-/// The faces of the casters that a view may see, as ranges of consecutive faces.
-std::vector<FaceRange> find_seen_faces(const CountCasters &p_casters, uint32_t p_view_index) {
-	std::vector<FaceRange> ranges;
-	for (const CountCaster &caster : p_casters.casters) {
-		if ((caster.views & 1u << p_view_index) == 0) {
-			continue;
-		}
-		if (!ranges.empty() &&
-				ranges.back().first + ranges.back().count == caster.record.first_face) {
-			ranges.back().count += caster.face_count;
-		} else {
-			ranges.push_back({ caster.record.first_face, caster.face_count });
-		}
+/// Adds a pass that finds the bounds of clusters and nodes, of all faces and edges.
+void add_bound_pass(
+		RenderGraph &r_graph, RenderingDevice &p_device, const CountFindPasses &p_passes) {
+	const CountFrameBuffers buffers = p_passes.buffers;
+	const CountCapacities &capacities = p_passes.capacities;
+	const uint32_t item_count = std::max(capacities.face_count, capacities.edge_count);
+	const std::vector<PassBinding> bindings = { PassBinding::constants(
+														FIND_BINDING_LIGHT, p_passes.constants),
+		PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
+		PassBinding::write(FIND_BINDING_NODES, buffers.nodes, Content::UPDATE) };
+	std::vector<PassBinding> cluster_bindings = bindings;
+	cluster_bindings.push_back(PassBinding::read(FIND_BINDING_EDGES, buffers.edges));
+	cluster_bindings.push_back(PassBinding::read(FIND_BINDING_FACES, buffers.faces));
+	const auto get_pipeline = [&](const std::string &p_shader) {
+		return p_device.get_compute_pipeline({ p_shader, p_shader, /*constants=*/{} });
+	};
+	std::vector<ComputeStep> steps;
+	const uint32_t tree_count = 2;
+	steps.push_back({ .pipeline = get_pipeline(choose_fetching_shader(
+							  p_device, "shadow_edge_count/bound_clusters.comp")),
+			.bindings = std::move(cluster_bindings),
+			.item_count = { count_nodes(item_count, 0), 1, tree_count } });
+	const uint32_t levels_per_step = 3;
+	for (uint32_t level = 1; count_nodes(item_count, level - 1) > EDGE_COUNT_NODE_WIDTH;
+			level += levels_per_step) {
+		steps.push_back({ .pipeline = get_pipeline("shadow_edge_count/bound_nodes.comp"),
+				.bindings = bindings,
+				.push = make_push_bytes(shader::CountBoundPush{ level, 0, 0, 0 }),
+				.item_count = { count_nodes(item_count, level), 1, tree_count } });
 	}
-	return ranges;
+	add_compute_steps(r_graph, "bound clusters", std::move(steps));
 }
 
 } // namespace
@@ -202,12 +196,8 @@ void add_find_passes(
 		return work;
 	};
 	const CasterWork face_work = add_work(CasterItems::FACES, /*p_is_moved_only=*/true);
-	CasterWork marked;
-	CasterWork listed;
-	if (p_passes.has_edges) {
-		marked = add_work(CasterItems::WORDS, /*p_is_moved_only=*/true);
-		listed = add_work(CasterItems::WORDS, /*p_is_moved_only=*/false);
-	}
+	const CasterWork marked = add_work(CasterItems::WORDS, /*p_is_moved_only=*/true);
+	const CasterWork listed = add_work(CasterItems::WORDS, /*p_is_moved_only=*/false);
 	if (!groups.empty()) {
 		CasterBuffers inputs;
 		upload_casters(r_graph, p_device, casters, groups,
@@ -224,94 +214,22 @@ void add_find_passes(
 		if (listed.group_count > 0) {
 			inputs.mesh_edges = r_graph.import_buffer(meshes.get_edges().get());
 		}
-		if (p_passes.has_edges) {
-			add_edge_passes(r_graph, p_device, p_passes, inputs, marked, listed);
-		}
+		add_edge_passes(r_graph, p_device, p_passes, inputs, marked, listed);
 	}
+	add_bound_pass(r_graph, p_device, p_passes);
 	if (p_passes.capacities.cut_face_count > 0) {
 		add_compute_pass(r_graph, "list cut faces",
 				p_device.get_compute_pipeline({ "list cut faces",
 						choose_fetching_shader(p_device, "shadow_edge_count/list_cut_faces.comp"),
 						/*constants=*/{} }),
-				{ PassBinding::constants(FACE_LIST_BINDING_LIGHT, p_passes.constants),
-						PassBinding::read(FACE_LIST_BINDING_FACES, buffers.faces),
+				{ PassBinding::constants(CUT_FACES_BINDING_LIGHT, p_passes.constants),
+						PassBinding::read(CUT_FACES_BINDING_FACES, buffers.faces),
 						PassBinding::write(
-								FACE_LIST_BINDING_TOTALS, buffers.totals, Content::UPDATE),
+								CUT_FACES_BINDING_TOTALS, buffers.totals, Content::UPDATE),
 						PassBinding::write(
-								FACE_LIST_BINDING_CUT_FACES, buffers.cut_faces, Content::UPDATE) },
+								CUT_FACES_BINDING_LIST, buffers.cut_faces, Content::UPDATE) },
 				{ 1, 1, 1 });
 	}
-}
-
-void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
-		const CountFindPasses &p_passes, uint32_t p_view_index) {
-	// Each further attempt chooses larger texels from the node count of the previous one. The last
-	// attempt uses a single texel.
-	const uint32_t attempt_count = p_passes.may_overflow ? 5 : 1;
-	const CountFrameBuffers buffers = p_passes.buffers;
-	const std::string view = text(" view ", p_view_index);
-	const auto get_pipeline = [&](const std::string &p_shader) {
-		return p_device.get_compute_pipeline({ p_shader, p_shader,
-				{ { EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, p_passes.is_directional ? 1u : 0u } } });
-	};
-	const PipelineRID clear = get_pipeline("shadow_edge_count/clear_faces.comp");
-	const PipelineRID list =
-			get_pipeline(choose_fetching_shader(p_device, "shadow_edge_count/list_faces.comp"));
-	const PassBinding constants =
-			PassBinding::constants(FACE_LIST_BINDING_LIGHT, p_passes.constants);
-	const PassBinding totals =
-			PassBinding::write(FACE_LIST_BINDING_TOTALS, buffers.totals, Content::UPDATE);
-	const PassBinding heads =
-			PassBinding::write(FACE_LIST_BINDING_HEADS, buffers.heads, Content::UPDATE);
-	const std::vector<PassBinding> clear_bindings = { constants, heads, totals };
-	const std::vector<PassBinding> list_bindings = { constants,
-		PassBinding::read(FACE_LIST_BINDING_FACES, buffers.faces), heads,
-		PassBinding::write(FACE_LIST_BINDING_NODES, buffers.nodes, Content::UPDATE), totals };
-	const auto make_push = [&](uint32_t p_attempt) {
-		return shader::CountFaceListPush{ p_view_index, /*first_face=*/0,
-			p_passes.capacities.face_count, /*is_first=*/p_attempt == 0 ? 1u : 0u,
-			/*is_next_final=*/p_attempt + 2 == attempt_count ? 1u : 0u,
-			p_passes.may_overflow ? 1u : 0u, /*padding0=*/0, /*padding1=*/0 };
-	};
-	add_compute_pass(r_graph, "clear faces" + view, clear, clear_bindings,
-			{ p_passes.capacities.texels_per_view, 1, 1 }, make_push_bytes(make_push(0)));
-	PassBuilder pass = r_graph.add_pass("list faces" + view);
-	declare_bindings(pass, list_bindings);
-	pass.execute([list, list_bindings, push = make_push(0),
-						 ranges = find_seen_faces(p_passes.casters, p_view_index)](
-						 PassContext &p_context) {
-		bind_compute(p_context, list, list_bindings, {});
-		for (const FaceRange &range : ranges) {
-			shader::CountFaceListPush range_push = push;
-			range_push.first_face = range.first;
-			range_push.face_count = range.count;
-			p_context.commands.push_constants(range_push);
-			p_context.commands.dispatch_items({ range.count, 1, 1 });
-		}
-	});
-	std::vector<ComputeStep> steps;
-	for (uint32_t attempt = 1; attempt < attempt_count; ++attempt) {
-		const RGBuffer dispatches = r_graph.create_buffer(
-				{ "face list dispatches", FACE_LIST_DISPATCH_WORDS * sizeof(uint32_t),
-						BufferUsage::STORAGE | BufferUsage::INDIRECT });
-		steps.push_back({ .pipeline = get_pipeline("shadow_edge_count/retry_faces.comp"),
-				.bindings = { constants, totals,
-						PassBinding::write(FACE_LIST_BINDING_DISPATCHES, dispatches) },
-				.push = make_push_bytes(make_push(attempt - 1)),
-				.item_count = { 1, 1, 1 } });
-		const std::vector<uint8_t> push = make_push_bytes(make_push(attempt));
-		steps.push_back({ .pipeline = clear,
-				.bindings = clear_bindings,
-				.push = push,
-				.arguments = dispatches,
-				.arguments_offset_bytes = FACE_LIST_DISPATCH_CLEAR * sizeof(uint32_t) });
-		steps.push_back({ .pipeline = list,
-				.bindings = list_bindings,
-				.push = push,
-				.arguments = dispatches,
-				.arguments_offset_bytes = FACE_LIST_DISPATCH_LIST * sizeof(uint32_t) });
-	}
-	add_compute_steps(r_graph, "list faces again" + view, std::move(steps));
 }
 
 } // namespace gnomon

@@ -14,8 +14,8 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t BORDER_PX = 1;			 // for rounding of receivers at the edge of a view
-constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // for blocks over budget; as the default of pcss
+constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // for leaves over budget; as the default of pcss
+constexpr uint32_t BORDER_PX = 1;			 // of the filter, at the edge of a view
 
 void check_device(const ShadowTechnique::Inputs &p_inputs) {
 	if (!p_inputs.device.get_features().subgroup_operations) {
@@ -59,20 +59,17 @@ void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightS
 	const float margin_m = p_light.type == LightType::DIRECTIONAL
 			? 0.0f
 			: static_cast<float>(view_settings.disc_radius);
-	r_views = build_light_views(light, p_scene, view_settings.map_size_px, BORDER_PX, margin_m);
+	r_views = build_light_views(light, p_scene, DEPTH_MAP_SIZE_PX, BORDER_PX, margin_m);
 }
 
 void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	debug_image = {};
 	frame_depth_map = {};
-	constants = {};
 	are_casters_found = false;
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
-	const size_t view_count = p_inputs.views.size();
 	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius, order);
-	// A block may list the same edge once per view.
-	may_filter = settings.has_budget() &&
-			(uint64_t(casters.edge_count) * view_count > settings.budget || !p_inputs.may_skip);
+	may_filter =
+			settings.has_budget() && (casters.edge_count > settings.budget || !p_inputs.may_skip);
 	// Only the filter reads views other than that of the receiver.
 	views.begin(p_inputs,
 			may_filter ? CachedViews::FilterReach::ADJACENT_VIEWS
@@ -88,9 +85,8 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		return;
 	}
 	check_device(p_inputs);
-	const CountCapacities capacities = choose_capacities(
-			static_cast<uint32_t>(view_count), p_inputs.views[0].size_px, casters);
-	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, capacities) &&
+	const bool has_content =
+			buffers.prepare(p_inputs.device, p_inputs.light.name, choose_capacities(casters)) &&
 			cached.disc_radius == settings.disc_radius && cached.casters.has_layout_of(casters) &&
 			(!may_filter || cached.has_depth_map);
 	if (has_content && p_inputs.may_skip && p_inputs.may_reuse &&
@@ -109,7 +105,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		cached.casters = std::move(casters);
 		plan_casters(r_plan);
 	}
-	plan_blocks(r_plan);
+	plan_filter(r_plan);
 }
 
 void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
@@ -141,26 +137,19 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	} else if (cached.disc_radius > 0) {
 		r_plan.skip("faces that cut the light's disc", "no caster comes so near to its centre");
 	}
-	if (!do_face_lists_fit()) {
-		r_plan.run("face lists again with larger texels, if a list overflows");
-	}
 }
 
-void ShadowEdgeCount::plan_blocks(TechniquePlan &r_plan) {
+void ShadowEdgeCount::plan_filter(TechniquePlan &r_plan) {
 	if (!settings.has_budget()) {
-		r_plan.skip("filter", "edge_count_budget is -1: no block has too many edges");
+		r_plan.skip("filter", "edge_count_budget is -1: nothing has too many edges");
 		return;
 	}
-	const std::string pass = text("filter where a block has more than ", settings.budget, " edges");
+	const std::string pass = text("filter where there are more than ", settings.budget, " edges");
 	if (may_filter) {
 		r_plan.run(pass);
 	} else {
 		r_plan.skip(pass, text("all casters together have ", cached.casters.edge_count));
 	}
-}
-
-bool ShadowEdgeCount::do_face_lists_fit() const {
-	return cached.casters.max_nodes_per_view <= buffers.get_capacities().nodes_per_view;
 }
 
 void ShadowEdgeCount::at_light_view(
@@ -169,35 +158,21 @@ void ShadowEdgeCount::at_light_view(
 	if (!has_casters) {
 		return;
 	}
-	if (!constants) {
-		constants = r_graph.upload_constants("counted views",
-				make_block_constants(
-						p_inputs, settings, buffers.get_capacities(), /*p_empty_views=*/0));
-	}
-	const CountFindPasses passes = { cached.casters, p_inputs.meshes.get_shared<CountMeshPools>(),
-		buffers.get_capacities(), buffers.import(r_graph), constants,
-		p_inputs.views.front().is_orthographic,
-		/*has_edges=*/settings.disc_radius > 0,
-		/*may_overflow=*/!do_face_lists_fit() || !p_inputs.may_skip };
 	if (!are_casters_found) {
-		add_find_passes(r_graph, p_inputs.device, passes);
+		add_find_passes(r_graph, p_inputs.device,
+				{ cached.casters, p_inputs.meshes.get_shared<CountMeshPools>(),
+						buffers.get_capacities(), buffers.import(r_graph),
+						r_graph.upload_constants("counted casters",
+								make_leaf_constants(p_inputs, settings, buffers.get_capacities(),
+										/*p_empty_views=*/0)),
+						p_inputs.views.front().is_orthographic });
 		are_casters_found = true;
 	}
-	add_face_list_passes(r_graph, p_inputs.device, passes, p_view_index);
 	if (may_filter) {
-		const std::vector<LightView> depth_views = build_depth_views(p_inputs);
 		add_depth_pass(r_graph, text("depth view ", p_view_index), p_inputs,
-				depth_views[p_view_index], p_inputs.casters[p_view_index],
+				p_inputs.views[p_view_index], p_inputs.casters[p_view_index],
 				import_depth_map(r_graph, p_inputs), p_view_index);
 	}
-}
-
-std::vector<LightView> ShadowEdgeCount::build_depth_views(const Inputs &p_inputs) const {
-	std::vector<LightView> depth_views(p_inputs.views.begin(), p_inputs.views.end());
-	for (LightView &view : depth_views) {
-		view.size_px = glm::uvec2(DEPTH_MAP_SIZE_PX);
-	}
-	return depth_views;
 }
 
 RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs) {
@@ -248,20 +223,19 @@ RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 			empty_views == ~0u >> (32 - p_inputs.views.size())) {
 		return add_constant_mask(r_graph, p_inputs.size_px, /*p_visibility=*/1.0f);
 	}
-	CountBlockPasses passes = { p_inputs, settings, buffers.import(r_graph),
+	CountLeafPasses passes = { p_inputs, settings, buffers.import(r_graph),
 		buffers.get_capacities(), empty_views, import_masks(r_graph, p_inputs),
-		/*depth_map=*/{}, /*depth_views=*/{} };
+		/*depth_map=*/{} };
 	if (may_filter) {
 		passes.depth_map = import_depth_map(r_graph, p_inputs);
-		passes.depth_views = build_depth_views(p_inputs);
 	}
-	const CountBlocks blocks = add_block_passes(r_graph, passes);
-	after_lists(r_graph, passes.light, blocks);
+	const CountLeaves leaves = add_leaf_passes(r_graph, passes);
+	after_lists(r_graph, passes.light, leaves);
 	if (p_inputs.wants_debug_views) {
-		debug_image = add_count_debug_pass(r_graph, passes, blocks);
+		debug_image = add_count_debug_pass(r_graph, passes, leaves);
 	}
-	const RGTexture mask = add_count_passes(r_graph, passes, blocks);
-	status.add_read_back(r_graph, blocks.status, p_inputs.light.name);
+	const RGTexture mask = add_count_passes(r_graph, passes, leaves);
+	status.add_read_back(r_graph, leaves.status, p_inputs.light.name);
 	return mask;
 }
 
@@ -270,22 +244,21 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 		r_views.push_back({ "edges", debug_image, glm::vec2(0.0f, 64.0f), EDGE_COUNT_DEBUG_EDGES });
 		r_views.push_back({ "solids", debug_image, glm::vec2(0.0f, 7.0f), EDGE_COUNT_DEBUG_SOLIDS,
 				/*class_count=*/8 });
-		r_views.push_back({ "blocks", debug_image, glm::vec2(0.0f, 5.0f), EDGE_COUNT_DEBUG_BLOCKS,
-				EDGE_COUNT_BLOCK_KINDS });
+		r_views.push_back({ "leaves", debug_image, glm::vec2(0.0f, 5.0f), EDGE_COUNT_DEBUG_LEAVES,
+				EDGE_COUNT_LEAF_KINDS });
 	}
 }
 
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
-	for (const char *name : { "bound_bundles.comp", "clear_faces.comp", "retry_faces.comp",
-				 "receiver_boxes.comp", "resolve_dark.comp", "filter_blocks.comp" }) {
+	for (const char *name : { "bound_nodes.comp", "resolve_dark.comp", "filter_leaves.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
-				 "bound_edges.comp", "list_cut_faces.comp", "list_faces.comp", "list_blocks.comp",
-				 "resolve_plain.comp", "resolve_smooth.comp", "resolve_smooth_fine.comp",
-				 "resolve.comp", "resolve_fine.comp", "resolve_unfinished.comp",
-				 "resolve_unfinished_fine.comp", "debug.comp" }) {
+				 "bound_clusters.comp", "list_cut_faces.comp", "find_leaves.comp",
+				 "list_leaves.comp", "resolve_plain.comp", "resolve_smooth.comp",
+				 "resolve_smooth_fine.comp", "resolve.comp", "resolve_fine.comp",
+				 "resolve_unfinished.comp", "resolve_unfinished_fine.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 		files.push_back(get_storage_variant(files.back()));
 	}

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/shadow_edge_count/block_passes.h"
 #include "modules/shadow_edge_count/count_status.h"
+#include "modules/shadow_edge_count/leaf_passes.h"
 #include "modules/shadows/cached_views.h"
 
 #include <vector>
@@ -33,10 +33,10 @@ public:
 	std::vector<std::string> get_shader_files() const override;
 
 protected:
-	/// Called between the passes that write the lists of blocks and those that read them. Tests
+	/// Called between the passes that write the lists of leaves and those that read them. Tests
 	/// damage lists here.
 	virtual void after_lists(RenderGraph & /*r_graph*/, const CountFrameBuffers & /*p_light*/,
-			const CountBlocks & /*p_blocks*/) {}
+			const CountLeaves & /*p_leaves*/) {}
 
 private:
 	/// The light and casters for which the buffers were last filled.
@@ -48,13 +48,10 @@ private:
 	};
 
 	void plan_casters(TechniquePlan &r_plan);
-	void plan_blocks(TechniquePlan &r_plan);
-	/// True if the face lists of each view are certain to fit.
-	bool do_face_lists_fit() const;
+	void plan_filter(TechniquePlan &r_plan);
 	RGBuffer import_masks(RenderGraph &r_graph, const Inputs &p_inputs);
-	/// The depth map for blocks over budget; one texture array for all views.
+	/// The depth map for leaves over budget; one texture array for all views.
 	RGTexture import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs);
-	std::vector<LightView> build_depth_views(const Inputs &p_inputs) const;
 
 	CasterOrder order;
 	CountBuffers buffers;
@@ -68,9 +65,8 @@ private:
 	// State of this frame.
 	CountSettings settings;
 	bool has_casters = false;		// some caster has faces
-	bool may_filter = false;		// blocks may have more edges than the budget
+	bool may_filter = false;		// leaves may have more edges than the budget
 	bool are_casters_found = false; // the passes of add_find_passes were added
-	RGBuffer constants;				// CountLightConstants, for the passes of find_passes.h
 	RGTexture frame_depth_map;
 	RGTexture debug_image;
 };

@@ -1,4 +1,4 @@
-// Tests whether an edge may matter to any receiver of a box, for the lists of blocks and for the subgroups of a
+// Tests whether an edge may matter to any receiver of a box, for the lists of leaves and for the subgroups of a
 // resolve. It never rejects an edge that contributes.
 //
 // A point q of an edge that hides the point Y of the light's disc from a receiver P is at q = (1 - d) P + d Y, with
@@ -13,7 +13,33 @@
 
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-/// Bounds of receivers in one view, see CountBlockBox. Empty if the lower bound of x' exceeds the upper one.
+/// The axes of a leaf in light space, see CountLeaf.
+struct CountFrame {
+	vec3 x;
+	vec3 y;
+	vec3 z;
+};
+
+/// The frame with this z axis (unit), from the light to the receivers. (Duff et al. 2017, "Building an Orthonormal
+/// Basis, Revisited", listing 3.) A directional light has the axes of light space.
+CountFrame make_count_frame(vec3 p_axis) {
+	if (IS_DIRECTIONAL) {
+		return CountFrame(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
+	}
+	const float sign_z = p_axis.z >= 0.0 ? 1.0 : -1.0;
+	const float a = -1.0 / (sign_z + p_axis.z);
+	const float b = p_axis.x * p_axis.y * a;
+	return CountFrame(vec3(1.0 + sign_z * p_axis.x * p_axis.x * a, sign_z * b, -sign_z * p_axis.x),
+			vec3(b, sign_z + p_axis.y * p_axis.y * a, -p_axis.y), p_axis);
+}
+
+/// (x', y', w) of a point in light space. Its z must be above 0, except for a directional light.
+vec3 warp_to_frame(CountFrame p_frame, float p_depth_far_m, vec3 p_point) {
+	const vec3 r = vec3(dot(p_frame.x, p_point), dot(p_frame.y, p_point), dot(p_frame.z, p_point));
+	return IS_DIRECTIONAL ? vec3(r.xy, p_depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;
+}
+
+/// Bounds of receivers in one frame, see CountLeaf. Empty if the lower bound of x' exceeds the upper one.
 struct CountBounds {
 	vec2 minimum;	   // of (x', y')
 	vec2 maximum; // of (x', y')
@@ -40,7 +66,7 @@ void add_to_bounds(vec3 p_warped, bool p_is_selected, inout CountBounds r_bounds
 	r_bounds.w_range.y = p_is_selected ? max(r_bounds.w_range.y, p_warped.z) : r_bounds.w_range.y;
 }
 
-/// Replaces the plane by one across the view if that has the narrower range. A plane that the light sees nearly edge-on
+/// Replaces the plane by one across the frame's axis if that has the narrower range. A plane that the light sees nearly edge-on
 /// is steep, and a range about it says little about the receivers.
 CountBounds choose_flatter(CountBounds p_bounds) {
 	const bool is_flat = p_bounds.range.y - p_bounds.range.x <= p_bounds.w_range.y - p_bounds.w_range.x;
@@ -54,44 +80,19 @@ bool is_count_bounds_empty(CountBounds p_bounds) {
 	return p_bounds.minimum.x > p_bounds.maximum.x;
 }
 
-/// The range of w - slope.(x', y') relative to another plane, with p_slope. p_bounds must not be empty.
-vec2 find_range_about(CountBounds p_bounds, vec2 p_slope) {
-	const vec2 change = p_bounds.slope - p_slope;
-	const float middle = dot(change, 0.5 * (p_bounds.minimum + p_bounds.maximum));
-	const float half_width = dot(abs(change), 0.5 * (p_bounds.maximum - p_bounds.minimum));
-	return p_bounds.range + vec2(middle - half_width, middle + half_width);
+CountBounds unpack_count_bounds(CountLeaf p_leaf) {
+	return CountBounds(p_leaf.min_max.xy, p_leaf.min_max.zw, p_leaf.slope_range.xy, p_leaf.slope_range.zw,
+			vec2(p_leaf.minimum_w.w, p_leaf.maximum_w.w));
 }
 
-/// Joins bounds in the same view. The range is relative to the plane of p_one, or of p_other if p_one is empty.
-CountBounds join_count_bounds(CountBounds p_one, CountBounds p_other) {
-	if (is_count_bounds_empty(p_one)) {
-		return p_other;
-	}
-	const bool is_empty = is_count_bounds_empty(p_other);
-	const vec2 range = find_range_about(p_other, p_one.slope);
-	return CountBounds(min(p_one.minimum, p_other.minimum), max(p_one.maximum, p_other.maximum), p_one.slope,
-			is_empty ? p_one.range : vec2(min(p_one.range.x, range.x), max(p_one.range.y, range.y)),
-			vec2(min(p_one.w_range.x, p_other.w_range.x), max(p_one.w_range.y, p_other.w_range.y)));
-}
-
-CountBounds unpack_count_bounds(CountBlockBox p_box) {
-	return CountBounds(p_box.min_max.xy, p_box.min_max.zw, p_box.slope_range.xy, p_box.slope_range.zw,
-			p_box.w_range.xy);
-}
-
-CountBlockBox pack_count_bounds(CountBounds p_bounds) {
-	return CountBlockBox(vec4(p_bounds.minimum, p_bounds.maximum), vec4(p_bounds.slope, p_bounds.range),
-			vec4(p_bounds.w_range, 0.0, 0.0));
-}
-
-/// Receivers of one view, prepared for tests of edges in light space. q and d: see the head of this file.
+/// Receivers of one leaf, prepared for tests of edges in light space. q and d: see the head of this file.
 struct CountBox {
 	vec4 above;		 // d <= dot(above, (q, 1))
 	vec4 below;		 // d >= dot(below, (q, 1))
 	float smooth_fraction; // see find_smooth_fraction
 	vec4 outside[4]; // rejects q where dot(outside, (q, 1)) > 0
 	// Rectangle and plane of the receivers, for the fifth plane and for find_count_side.
-	CountViewConstants view;
+	CountFrame frame;
 	vec2 center;
 	vec2 half_size;
 	vec2 slope;
@@ -99,7 +100,8 @@ struct CountBox {
 	float radius; // R
 	float margin; // rounding error of distances from planes
 	float depth_far_m;
-	vec2 distances; // range of the distances of its parts, see EDGE_COUNT_CHAIN_DISTANCE; unlimited until it is set
+	float distance; // of the leaf, see CountLeaf
+	bool is_wide; // see EDGE_COUNT_LEAF_IS_WIDE: nothing is rejected
 };
 
 /// Upper bound of |normal.Y| for points Y of the discs of all receivers P that have normal.P >= p_min. Y is
@@ -110,8 +112,8 @@ float find_tilt(float p_radius, vec3 p_normal, float p_min, float p_longest) {
 }
 
 /// `above` of a point light: from the receivers' plane; if that is not flat or is tilted too much towards the disc,
-/// from a plane across the view; if that fails too, 1, which d never exceeds.
-vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds, vec2 p_w_range) {
+/// from a plane across the frame's axis; if that fails too, 1, which d never exceeds.
+vec4 find_above(float p_radius, CountFrame p_frame, CountBounds p_bounds, vec2 p_w_range) {
 	// At a height h above the receivers' plane, an edge is out of reach from R h / (1 - 2 tilt) on, in the direction in
 	// which the plane rises.
 	const float MAX_TILT = 0.25;
@@ -119,13 +121,13 @@ vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBou
 	const float min_w = p_w_range.x;
 	const float longest = min_w > 0.0 ? sqrt(1.0 + dot(far, far)) / min_w : 1e37;
 	// The receivers' plane w = slope.(x', y') + range.x is n.P = 1. No receiver has n.P > 1, so n.q <= 1 - d + d tilt.
-	const vec3 own_normal = p_bounds.slope.x * p_view.axis_x.xyz + p_bounds.slope.y * p_view.axis_y.xyz +
-			p_bounds.range.x * p_view.axis_z.xyz;
+	const vec3 own_normal = p_bounds.slope.x * p_frame.x + p_bounds.slope.y * p_frame.y +
+			p_bounds.range.x * p_frame.z;
 	const float own_min = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(min_w, 1e-37);
-	const float own_tilt = find_tilt(p_light.disc_radius, own_normal, own_min, longest);
-	const vec3 across_normal = min_w * p_view.axis_z.xyz;
+	const float own_tilt = find_tilt(p_radius, own_normal, own_min, longest);
+	const vec3 across_normal = min_w * p_frame.z;
 	const float across_tilt =
-			find_tilt(p_light.disc_radius, across_normal, min_w / max(p_w_range.y, 1e-37), longest);
+			find_tilt(p_radius, across_normal, min_w / max(p_w_range.y, 1e-37), longest);
 	if (min_w > 0.0 && own_tilt < MAX_TILT) {
 		return vec4(-own_normal, 1.0) / (1.0 - own_tilt);
 	}
@@ -136,14 +138,14 @@ vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBou
 }
 
 /// `below` of a point light: from the receivers' plane if possible, else a value below any d.
-vec4 find_below(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds, vec2 p_w_range) {
+vec4 find_below(float p_radius, CountFrame p_frame, CountBounds p_bounds, vec2 p_w_range) {
 	const vec2 far = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
 	const float longest = sqrt(1.0 + dot(far, far)) / max(p_w_range.x, 1e-37);
 	// As in find_above: n.P >= minimum for all receivers, so n.q >= (1 - d) minimum - d tilt.
-	const vec3 normal = p_bounds.slope.x * p_view.axis_x.xyz + p_bounds.slope.y * p_view.axis_y.xyz +
-			p_bounds.range.x * p_view.axis_z.xyz;
+	const vec3 normal = p_bounds.slope.x * p_frame.x + p_bounds.slope.y * p_frame.y +
+			p_bounds.range.x * p_frame.z;
 	const float minimum = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(p_w_range.x, 1e-37);
-	const float tilt = find_tilt(p_light.disc_radius, normal, minimum, longest);
+	const float tilt = find_tilt(p_radius, normal, minimum, longest);
 	return p_w_range.x > 0.0 && minimum > 0.0 ? vec4(-normal, minimum) / (minimum + tilt)
 											: vec4(vec3(0.0), -COUNT_FAR);
 }
@@ -165,45 +167,50 @@ float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds, ve
 }
 
 /// `above` of a directional light, whose d is in metres.
-vec4 find_above_directional(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
+vec4 find_above_directional(float p_radius, float p_depth_far_m, CountBounds p_bounds, vec2 p_w_range) {
 	const float MAX_TILT = 0.25; // see find_above
-	const float tilt = p_light.disc_radius * length(p_bounds.slope);
+	const float tilt = p_radius * length(p_bounds.slope);
 	return tilt < MAX_TILT
-			? vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.x) / (1.0 - tilt)
-			: vec4(0.0, 0.0, -1.0, p_light.depth_far_m - p_w_range.x);
+			? vec4(-p_bounds.slope, -1.0, p_depth_far_m - p_bounds.range.x) / (1.0 - tilt)
+			: vec4(0.0, 0.0, -1.0, p_depth_far_m - p_w_range.x);
 }
 
-CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds) {
+/// p_radius: R; 0 for tests of what may be between the receivers and the light's centre. p_distance: of the leaf.
+CountBox make_count_box(CountLightConstants p_light, float p_radius, CountFrame p_frame, CountBounds p_bounds,
+		float p_distance, bool p_is_wide) {
 	const float WIDENING = 1.0001; // for rounding of the centre
 	const float MARGIN = 2e-6;
 	CountBox box;
-	box.view = p_view;
+	box.frame = p_frame;
 	box.center = 0.5 * (p_bounds.minimum + p_bounds.maximum);
-	box.half_size = 0.5 * WIDENING * (p_bounds.maximum - p_bounds.minimum) + 1e-6 * abs(box.center);
+	// For rounding of the receivers' coordinates. Those of a point light are tangents of small angles.
+	const vec2 rounding = 1e-6 * (IS_DIRECTIONAL ? abs(box.center) : vec2(1.0) + abs(box.center));
+	box.half_size = 0.5 * WIDENING * (p_bounds.maximum - p_bounds.minimum) + rounding;
 	box.slope = p_bounds.slope;
 	box.range = 0.5 * vec2(p_bounds.range.x + p_bounds.range.y, WIDENING * (p_bounds.range.y - p_bounds.range.x));
-	box.radius = p_light.disc_radius;
+	box.radius = p_radius;
 	box.depth_far_m = p_light.depth_far_m;
+	box.distance = p_distance;
+	box.is_wide = p_is_wide;
 	const vec2 w_range = p_bounds.w_range;
 	const vec2 minimum = box.center - box.half_size;
 	const vec2 maximum = box.center + box.half_size;
-	const vec3 x = p_view.axis_x.xyz;
-	const vec3 y = p_view.axis_y.xyz;
-	const vec3 z = p_view.axis_z.xyz;
-	box.smooth_fraction = find_smooth_fraction(p_light, p_bounds, w_range);
-	box.distances = vec2(-COUNT_FAR, COUNT_FAR);
+	const vec3 x = p_frame.x;
+	const vec3 y = p_frame.y;
+	const vec3 z = p_frame.z;
+	box.smooth_fraction = p_is_wide ? COUNT_FAR : find_smooth_fraction(p_light, p_bounds, w_range);
 	if (IS_DIRECTIONAL) {
-		box.above = find_above_directional(p_light, p_bounds, w_range);
+		box.above = find_above_directional(p_radius, p_light.depth_far_m, p_bounds, w_range);
 		box.below = vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.y) /
-				(1.0 + p_light.disc_radius * length(p_bounds.slope));
+				(1.0 + p_radius * length(p_bounds.slope));
 		box.margin = MARGIN * (length(max(abs(minimum), abs(maximum))) + p_light.depth_far_m);
 		box.outside[0] = vec4(x, -maximum.x);
 		box.outside[1] = vec4(-x, minimum.x);
 		box.outside[2] = vec4(y, -maximum.y);
 		box.outside[3] = vec4(-y, minimum.y);
 	} else {
-		box.above = find_above(p_light, p_view, p_bounds, w_range);
-		box.below = find_below(p_light, p_view, p_bounds, w_range);
+		box.above = find_above(p_radius, p_frame, p_bounds, w_range);
+		box.below = find_below(p_radius, p_frame, p_bounds, w_range);
 		box.margin = MARGIN;
 		box.outside[0] = vec4((x - maximum.x * z) * inversesqrt(1.0 + maximum.x * maximum.x), 0.0);
 		box.outside[1] = vec4((minimum.x * z - x) * inversesqrt(1.0 + minimum.x * minimum.x), 0.0);
@@ -221,22 +228,25 @@ float find_linear(vec4 p_function, vec3 p_point) {
 	return dot(p_function.xyz, p_point) + p_function.w;
 }
 
-/// False if no edge of the bundle can matter to any receiver of the box.
-bool may_use_bundle(CountBox p_box, CountEdgeBundle p_bundle) {
-	const vec3 center = p_bundle.center_first_distance.xyz;
-	const vec3 half_size = p_bundle.half_size_end_distance.xyz;
-	bool may_use = p_box.distances.y >= p_bundle.center_first_distance.w &&
-			p_box.distances.x < p_bundle.half_size_end_distance.w &&
-			find_linear(p_box.above, center) + dot(abs(p_box.above.xyz), half_size) > 0.0;
+/// True if faces or edges of the node are of the level of detail that the box's receivers see.
+bool is_in_distance_range(CountBox p_box, CountNode p_node) {
+	return p_box.distance >= p_node.center_first_distance.w && p_box.distance < p_node.half_size_end_distance.w;
+}
+
+/// False if nothing in the node can be between a receiver of the box and a point of the disc that its radius describes.
+bool is_node_in_reach(CountBox p_box, CountNode p_node) {
+	const vec3 center = p_node.center_first_distance.xyz;
+	const vec3 half_size = p_node.half_size_end_distance.xyz;
+	bool is_in_reach = find_linear(p_box.above, center) + dot(abs(p_box.above.xyz), half_size) > -p_box.margin;
 	for (int i = 0; i < 4; ++i) {
-		may_use = may_use &&
-				find_linear(p_box.outside[i], center) - dot(abs(p_box.outside[i].xyz), half_size) <= 0.0;
+		is_in_reach = is_in_reach &&
+				find_linear(p_box.outside[i], center) - dot(abs(p_box.outside[i].xyz), half_size) <= p_box.margin;
 	}
-	return may_use;
+	return is_in_distance_range(p_box, p_node) && (is_in_reach || p_box.is_wide);
 }
 
 /// Lower bound of the distance of the box's receivers from the plane through the light's centre and an edge, divided by
-/// their distance along the view's axis (directional: in metres). 0 if they are on both sides.
+/// their distance along the frame's axis (directional: in metres). 0 if they are on both sides.
 float find_min_distance(CountBox p_box, vec3 p_a, vec3 p_b) {
 	const float MIN_SINE = 1e-4; // of the angle between p_a and p_b; below, rounding dominates the plane's normal
 	vec2 across;
@@ -250,8 +260,8 @@ float find_min_distance(CountBox p_box, vec3 p_a, vec3 p_b) {
 		const float square = dot(normal, normal);
 		const bool is_known = square > MIN_SINE * MIN_SINE * dot(p_a, p_a) * dot(p_b, p_b);
 		const vec3 unit = is_known ? normal * inversesqrt(max(square, 1e-37)) : vec3(0.0);
-		across = vec2(dot(unit, p_box.view.axis_x.xyz), dot(unit, p_box.view.axis_y.xyz));
-		middle = dot(across, p_box.center) + dot(unit, p_box.view.axis_z.xyz);
+		across = vec2(dot(unit, p_box.frame.x), dot(unit, p_box.frame.y));
+		middle = dot(across, p_box.center) + dot(unit, p_box.frame.z);
 	}
 	return max(abs(middle) - dot(abs(across), p_box.half_size) - p_box.margin, 0.0);
 }
@@ -271,12 +281,12 @@ bool is_edge_in_reach(CountBox p_box, vec3 p_a, vec3 p_b) {
 	}
 	const float side_distance = find_min_distance(p_box, a, b);
 	const vec2 widening = p_box.radius * max(vec2(above_a, above_b), 0.0);
-	const vec2 depth = vec2(dot(p_box.view.axis_z.xyz, a), dot(p_box.view.axis_z.xyz, b));
+	const vec2 depth = vec2(dot(p_box.frame.z, a), dot(p_box.frame.z, b));
 	// With n the unit normal of the fifth plane, which contains q: (1 - d) |n.P| = d |n.Y| <= d R. With h the distance
-	// of P along the view's axis: |n.P| >= h side_distance and (1 - d) h >= depth - d R. d R is at most the widening.
+	// of P along the frame's axis: |n.P| >= h side_distance and (1 - d) h >= depth - d R. d R is at most the widening.
 	const vec2 beyond = IS_DIRECTIONAL ? vec2(side_distance) - widening
 											 : (depth - widening) * side_distance - widening;
-	return is_in_reach && (beyond.x <= 0.0 || beyond.y <= 0.0);
+	return p_box.is_wide || (is_in_reach && (beyond.x <= 0.0 || beyond.y <= 0.0));
 }
 
 /// Lower bound of d where an edge hides something of the light from any receiver of the box. COUNT_FAR if it hides
@@ -297,17 +307,17 @@ float find_min_fraction(CountBox p_box, vec3 p_a, vec3 p_b) {
 	}
 	const float below_a = find_linear(p_box.below, p_a);
 	const float below_b = find_linear(p_box.below, p_b);
-	return interval.x <= interval.y
+	return p_box.is_wide ? -COUNT_FAR : interval.x <= interval.y
 			? min(mix(below_a, below_b, interval.x), mix(below_a, below_b, interval.y))
 			: COUNT_FAR;
 }
 
 /// +1 if all receivers are in front of the face's plane, -1 if all are behind it, else 0.
 int find_count_side(CountBox p_box, vec4 p_plane) {
-	// The plane's function n.P + c, linear in x', y' and w. Point lights: divided by P's distance along the view's
+	// The plane's function n.P + c, linear in x', y' and w. Point lights: divided by P's distance along the frame's
 	// axis.
-	const vec3 normal = vec3(dot(p_plane.xyz, p_box.view.axis_x.xyz), dot(p_plane.xyz, p_box.view.axis_y.xyz),
-			dot(p_plane.xyz, p_box.view.axis_z.xyz));
+	const vec3 normal = vec3(dot(p_plane.xyz, p_box.frame.x), dot(p_plane.xyz, p_box.frame.y),
+			dot(p_plane.xyz, p_box.frame.z));
 	const float per_w = IS_DIRECTIONAL ? -normal.z : p_plane.w;
 	const float constant = IS_DIRECTIONAL ? normal.z * p_box.depth_far_m + p_plane.w : normal.z;
 	const vec2 change = normal.xy + per_w * p_box.slope;
@@ -315,16 +325,34 @@ int find_count_side(CountBox p_box, vec4 p_plane) {
 	const float w = dot(abs(p_box.slope), abs(p_box.center) + p_box.half_size) + abs(p_box.range.x) + p_box.range.y;
 	const float size = IS_DIRECTIONAL ? 1.0 : 1.0 + abs(per_w) * w; // of the terms, for their rounding
 	const float reach = dot(abs(change), p_box.half_size) + abs(per_w) * p_box.range.y + p_box.margin * size;
-	return side > reach ? 1 : (side < -reach ? -1 : 0);
+	return p_box.is_wide ? 0 : (side > reach ? 1 : (side < -reach ? -1 : 0));
+}
+
+/// True if the face may cross the way between two receivers of the box, whose radius must be 0.
+bool is_local_face(CountBox p_box, CountFaceRecord p_face, vec4 p_plane) {
+	const vec3 a = uintBitsToFloat(p_face.a_kind.xyz);
+	const vec3 b = uintBitsToFloat(p_face.b_first_distance.xyz);
+	const vec3 c = uintBitsToFloat(p_face.c_end_distance.xyz);
+	const float min_in_front =
+			min(find_linear(p_box.below, a), min(find_linear(p_box.below, b), find_linear(p_box.below, c)));
+	const float max_behind =
+			max(find_linear(p_box.above, a), max(find_linear(p_box.above, b), find_linear(p_box.above, c)));
+	bool is_within = find_count_side(p_box, p_plane) == 0 && min_in_front <= p_box.margin && max_behind >= -p_box.margin;
+	for (int i = 0; i < 4; ++i) {
+		is_within = is_within &&
+				min(find_linear(p_box.outside[i], a), min(find_linear(p_box.outside[i], b), find_linear(p_box.outside[i], c))) <=
+						p_box.margin;
+	}
+	return p_box.is_wide || is_within;
 }
 
 /// The position of a point relative to the light's discs that face the receivers of the box: +1 in front of all of
 /// them, -1 behind all, 0 in front of some. Always +1 for a directional light.
 int find_light_side(CountBox p_box, vec3 p_point) {
-	const vec2 across = vec2(dot(p_box.view.axis_x.xyz, p_point), dot(p_box.view.axis_y.xyz, p_point));
-	const float middle = dot(across, p_box.center) + dot(p_box.view.axis_z.xyz, p_point);
+	const vec2 across = vec2(dot(p_box.frame.x, p_point), dot(p_box.frame.y, p_point));
+	const float middle = dot(across, p_box.center) + dot(p_box.frame.z, p_point);
 	const float reach = dot(abs(across), p_box.half_size);
-	return IS_DIRECTIONAL || middle > reach ? 1 : (middle < -reach ? -1 : 0);
+	return IS_DIRECTIONAL ? 1 : (p_box.is_wide ? 0 : (middle > reach ? 1 : (middle < -reach ? -1 : 0)));
 }
 
 // An entry of an edge list: an edge index in the low 26 bits, and above it a packed weight, which is COUNT_HAS_WEIGHT

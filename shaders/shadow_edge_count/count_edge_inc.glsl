@@ -9,7 +9,9 @@
 /// The counts of a receiver so far.
 struct CountState {
 	int solid_count; // between the receiver and the light's centre
-	float area;		 // twice the signed area of the disc behind edges, in R^2
+	// Signed area of the disc behind edges, in AREA_UNIT of the disc's area: a sum of integers, so that it does not depend
+	// on the order of the edges. It wraps around, but the sum of all is below 512 discs.
+	int area;
 	int surplus;	 // to subtract from all counters: subtracting at some points is done by adding at all others
 	PointCounters counters0;
 #if COUNT_SAMPLE_SET_COUNT == 4
@@ -19,10 +21,12 @@ struct CountState {
 #endif
 };
 
+const float AREA_UNIT = 1.0 / 4194304.0; // 2^-22
+
 CountState make_count_state(int p_solid_count) {
 	CountState state;
 	state.solid_count = p_solid_count;
-	state.area = 0.0;
+	state.area = 0;
 	state.surplus = 0;
 	state.counters0 = make_point_counters();
 #if COUNT_SAMPLE_SET_COUNT == 4
@@ -36,7 +40,7 @@ CountState make_count_state(int p_solid_count) {
 /// Two regions of the light's disc, component by component. Each is beyond a line, and between two directions
 /// counter-clockwise.
 struct CountSectors {
-	vec2 area;		  // twice the signed area, in R^2
+	vec2 area;		  // signed, in units of AREA_UNIT
 	uvec2 mask_index; // of the points beyond the line, see find_count_mask_indices
 	vec2 from_angle;  // see find_count_angles
 	vec2 to_angle;
@@ -84,7 +88,8 @@ CountSectors make_count_sectors(DiscEdges p_edges, bvec2 p_are_left, ivec2 p_wei
 			p_are_valid.y && square.y >= 1e-16 && offset.y < 1.0 && length_along.y > 0.0);
 	CountSectors sectors;
 	const vec2 weights = vec2(p_weights);
-	sectors.area = mix(vec2(0.0), mix(weights, -weights, p_are_left) * twice_area, are_valid);
+	const float UNITS = 0.5 / (COUNT_PI * AREA_UNIT);
+	sectors.area = mix(vec2(0.0), mix(weights, -weights, p_are_left) * (UNITS * twice_area), are_valid);
 	// The line's normal is (u_y, -u_x) or, on the other side, its opposite, whose quarter turn is against u.
 	const vec2 middle = 0.5 * (from + to);
 	sectors.mask_index = find_count_mask_indices(mix(-u_y, u_y, p_are_left), mix(u_x, -u_x, p_are_left), offset,
@@ -117,8 +122,8 @@ void count_sample_set(
 /// Adds the areas and points of two sectors: two at a time need half as many carries. Without branches, since software
 /// drivers copy all counters where the sides of a branch join.
 void count_sectors(CountSectors p_sectors, inout CountState r_state) {
-	r_state.area += p_sectors.area.x;
-	r_state.area += p_sectors.area.y;
+	const ivec2 area = ivec2(floor(p_sectors.area + 0.5));
+	r_state.area += area.x + area.y;
 	// What flipped sectors add to all counters in excess.
 	const uvec2 surplus = (p_sectors.flip & p_sectors.once & 1u) + (p_sectors.flip & p_sectors.twice & 2u);
 	r_state.surplus += int(surplus.x + surplus.y);
@@ -217,7 +222,7 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const vec2 from = (is_in_front ? leave.xy : enter.xy) * p_receiver.inverse_radius;
 	const vec2 to = (is_in_front ? enter.xy : leave.xy) * p_receiver.inverse_radius;
 	const bool is_valid =
-			is_counted && any(is_in) && !all(is_in) && is_in_distance_range(p_receiver.part_distance, p_face);
+			is_counted && any(is_in) && !all(is_in) && is_in_distance_range(p_receiver.leaf_distance, p_face);
 	// The second of the two edges is unused.
 	const DiscEdges edges = DiscEdges(vec2(from.x), vec2(from.y), vec2(to.x), vec2(to.y));
 	count_sectors(make_count_sectors(edges, bvec2(is_between), ivec2(1), bvec2(is_valid, false)), r_state);
@@ -263,7 +268,7 @@ bool has_overlap(CountState p_state, int p_added) {
 float count_resolve(CountState p_state) {
 	const float fraction = 1.0 / float(EDGE_COUNT_SAMPLE_COUNT * COUNT_SAMPLE_SET_COUNT);
 	const int solids = clamp(p_state.solid_count, 0, COUNT_MAX_SOLIDS);
-	const float mean = float(solids) + p_state.area / (2.0 * COUNT_PI);
+	const float mean = float(solids) + float(p_state.area) * AREA_UNIT;
 	float visibility = 1.0 - mean;
 	const int added = solids - p_state.surplus;
 	if (has_overlap(p_state, added)) {

@@ -1,4 +1,4 @@
-// The entry point of resolve.comp and resolve_fine.comp, which write the mask in blocks with edges.
+// The entry point of resolve.comp and resolve_fine.comp, which write the mask of leaves with edges.
 #ifndef COUNT_MASK_INC_GLSL
 #define COUNT_MASK_INC_GLSL
 
@@ -10,11 +10,12 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D 
 void main() {
 	load_count_constants();
 	iteration_limit = light.unfinished_round_count > 0u ? uint(EDGE_COUNT_MAX_ITERATIONS) : NO_ITERATION_LIMIT;
-	const CountPixel pixel = count_pixel();
-	if (is_in_image(pixel.pixel)) {
+	const CountSubject subject = load_group_subject();
+	const CountPixel pixel = count_pixel(subject);
+	if (pixel.is_receiver) {
 		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));
 	}
-	add_unfinished(find_block(), pixel.is_unfinished);
+	add_unfinished(subject.leaf_index, pixel.is_unfinished);
 }
 
 #endif

@@ -1,4 +1,4 @@
-// The receiver of a pixel, in light space and in the light view that contains it.
+// The receiver of a pixel, in light space.
 #ifndef COUNT_PIXELS_INC_GLSL
 #define COUNT_PIXELS_INC_GLSL
 
@@ -9,13 +9,11 @@
 // Copies of constants, for speed: see count_constants_inc.glsl.
 FrameConstants frame_copy;
 mat4 light_from_camera;
-mat4 axes_from_camera; // to the light's own axes, see find_view
 
 void load_count_constants() {
 	load_light();
 	frame_copy = frame;
 	light_from_camera = light_views.views[0].view_from_camera_relative;
-	axes_from_camera = light_views.light_from_camera_relative;
 }
 
 /// The position in the 8 x 8 block of the pixel with this index, 0..63. The order is Morton's, so that pixels with
@@ -26,34 +24,33 @@ uvec2 find_pixel_in_block(uint p_index) {
 	return uvec2(x, y);
 }
 
+/// Index of the set bit that has p_rank set bits below it. 0 if there are not so many.
+uint find_set_bit(uvec2 p_bits, uint p_rank) {
+	const uint low_count = uint(bitCount(p_bits.x));
+	const bool is_high = p_rank >= low_count;
+	const uint bits = is_high ? p_bits.y : p_bits.x;
+	uint rank = is_high ? p_rank - low_count : p_rank;
+	uint index = 0u;
+	for (uint width = 16u; width > 0u; width >>= 1u) {
+		const uint count = uint(bitCount(bits >> index & (1u << width) - 1u));
+		const bool is_beyond = rank >= count;
+		rank -= is_beyond ? count : 0u;
+		index += is_beyond ? width : 0u;
+	}
+	return (is_high ? 32u : 0u) + min(index, 31u);
+}
+
 /// A pixel's receiver.
 struct CountPoint {
 	vec3 position; // light space
-	uint view;	   // light view that contains it
-	vec3 warped;   // x', y' and w in the view
 	float offset_fraction; // how far it was moved off its surface, as a fraction of the maximum
 };
 
 /// The pixel must have a receiver, see is_receiver_pixel.
 CountPoint load_count_point(ivec2 p_pixel) {
 	const ReceiverPixel pixel = load_receiver(frame_copy, p_pixel);
-	CountPoint point;
-	point.view = VIEW_COUNT == 1u ? 0u : find_view_of_direction((axes_from_camera * vec4(pixel.position, 1.0)).xyz);
-	point.offset_fraction = pixel.offset_m / frame_copy.max_receiver_offset_m;
-	point.position = (light_from_camera * vec4(pixel.position, 1.0)).xyz;
-	const CountViewConstants view = load_count_view(point.view);
-	const mat3 light_from_view = mat3(view.axis_x.xyz, view.axis_y.xyz, view.axis_z.xyz);
-	// In the view's axes: a product with the matrix on the right applies its transpose.
-	const vec3 r = VIEW_COUNT == 1u ? point.position : point.position * light_from_view;
-	point.warped = IS_DIRECTIONAL ? vec3(r.xy, light.depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;
-	return point;
-}
-
-/// False if no caster of the view can hide the receiver: the receiver is behind the light, or the view is one of
-/// CountLightConstants::empty_views.
-bool may_count_at(CountPoint p_point) {
-	const bool is_in_front = IS_DIRECTIONAL || p_point.warped.z > 0.0;
-	return (light.empty_views & (1u << p_point.view)) == 0u && is_in_front;
+	return CountPoint((light_from_camera * vec4(pixel.position, 1.0)).xyz,
+			pixel.offset_m / frame_copy.max_receiver_offset_m);
 }
 
 #endif

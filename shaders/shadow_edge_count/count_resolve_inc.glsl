@@ -1,23 +1,15 @@
-// Counts the edges of a block's pixels, for the mask and for the debug image.
+// Counts the edges of a leaf's receivers, for the mask and for the debug image.
 //
 // llvmpipe executes a branch that no invocation takes, and a loop's body once even if no invocation enters it. So loops
 // test at their ends, and their first iteration has no effect if there is nothing to do.
 #ifndef COUNT_RESOLVE_INC_GLSL
 #define COUNT_RESOLVE_INC_GLSL
 
-#include "shadow_edge_count/count_block_parts_inc.glsl"
-#include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_edge_inc.glsl"
+#include "shadow_edge_count/count_solids_inc.glsl"
 
-FETCHED_UINTS(COUNT_BINDING_LISTS, lists_buffer);
 layout(set = 0, binding = COUNT_BINDING_MASKS) uniform utextureBuffer masks_buffer;
-
-layout(constant_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
-/// Active invocations of a subgroup: a work group may be smaller than the device's subgroups.
-const uint SUBGROUP_SIZE =
-		FULL_SUBGROUP_SIZE < uint(COUNT_GROUP_SIZE) ? FULL_SUBGROUP_SIZE : uint(COUNT_GROUP_SIZE);
-#include "shadow_edge_count/plane_fit_inc.glsl"
-/// The blocks have no edge lists: each subgroup tests all bundles of the light.
+/// The leaves have no edge lists: each subgroup walks through the tree of edges.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
 // A texel has the masks of one sample set, or of two.
@@ -49,17 +41,33 @@ shared uint chosen_edges[SLICE_SIZE * COUNT_GROUP_SIZE / 4];
 /// The results of one pixel.
 struct CountPixel {
 	ivec2 pixel;
+	bool is_receiver; // false: the others are meaningless
 	uint edge_count; // edges that its receiver counted
-	float visibility; // 0 without a receiver
+	float visibility;
 	int solid_count; // between the receiver and the light's centre
 	bool is_unfinished; // some edges were not counted: no iterations were left
 };
 
 /// State of collecting the edges that a box's receivers may need.
 struct CountChoice {
-	uint next; // where to continue: index in the list, or without lists index of the edge
+	uint next; // where to continue: index in the list, or without lists a packed cursor in the tree
 	uint count; // of edges in the slice
 };
+const uint CURSOR_LEVEL_SHIFT = 28u; // of a packed cursor; below are bits of the index
+const uint CURSOR_AT_END = 0xffffffffu;
+const uint CURSOR_AT_START = 0xfffffffeu;
+
+uint pack_cursor(TreeCursor p_cursor) {
+	return p_cursor.is_at_end ? CURSOR_AT_END : p_cursor.level << CURSOR_LEVEL_SHIFT | p_cursor.index;
+}
+
+TreeCursor unpack_cursor(CountTree p_tree, uint p_packed) {
+	const TreeCursor start = start_cursor(p_tree);
+	const uint mask = (1u << CURSOR_LEVEL_SHIFT) - 1u;
+	return p_packed == CURSOR_AT_START || p_packed == CURSOR_AT_END
+			? TreeCursor(start.level, start.index, start.is_at_end || p_packed == CURSOR_AT_END)
+			: TreeCursor(p_packed >> CURSOR_LEVEL_SHIFT, p_packed & mask, false);
+}
 
 /// Each invocation tests one edge, and appends it to the slice if the box's receivers may need it. p_entry: the edge's
 /// list entry.
@@ -79,77 +87,66 @@ bool has_choice_room(CountChoice p_choice, uint p_more) {
 	return p_choice.count + p_more <= SLICE_SIZE;
 }
 
-/// Collects edges from the part's list, which has p_end entries, from p_first on. Ends when the slice may be full,
-/// or no iterations are left. r_chunk: the chunk of the next entry.
-CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, CountBox p_box) {
-	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
+/// Collects edges from the leaf's list, from p_first on. Ends when the slice may be full, or no iterations are left.
+/// p_first_word: of the list. p_end: its number of entries.
+CountChoice choose_from_list(uint p_first, uint p_first_word, uint p_end, CountBox p_box) {
 	CountChoice choice = CountChoice(p_first, 0u);
 	do {
 		const uint index = choice.next + gl_SubgroupInvocationID;
-		const bool is_chunk = r_chunk < light.chunk_capacity;
-		note_fault(choice.next < p_end && !is_chunk, EDGE_COUNT_FAULT_EDGE_LIST);
-		const bool is_valid = index < p_end && is_chunk;
-		const uint entry = FETCH_UINT(lists_buffer, is_valid ? int(r_chunk * size + index % size) : 0);
+		const bool is_valid = index < p_end;
+		const uint entry = FETCH_UINT(lists_buffer, is_valid ? int(min(p_first_word + index, light.list_capacity - 1u)) : 0);
 		const bool is_edge = (entry & COUNT_EDGE_MASK) < light.max_edge_count;
-		note_fault(is_valid && !is_edge, EDGE_COUNT_FAULT_EDGE_LIST);
+		note_fault(is_valid && !is_edge, EDGE_COUNT_FAULT_LIST);
 		choose_edge(p_box, is_valid && is_edge ? entry : 0u, is_valid && is_edge, choice);
 		choice.next += SUBGROUP_SIZE;
-		r_chunk = choice.next % size == 0u
-				? FETCH_UINT(lists_buffer, light.chunk_capacity * size + min(r_chunk, light.chunk_capacity - 1u))
-				: r_chunk;
 		++iteration_count;
 	} while (choice.next < p_end && has_choice_room(choice, SUBGROUP_SIZE) && has_iterations_left());
 	return choice;
 }
 
-/// p_index: the edge's index in the bundle. p_end: number of edges of the light.
-void choose_edge_of_bundle(CountBox p_box, uint p_bundle, uint p_index, uint p_end, inout CountChoice r_choice) {
-	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	const uint edge = p_bundle * size + p_index;
-	const bool is_valid = p_index < size && edge < p_end;
-	const bool is_seen = is_valid && is_in_distance_range(p_box.distances.x, load_count_edge(is_valid ? edge : 0u));
-	choose_edge(p_box, is_valid ? edge : 0u, is_seen, r_choice);
+/// Adds the edges of a cluster.
+void choose_from_cluster(CountBox p_box, uint p_cluster, uint p_edge_count, bool p_is_valid, inout CountChoice r_choice) {
+	const uint size = uint(EDGE_COUNT_CLUSTER_SIZE);
+	uint first = 0u;
+	// One iteration if a subgroup has 16 invocations or more.
+	do {
+		const uint index = first + gl_SubgroupInvocationID;
+		const uint edge = p_cluster * size + index;
+		const bool is_valid = p_is_valid && index < size && edge < p_edge_count;
+		const bool is_seen = is_valid && is_in_distance_range(p_box.distance, load_count_edge(is_valid ? edge : 0u));
+		choose_edge(p_box, is_valid ? edge : 0u, is_seen, r_choice);
+		first += SUBGROUP_SIZE;
+		++iteration_count;
+	} while (first < size);
+	note_inner_loop(first < size);
 }
 
-/// Collects edges from all bundles of the light, from edge p_first on, which starts a bundle. Ends when the slice may
-/// be full, or no iterations are left. p_end: number of edges of the light.
-CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
-	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	const uint bundle_count = find_bundle_count(p_end);
+/// Collects edges from the tree, from a packed cursor on. Ends when the slice may be full, or no iterations are left.
+CountChoice choose_from_tree(uint p_first, CountBox p_box) {
+	const CountTree tree = make_count_tree(/*p_has_faces=*/false);
+	const uint width = min(uint(EDGE_COUNT_NODE_WIDTH), SUBGROUP_SIZE); // nodes that are tested together
+	TreeCursor cursor = unpack_cursor(tree, p_first);
 	CountChoice choice = CountChoice(p_first, 0u);
 	do {
-		const uint first_bundle = choice.next / size;
-		const uint bundle = first_bundle + gl_SubgroupInvocationID;
-		const bool is_needed = bundle < bundle_count &&
-				may_use_bundle(p_box, load_count_bundle(bundle < bundle_count ? bundle : 0u));
-		uvec4 needed = subgroup_ballot(is_needed);
-		choice.next += SUBGROUP_SIZE * size;
-		do {
-			const bool is_valid = subgroupBallotBitCount(needed) != 0u;
-			const uint lane = is_valid ? subgroupBallotFindLSB(needed) : 0u;
-			const bool has_room = has_choice_room(choice, size);
-			if (is_valid && !has_room) {
-				choice.next = (first_bundle + lane) * size; // continue here next time
-			}
-			needed[lane / 32u] &= ~(1u << (lane & 31u));
-			needed = has_room ? needed : uvec4(0u);
-			const uint end = is_valid && has_room ? p_end : 0u;
-			uint i = gl_SubgroupInvocationID;
-			// Each call tests SUBGROUP_SIZE edges of the bundle: one call is enough for 16 invocations or more.
-			do {
-				choose_edge_of_bundle(p_box, first_bundle + lane, i, end, choice);
-				if (SUBGROUP_SIZE < size) {
-					choose_edge_of_bundle(p_box, first_bundle + lane, i + SUBGROUP_SIZE, end, choice);
-				}
-				i += 2u * SUBGROUP_SIZE;
-				++iteration_count;
-			} while (2u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
-			note_inner_loop(i - gl_SubgroupInvocationID < size);
-			++iteration_count;
-		} while (subgroupBallotBitCount(needed) != 0u);
-		note_inner_loop(subgroupBallotBitCount(needed) != 0u);
+		// The rest of the cursor's siblings.
+		const uint first = cursor.index - cursor.index % width;
+		const uint index = first + gl_SubgroupInvocationID;
+		const bool exists = !cursor.is_at_end && gl_SubgroupInvocationID < width && index >= cursor.index &&
+				index < find_node_count(tree.item_count, cursor.level);
+		const uvec4 needed = subgroup_ballot(exists &&
+				is_node_in_reach(p_box, load_count_node(tree, cursor.level, exists ? index : 0u)));
+		const bool is_any = subgroupBallotBitCount(needed) != 0u;
+		cursor.index = is_any ? first + subgroupBallotFindLSB(needed) : cursor.index;
+		const bool is_cluster = is_any && cursor.level == 0u;
+		choose_from_cluster(p_box, cursor.index, tree.item_count, is_cluster, choice);
+		if (is_any && !is_cluster) {
+			descend_cursor(cursor);
+		} else if (!cursor.is_at_end) {
+			advance_cursor(tree, is_any ? cursor.index + 1u : first + width, cursor);
+		}
 		++iteration_count;
-	} while (choice.next < p_end && has_choice_room(choice, size) && has_iterations_left());
+	} while (!cursor.is_at_end && has_choice_room(choice, uint(EDGE_COUNT_CLUSTER_SIZE)) && has_iterations_left());
+	choice.next = pack_cursor(cursor);
 	return choice;
 }
 
@@ -401,65 +398,13 @@ void count_round(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks 
 	note_inner_loop(i < max_count);
 }
 
-/// The bounds of the receivers of a subgroup for which p_is_selected is true.
-CountBounds find_receiver_bounds(vec3 p_warped, bool p_is_selected) {
-	const vec3 mean = find_mean_receiver(p_is_selected ? vec4(p_warped, 1.0) : vec4(0.0));
-	PlaneMoments moments = PlaneMoments(vec3(0.0), vec2(0.0));
-	add_to_moments(p_warped - mean, p_is_selected, moments);
-	CountBounds bounds = make_count_bounds();
-	bounds.slope = find_fitted_slope(moments);
-	add_to_bounds(p_warped, p_is_selected, bounds);
-	return find_subgroup_bounds(bounds);
-}
-
-/// A pixel, its receiver, and the part of the block to which that belongs.
-struct CountSubject {
-	ivec2 pixel;
-	bool is_receiver;
-	bool is_counted; // some caster may hide the receiver
-	uint part;
-	CountPoint point; // meaningless if there is no receiver
-	CountReceiver receiver;
-};
-
-/// The pixel is at position p_pixel in the block. p_parts: the block's word EDGE_COUNT_RECEIVERS_PARTS. p_sorted_part:
-/// the receiver's part, if the block is sorted.
-CountSubject load_subject(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
-	const bool is_sorted = (p_parts & EDGE_COUNT_IS_SORTED) != 0u;
-	CountSubject subject;
-	subject.pixel = ivec2(find_block_corner(p_block) + p_pixel);
-	subject.is_receiver = is_in_image(subject.pixel) && is_receiver_pixel(subject.pixel);
-	subject.point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), 0.0);
-	if (subject.is_receiver) {
-		subject.point = load_count_point(subject.pixel);
-	}
-	subject.is_counted = subject.is_receiver && may_count_at(subject.point);
-	subject.part = is_sorted ? p_sorted_part : subject.point.view;
-	const float distance = subject.is_counted ? load_part_distance(p_block, p_parts, subject.part) : 0.0;
-	subject.receiver = make_count_receiver(light, subject.point.position, distance);
-	// Edges of the receiver's own surface are about as far below it as it was moved.
-	subject.receiver.min_d *= subject.point.offset_fraction;
-	return subject;
-}
-
-/// Counts the solids before the light's centre, and the lines along which faces cut the disc.
-CountState count_at_center(CountSubject p_subject) {
+/// Counts the solids before the light's centre, and the lines along which faces cut the disc. p_is_counted: false for
+/// receivers whose count is not needed.
+CountState count_at_center(CountSubject p_subject, bool p_is_counted) {
 	const CountReceiver receiver = p_subject.receiver;
-	CountCrossings crossings = CountCrossings(0, 0, 0);
-	if (p_subject.is_counted) {
-		crossings = count_crossings(
-				light, VIEW_COUNT == 1u ? 0u : p_subject.point.view, p_subject.point.warped.xy, receiver);
-	}
-	const uint cut_face_count = p_subject.is_counted ? find_cut_face_count() : 0u;
-	for (uint i = 0u; i < cut_face_count; ++i) {
-		const uint face = load_cut_face(i);
-		const vec4 plane = load_count_plane(face);
-		const bool is_in_front = is_count_in_front(plane, receiver.position);
-		if (is_in_front != is_count_light_in_front(plane)) {
-			count_face(receiver, load_count_face(face), is_in_front, crossings);
-		}
-	}
+	const CountCrossings crossings = count_subject_crossings(p_subject);
 	CountState state = make_count_state(sum_crossings(crossings));
+	const uint cut_face_count = p_subject.is_receiver && p_is_counted ? find_cut_face_count() : 0u;
 	for (uint i = 0u; i < cut_face_count; ++i) {
 		const uint face = load_cut_face(i);
 		count_add_cut(receiver, load_count_face(face), load_count_plane(face),
@@ -471,103 +416,71 @@ CountState count_at_center(CountSubject p_subject) {
 /// How far a subgroup has counted its receivers' edges.
 struct CountProgress {
 	bool waits; // edges of the invocation's receiver remain to be counted
-	uint next;	// of the part that is being counted: index in the list, or without lists index of the edge
+	uint next;	// see CountChoice
 };
+
+CountProgress start_progress(CountSubject p_subject) {
+	return CountProgress(p_subject.is_receiver, HAS_NO_LIST ? CURSOR_AT_START : 0u);
+}
 
 /// Counts edges until all are counted, or no iterations are left. r_edge_count: is increased by the number of edges that
 /// the receiver counted.
-void count_edges(uint p_block, uint p_parts, CountSubject p_subject, inout CountState r_state,
-		inout CountProgress r_progress, inout uint r_edge_count) {
+void count_edges(CountSubject p_subject, inout CountState r_state, inout CountProgress r_progress,
+		inout uint r_edge_count) {
+	const CountBox box = make_count_box(light, light.disc_radius, make_count_frame(p_subject.leaf.axis_distance.xyz),
+			find_receiver_bounds(p_subject.warped, p_subject.is_receiver), p_subject.leaf.axis_distance.w,
+			is_wide_leaf(p_subject.leaf));
+	const bool is_any = subgroup_any(r_progress.waits);
+	const CountLeafResult result = p_subject.result;
+	const uint first_word = result.first_word + result.silhouette_count + result.face_count;
+	// The list has each edge once at most.
+	note_fault(!HAS_NO_LIST && is_any && result.edge_count > light.max_edge_count, EDGE_COUNT_FAULT_LIST);
+	const uint end = HAS_NO_LIST ? CURSOR_AT_END : (is_any ? min(result.edge_count, light.max_edge_count) : 0u);
+	uint next = HAS_NO_LIST && !is_any ? CURSOR_AT_END : r_progress.next;
+	const LoadedEdge none = LoadedEdge(COUNT_ADDS_NOTHING << COUNT_PACKED_WEIGHT_SHIFT, vec3(0.0), vec3(0.0));
+	LoadedRound loaded = LoadedRound(none, none, none, none);
 	do {
-		// Process the receivers of one part at a time: a box around several parts needs many more edges.
-		const uvec4 waiting = subgroup_ballot(r_progress.waits);
-		const bool is_any = subgroupBallotBitCount(waiting) > 0u;
-		const uint leader = is_any ? subgroupBallotFindLSB(waiting) : 0u;
-		const uint part = subgroupShuffle(p_subject.part, leader);
-		const uint view = find_part_view(p_parts, part);
-		const bool is_selected = r_progress.waits && p_subject.part == part;
-		CountBox box = make_count_box(light, load_count_view(view),
-				find_receiver_bounds(p_subject.point.warped, is_selected));
-		box.distances = vec2(subgroupShuffle(p_subject.receiver.part_distance, leader));
-		uint end = is_any ? find_edge_count() : 0u;
-		uint chunk = 0u;
-		if (!HAS_NO_LIST) {
-			const uint chain = find_chain(p_block, part);
-			// A part without receivers has no chain. Rounding can put a receiver into one, see load_part_distance.
-			const bool has_chain = is_any && (p_parts >> part & 1u) != 0u;
-			// The list has each edge once at most.
-			const uint edge_count = end;
-			end = has_chain ? chains[chain + uint(EDGE_COUNT_CHAIN_COUNT)] : 0u;
-			note_fault(end > edge_count, EDGE_COUNT_FAULT_EDGE_LIST);
-			end = min(end, edge_count);
-			chunk = has_chain ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
+		CountChoice choice;
+		if (HAS_NO_LIST) {
+			choice = choose_from_tree(next, box);
+		} else {
+			choice = choose_from_list(next, first_word, end, box);
 		}
-		uint next = r_progress.next;
-		const LoadedEdge none = LoadedEdge(COUNT_ADDS_NOTHING << COUNT_PACKED_WEIGHT_SHIFT, vec3(0.0), vec3(0.0));
-		LoadedRound loaded = LoadedRound(none, none, none, none);
+		next = choice.next;
+		sync_subgroup_memory();
+		uint first = 0u;
 		do {
-			CountChoice choice;
-			if (HAS_NO_LIST) {
-				choice = choose_from_bundles(next, end, box);
-			} else {
-				choice = choose_from_list(next, end, chunk, box);
-			}
-			next = choice.next;
-			sync_subgroup_memory();
-			uint first = 0u;
-			do {
-				const uint count = min(choice.count - first, ROUND_SIZE);
-				CountEdgeMasks edge_masks = test_round(first, count, p_subject.receiver, loaded);
-				edge_masks.own = is_selected ? edge_masks.own : 0u;
-				count_round(loaded, p_subject.receiver, edge_masks, r_state);
-				r_edge_count += uint(bitCount(edge_masks.own));
-				first += ROUND_SIZE;
-				iteration_count += TEST_ITERATIONS + 1u;
-			} while (first < choice.count);
-			note_inner_loop(first < choice.count);
-			sync_subgroup_memory();
-			++iteration_count;
-		} while (next < end && has_iterations_left());
-		const bool is_done = next >= end;
-		note_fault(!is_done && has_iterations_left(), EDGE_COUNT_FAULT_LOOP);
-		r_progress.waits = r_progress.waits && !(is_selected && is_done);
-		r_progress.next = is_done ? 0u : next;
+			const uint count = min(choice.count - first, ROUND_SIZE);
+			CountEdgeMasks edge_masks = test_round(first, count, p_subject.receiver, loaded);
+			edge_masks.own = p_subject.is_receiver ? edge_masks.own : 0u;
+			count_round(loaded, p_subject.receiver, edge_masks, r_state);
+			r_edge_count += uint(bitCount(edge_masks.own));
+			first += ROUND_SIZE;
+			iteration_count += TEST_ITERATIONS + 1u;
+		} while (first < choice.count);
+		note_inner_loop(first < choice.count);
+		sync_subgroup_memory();
 		++iteration_count;
-	} while (subgroup_any(r_progress.waits) && has_iterations_left());
-	note_fault(r_progress.waits && has_iterations_left(), EDGE_COUNT_FAULT_LOOP);
+	} while (next < end && has_iterations_left());
+	const bool is_done = next >= end;
+	note_fault(!is_done && has_iterations_left(), EDGE_COUNT_FAULT_LOOP);
+	r_progress.waits = r_progress.waits && !is_done;
+	r_progress.next = next;
 }
 
 CountPixel make_count_pixel(CountSubject p_subject, CountState p_state, CountProgress p_progress, uint p_edge_count) {
-	return CountPixel(p_subject.pixel, p_edge_count,
-			p_subject.is_counted ? count_resolve(p_state) : (p_subject.is_receiver ? 1.0 : 0.0), p_state.solid_count,
+	return CountPixel(p_subject.pixel, p_subject.is_receiver, p_edge_count, count_resolve(p_state), p_state.solid_count,
 			p_progress.waits);
 }
 
-/// Writes the faults of the subgroup. One invocation does: drivers insert subgroup operations around other atomics, and
-/// would do so in divergent flow.
-void report_subgroup_faults() {
-	const uint faults = subgroup_or(count_faults);
-	const bool is_elected = subgroupElect();
-	report_faults(faults, faults != 0u && is_elected);
-}
-
-/// Each invocation counts the edges of one pixel and computes its visibility. For the parameters see load_subject.
-CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
-	const CountSubject subject = load_subject(p_block, p_parts, p_pixel, p_sorted_part);
-	CountState state = count_at_center(subject);
-	CountProgress progress = CountProgress(subject.is_counted, 0u);
+/// Each invocation counts the edges of one receiver and computes its visibility.
+CountPixel count_pixel(CountSubject p_subject) {
+	CountState state = count_at_center(p_subject, true);
+	CountProgress progress = start_progress(p_subject);
 	uint edge_count = 0u;
-	count_edges(p_block, p_parts, subject, state, progress, edge_count);
-	report_subgroup_faults();
-	return make_count_pixel(subject, state, progress, edge_count);
-}
-
-/// Each invocation computes one pixel of the work group's block.
-CountPixel count_pixel() {
-	const uint block = find_block();
-	const uint parts = load_parts(block);
-	const BlockPixel pixel = load_block_pixel(block, parts, gl_LocalInvocationIndex);
-	return count_pixel_of_block(block, parts, find_pixel_in_block(pixel.index), pixel.sorted_part);
+	count_edges(p_subject, state, progress, edge_count);
+	report_subgroup_status();
+	return make_count_pixel(p_subject, state, progress, edge_count);
 }
 
 #endif

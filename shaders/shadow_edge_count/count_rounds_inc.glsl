@@ -1,7 +1,7 @@
 // The entry point of resolve_unfinished.comp and resolve_unfinished_fine.comp: one round of counting edges for subgroups
-// of blocks that ran out of iterations (see EDGE_COUNT_MAX_ITERATIONS). A work group is one such subgroup. It starts
+// of receivers that ran out of iterations (see EDGE_COUNT_MAX_ITERATIONS). A work group is one such subgroup. It starts
 // again, continues where the previous round stopped, and writes the mask when all edges are counted. Its slot in the
-// next round is then that of a subgroup that waits. Edge lists are not used, as in blocks without lists.
+// next round is then that of a subgroup that waits. Edge lists are not used, as in leaves without lists.
 #ifndef COUNT_ROUNDS_INC_GLSL
 #define COUNT_ROUNDS_INC_GLSL
 
@@ -73,7 +73,7 @@ void save_counters(uint p_slot, uint p_set, PointCounters p_counters) {
 CountState load_count_state(uint p_slot) {
 	CountState state;
 	state.solid_count = int(load_state(p_slot, 2u));
-	state.area = uintBitsToFloat(load_state(p_slot, 3u));
+	state.area = int(load_state(p_slot, 3u));
 	state.surplus = int(load_state(p_slot, 4u));
 	state.counters0 = load_counters(p_slot, 0u);
 #if COUNT_SAMPLE_SET_COUNT == 4
@@ -88,7 +88,7 @@ void save_count_state(uint p_slot, CountState p_state, CountProgress p_progress)
 	save_state(p_slot, 0u, p_progress.waits ? 1u : 0u);
 	save_state(p_slot, 1u, p_progress.next);
 	save_state(p_slot, 2u, uint(p_state.solid_count));
-	save_state(p_slot, 3u, floatBitsToUint(p_state.area));
+	save_state(p_slot, 3u, uint(p_state.area));
 	save_state(p_slot, 4u, uint(p_state.surplus));
 	save_counters(p_slot, 0u, p_state.counters0);
 #if COUNT_SAMPLE_SET_COUNT == 4
@@ -98,9 +98,9 @@ void save_count_state(uint p_slot, CountState p_state, CountProgress p_progress)
 #endif
 }
 
-/// Capacity of unfinished_items: all subgroups of the image. (Godot does not know the length of an array.)
+/// Capacity of unfinished_items: all subgroups of all leaves. (Godot does not know the length of an array.)
 uint find_max_item_count() {
-	return light.block_count.x * light.block_count.y *
+	return light.leaf_capacity *
 			(uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) / SUBGROUP_SIZE);
 }
 
@@ -122,30 +122,24 @@ uint take_item(bool p_takes, out bool r_is_any) {
 bool count_slot(uint p_slot, uint p_item) {
 	const bool is_new = (p_item & EDGE_COUNT_UNFINISHED_IS_NEW) != 0u;
 	const uint item = p_item & ~EDGE_COUNT_UNFINISHED_IS_NEW;
-	const uint block = limit_block(item >> EDGE_COUNT_SUBGROUP_BITS);
 	const uint subgroup = item & (1u << EDGE_COUNT_SUBGROUP_BITS) - 1u;
-	const uint parts = load_parts(block);
-	const BlockPixel block_pixel =
-			load_block_pixel(block, parts, subgroup * SUBGROUP_SIZE + gl_SubgroupInvocationID);
-	const CountSubject subject =
-			load_subject(block, parts, find_pixel_in_block(block_pixel.index), block_pixel.sorted_part);
-	CountSubject new_subject = subject;
-	new_subject.is_counted = subject.is_counted && is_new;
-	CountState state = count_at_center(new_subject);
-	CountProgress progress = CountProgress(subject.is_counted, 0u);
+	const CountSubject subject = load_ranked_subject(limit_leaf(item >> EDGE_COUNT_SUBGROUP_BITS),
+			subgroup * SUBGROUP_SIZE + gl_SubgroupInvocationID, true);
+	CountState state = count_at_center(subject, is_new);
+	CountProgress progress = start_progress(subject);
 	if (!is_new) {
 		state = load_count_state(p_slot);
 		// All invocations saved the same next edge. Broadcast, so that the compiler knows that loops over it are uniform.
 		progress = CountProgress(load_state(p_slot, 0u) != 0u, subgroupBroadcastFirst(load_state(p_slot, 1u)));
 	}
 	uint edge_count = 0u;
-	count_edges(block, parts, subject, state, progress, edge_count);
+	count_edges(subject, state, progress, edge_count);
 	const bool is_unfinished = subgroup_any(progress.waits);
 	if (is_unfinished) {
 		save_count_state(p_slot, state, progress);
 	}
 	const CountPixel pixel = make_count_pixel(subject, state, progress, edge_count);
-	if (!is_unfinished && is_in_image(pixel.pixel)) {
+	if (!is_unfinished && pixel.is_receiver) {
 		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));
 	}
 	return is_unfinished;
@@ -172,7 +166,7 @@ void main() {
 		next_round_slots[extend_next_dispatch()] = uvec2(slot.x, item);
 	}
 	note_fault(is_last && is_next, EDGE_COUNT_FAULT_LOOP);
-	report_subgroup_faults();
+	report_subgroup_status();
 }
 
 #endif

@@ -1,8 +1,8 @@
-// The entry point of resolve_smooth.comp and resolve_smooth_fine.comp, which write the mask in smooth blocks
-// (EDGE_COUNT_BLOCKS_SMOOTH): every pixel has a receiver, the receivers are on one nearly flat surface, and all
+// The entry point of resolve_smooth.comp and resolve_smooth_fine.comp, which write the mask of smooth leaves
+// (EDGE_COUNT_LEAVES_SMOOTH): every pixel of the block has a receiver, the receivers are on one nearly flat surface, and all
 // silhouette edges that they see before the light are far from them.
 //
-// In such a block the image of each edge on the light's disc moves by a small fraction of R from one side of the block
+// In such a leaf the image of each edge on the light's disc moves by a small fraction of R from one side of the block
 // to the other, so the visibility is nearly a polynomial of the pixel's position. 16 of the 64 pixels are counted, and
 // a least-squares polynomial of degree 3 gives the values of all 64. Its 10 coefficients also smooth the noise of the
 // points on the disc.
@@ -69,19 +69,25 @@ float find_fitted(uvec2 p_pixel) {
 	return clamp(sum, 0.0, 1.0);
 }
 
+/// The index of a pixel for find_pixel_in_block.
+uint find_pixel_index(uvec2 p_pixel) {
+	return (p_pixel.x & 1u) | (p_pixel.y & 1u) << 1 | (p_pixel.x & 2u) << 1 | (p_pixel.y & 2u) << 2 |
+			(p_pixel.x & 4u) << 2 | (p_pixel.y & 4u) << 3;
+}
+
 void main() {
 	load_count_constants();
-	const uint block = find_block();
-	const uint parts = load_parts(block);
 	const uint invocation = gl_LocalInvocationIndex;
-	// 0: the receivers of a smooth block are not sorted into parts.
-	counted[invocation] = count_pixel_of_block(block, parts, find_counted_pixel(invocation), 0u).visibility;
+	bool is_valid;
+	const uint leaf = find_group_leaf(is_valid);
+	const CountSubject subject = load_subject(leaf, find_pixel_index(find_counted_pixel(invocation)), is_valid);
+	counted[invocation] = count_pixel(subject).visibility;
 	barrier();
 	coefficients[invocation] = find_coefficient(invocation);
 	barrier();
-	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-		const uvec2 pixel = find_pixel_in_block(i * uint(COUNT_GROUP_SIZE) + invocation);
-		imageStore(mask_image, ivec2(find_block_corner(block) + pixel), vec4(find_fitted(pixel)));
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION && is_valid; ++i) {
+		const uint index = i * uint(COUNT_GROUP_SIZE) + invocation;
+		imageStore(mask_image, find_image_pixel(subject.leaf, index), vec4(find_fitted(find_pixel_in_block(index))));
 	}
 }
 

@@ -24,7 +24,7 @@ struct CountReceiver {
 	float min_d;		  // edges count only where d is above this: nearer to the light than the receiver
 	float max_d;		  // and where d is below this: in front of the light
 	float near_light_limit;	  // points with a larger dot(to_light, point) are nearer to the light than to the receiver
-	float part_distance;	  // of its part of a block (EDGE_COUNT_CHAIN_DISTANCE); selects levels
+	float leaf_distance;	  // see CountLeaf; selects levels of detail
 };
 
 float count_cross(vec2 p_a, vec2 p_b) {
@@ -33,10 +33,10 @@ float count_cross(vec2 p_a, vec2 p_b) {
 }
 
 /// p_position must not be the light's centre.
-CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position, float p_part_distance) {
+CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position, float p_leaf_distance) {
 	CountReceiver receiver;
 	receiver.position = p_position;
-	receiver.part_distance = p_part_distance;
+	receiver.leaf_distance = p_leaf_distance;
 	receiver.inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
 	receiver.min_d = p_light.nearer_tolerance;
 	if (IS_DIRECTIONAL) {
@@ -96,11 +96,11 @@ bool is_count_in_front(vec4 p_plane, vec3 p_point) {
 	return side > 0.0;
 }
 
-/// True if the face is of the level of detail that receivers of a block's part at this distance
+/// True if the face is of the level of detail that receivers of a leaf at this distance
 /// see, see CountFaceRecord.
-bool is_in_distance_range(float p_part_distance, CountFaceRecord p_face) {
-	return p_part_distance >= uintBitsToFloat(p_face.b_first_distance.w) &&
-			p_part_distance < uintBitsToFloat(p_face.c_end_distance.w);
+bool is_in_distance_range(float p_leaf_distance, CountFaceRecord p_face) {
+	return p_leaf_distance >= uintBitsToFloat(p_face.b_first_distance.w) &&
+			p_leaf_distance < uintBitsToFloat(p_face.c_end_distance.w);
 }
 
 /// True if the light's centre is in front of the face.

@@ -20,12 +20,12 @@ uint extend_next_dispatch() {
 }
 
 /// Adds the subgroup if p_is_unfinished is true in some invocation.
-void add_unfinished(uint p_block, bool p_is_unfinished) {
+void add_unfinished(uint p_leaf, bool p_is_unfinished) {
 	const bool is_any = subgroup_any(p_is_unfinished);
 	const bool is_elected = subgroupElect();
 	if (is_any && is_elected) {
 		const uint index = atomicAdd(unfinished_counts[EDGE_COUNT_UNFINISHED_ADDED], 1u);
-		unfinished_items[index] = p_block << EDGE_COUNT_SUBGROUP_BITS | gl_SubgroupID;
+		unfinished_items[index] = p_leaf << EDGE_COUNT_SUBGROUP_BITS | gl_SubgroupID;
 		if (index < light.unfinished_slot_count) {
 			extend_next_dispatch();
 		}

@@ -11,15 +11,15 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DA
 		debug_image;
 
 // Writes the layers of the debug image (EDGE_COUNT_DEBUG_*): the number of edges and of solids that
-// each pixel counts, and the kind of its block.
+// each pixel counts, and the kind of its leaf.
 void main() {
 	load_count_constants();
-	const CountPixel pixel = count_pixel();
-	if (!is_in_image(pixel.pixel)) {
+	const CountPixel pixel = count_pixel(load_group_subject());
+	if (!pixel.is_receiver) {
 		return;
 	}
 	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_EDGES), vec4(pixel.edge_count));
 	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_SOLIDS),
 			vec4(max(pixel.solid_count, 0)));
-	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_BLOCKS), vec4(push.kind));
+	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_LEAVES), vec4(push.kind));
 }

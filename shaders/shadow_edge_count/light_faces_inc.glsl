@@ -1,13 +1,11 @@
-// The light's faces, for the passes that list them. Those that may cut the light's disc as seen by some receiver have a
-// list of their own: each receiver tests all of them, so they are in no texel's list. So close to
-// the light a face may cover half of the map, or no texel if its plane contains the light's centre.
+// The light's faces, and which of them may cut the light's disc as seen by some receiver.
 #ifndef LIGHT_FACES_INC_GLSL
 #define LIGHT_FACES_INC_GLSL
 
 #include "common/fetch_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-FETCHED_UVEC4S(FACE_LIST_BINDING_FACES, faces_buffer); // CountFaceRecord
+FETCHED_UVEC4S(CUT_FACES_BINDING_FACES, faces_buffer); // CountFaceRecord
 
 CountFaceRecord load_face(uint p_face) {
 	const uint first = 3u * p_face;

@@ -5,19 +5,19 @@
 
 // Lists the faces that may cut the light's disc. A single work group tests every face, so that the
 // list is in the order of the faces.
-layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
-layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
+layout(local_size_x = CUT_FACES_GROUP_SIZE) in;
+layout(std140, set = 0, binding = CUT_FACES_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
 };
-layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) writeonly buffer Totals {
+layout(std430, set = 0, binding = CUT_FACES_BINDING_TOTALS) writeonly buffer Totals {
 	uint totals[];
 };
-layout(std430, set = 0, binding = FACE_LIST_BINDING_CUT_FACES) writeonly buffer CutFaces {
+layout(std430, set = 0, binding = CUT_FACES_BINDING_LIST) writeonly buffer CutFaces {
 	uint cut_faces[];
 };
 
-const uint GROUP_SIZE = uint(FACE_LIST_GROUP_SIZE);
-shared uint are_cut[FACE_LIST_GROUP_SIZE];
+const uint GROUP_SIZE = uint(CUT_FACES_GROUP_SIZE);
+shared uint are_cut[CUT_FACES_GROUP_SIZE];
 
 void main() {
 	const uint invocation = gl_LocalInvocationID.x;

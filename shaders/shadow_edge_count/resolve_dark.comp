@@ -1,16 +1,18 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/count_blocks_inc.glsl"
+#include "shadow_edge_count/count_classify_inc.glsl"
+#include "shadow_edge_count/resolve_leaf_inc.glsl"
 
-// Writes the mask of blocks whose receivers are all dark.
+// Writes the mask of leaves whose receivers are all dark.
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
 	load_count_constants();
-	const ivec2 pixel = ivec2(
-			find_block_corner(find_block()) + find_pixel_in_block(gl_LocalInvocationIndex));
-	if (is_in_image(pixel)) {
-		imageStore(mask_image, pixel, vec4(0.0));
+	bool is_valid;
+	const CountLeaf leaf = leaves[find_group_leaf(is_valid)];
+	const uint rank = gl_LocalInvocationIndex;
+	if (is_valid && rank < count_leaf_pixels(leaf)) {
+		imageStore(mask_image, find_image_pixel(leaf, find_set_bit(leaf.pixels_flags.xy, rank)), vec4(0.0));
 	}
 }

@@ -28,9 +28,9 @@ struct SHARED_ALIGN CountEdgeRecord {
 SHARED_SIZE(CountEdgeRecord, 32);
 
 /// The vertices of a face. Fetched as 3 x RGBA32_UINT. Planes of faces have a separate buffer,
-/// which edges read too. The face and its edges exist only for receivers whose part's distance (see
-/// EDGE_COUNT_CHAIN_DISTANCE) is in first_distance <= distance < end_distance: other receivers see
-/// another level of detail of the cut-out caster.
+/// which edges read too. The face and its edges exist only for receivers whose leaf's distance is in
+/// first_distance <= distance < end_distance: other receivers see another level of detail of the
+/// cut-out caster.
 struct SHARED_ALIGN CountFaceRecord {
 	uvec4 a_kind;			// float bits of the position; 0 or EDGE_COUNT_DOUBLE_SIDED
 	uvec4 b_first_distance; // float bits
@@ -38,22 +38,25 @@ struct SHARED_ALIGN CountFaceRecord {
 };
 SHARED_SIZE(CountFaceRecord, 48);
 
-// A node of a texel's face list: the face's index, in the high bits the cells that its bounds
-// overlap, and the next node, counted from 1; 0 at the end of the list. A texel has 4 x 4 cells:
-// the bits from EDGE_COUNT_NODE_CELLS_SHIFT on are their columns, then their rows.
-#define EDGE_COUNT_NODE_CELLS_SHIFT 24
-#define EDGE_COUNT_NODE_CELLS_PER_SIDE 4
-
-/// The bounding box of EDGE_COUNT_BUNDLE_SIZE consecutive edges of the light's list, and the range
-/// of their distances (see CountFaceRecord). One test may reject them all.
-struct SHARED_ALIGN CountEdgeBundle {
+/// A node of a tree over a light's faces, or of one over its edges: the bounding box of what is in it, and the range
+/// of their distances (see CountFaceRecord). Fetched as 2 x RGBA32_SFLOAT.
+///
+/// Level 0 of a tree has clusters: EDGE_COUNT_CLUSTER_SIZE consecutive faces or edges of the light. A node of level
+/// i + 1 has EDGE_COUNT_NODE_WIDTH consecutive nodes of level i, up to the level that has so few nodes. Casters, and
+/// what a mesh has, are in the order of a Hilbert curve, so consecutive ones are close together. There are no pointers:
+/// children follow from the index (Karras 2012, Maximizing Parallelism in the Construction of BVHs, section 2, builds
+/// trees over such an order).
+struct SHARED_ALIGN CountNode {
 	vec4 center_first_distance;
 	vec4 half_size_end_distance;
 };
-SHARED_SIZE(CountEdgeBundle, 32);
-#define EDGE_COUNT_BUNDLE_SIZE 16
-// The buffer of bundles continues with the bounding boxes of groups of this many bundles.
-#define EDGE_COUNT_BUNDLES_PER_GROUP 32
+SHARED_SIZE(CountNode, 32);
+#define EDGE_COUNT_CLUSTER_SIZE 16
+#define EDGE_COUNT_NODE_WIDTH 8
+// Levels of a tree: 16 * 8 * 8^6 is more than 10 million, so the highest level has at most 8 nodes.
+#define EDGE_COUNT_MAX_LEVELS 7
+#define EDGE_COUNT_TREE_FACES 0
+#define EDGE_COUNT_TREE_EDGES 1
 
 // mark_edges.comp sets one bit per edge, 32 per word, and counts the set bits per block of 64
 // words. From these counts list_edges.comp computes each edge's index, so that the list is in the
@@ -72,7 +75,7 @@ SHARED_SIZE(CountEdgeBundle, 32);
 #define FIND_BINDING_BLOCKS 6
 #define FIND_BINDING_EDGES 7
 #define FIND_BINDING_TOTALS 8
-#define FIND_BINDING_BUNDLES 9
+#define FIND_BINDING_NODES 9
 #define FIND_BINDING_LIGHT 10
 #define FIND_BINDING_CASTERS 11
 #define FIND_BINDING_GROUPS 12
@@ -156,48 +159,22 @@ SHARED_SIZE(CountFindPush, 32);
 #define EDGE_COUNT_CASTER_MIRRORED 1u // light_from_node has a negative determinant
 #define EDGE_COUNT_CASTER_LEVEL 2u	  // one of two levels of detail of a cut-out caster
 
-#define EDGE_COUNT_MAX_VIEWS 6
-// Each block of 8 x 8 pixels has bounds of its receivers and lists of edges. list_blocks.comp
-// processes tiles of 2 x 2 blocks.
+// Each block of 8 x 8 pixels has leaves: groups of its receivers.
 #define EDGE_COUNT_BLOCK_PX 8
-#define EDGE_COUNT_BLOCKS_PER_TILE_SIDE 2
 // Specialization constants.
 #define EDGE_COUNT_CONSTANT_SUBGROUP_SIZE 0 // invocations of a subgroup
-#define EDGE_COUNT_CONSTANT_VIEW_COUNT                                                             \
-	1 // views of the light; with one view, shaders need not search the receiver's
-#define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2	 // the blocks of the pass read all edges of the light
+#define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2	 // the leaves of the pass read the tree of edges
 #define EDGE_COUNT_CONSTANT_IS_DIRECTIONAL 3 // the light is directional
 #define EDGE_COUNT_CONSTANT_GROUP_SIZE                                                             \
 	4 // invocations of a work group that is one subgroup, at most EDGE_COUNT_MAX_SUBGROUP
 #define EDGE_COUNT_CONSTANT_MAY_CUT_DISC 5 // some caster may come within R of the light's centre
-// The edge list of one part of a block is a chain of chunks. After all chunks, the buffer has each
-// chunk's next chunk.
-#define EDGE_COUNT_CHUNK_SIZE 64
-// Words per block and part: the first chunk, the number of listed edges, and float bits of the
-// part's distance, which is the least distance of its receivers from the light's centre
-// (directional: their least z in light space), in metres.
-#define EDGE_COUNT_CHAIN_FIRST 0
-#define EDGE_COUNT_CHAIN_COUNT 1
-#define EDGE_COUNT_CHAIN_DISTANCE 2
-#define EDGE_COUNT_CHAIN_WORDS 3
 #define EDGE_COUNT_NO_BUDGET 0xffffffffu
-
-/// A light view. Each texel of its map has a list of faces. (x', y') and w of a point are its
-/// coordinates (x, y, z) in the view as x / z, y / z and 1 / z; directional: x, y and
-/// depth_far_m - z.
-struct SHARED_ALIGN CountViewConstants {
-	// The view's x, y and z axes in light space.
-	vec4 axis_x;
-	vec4 axis_y;
-	vec4 axis_z;
-	vec2 half_extent; // of the map in x' and y': tangents; directional: metres
-	uvec2 map_size_px;
-};
-SHARED_SIZE(CountViewConstants, 64);
 
 /// Constants of one light, and the sizes of its buffers.
 struct SHARED_ALIGN CountLightConstants {
-	CountViewConstants views[EDGE_COUNT_MAX_VIEWS];
+	// Index of the first node of each level, in the buffer of nodes: levels 0..3, and 4..7.
+	uvec4 face_levels[2];
+	uvec4 edge_levels[2];
 	float disc_radius;		// R, see CountSettings; directional: a tangent
 	float depth_far_m;		// directional: w = depth_far_m - z
 	float scene_size_m;		// S, the size of the scene
@@ -206,124 +183,131 @@ struct SHARED_ALIGN CountLightConstants {
 							// many metres; less for receivers near the camera, in proportion to
 							// compute_receiver_offset_m
 	uvec2 block_count;		// columns and rows of blocks in the image
-	uint view_count;
-	uint empty_views;	 // bit i: view i has no casters or no receivers
-	uint chunk_capacity; // chunks for the lists of all blocks together
-	uint budget;		 // maximum number of edges of a block, or EDGE_COUNT_NO_BUDGET
-	uint node_capacity;	 // of each view's face lists
+	uint empty_views;		// bit i: view i has no casters or no receivers
+	uint leaf_capacity;
+	uint list_capacity; // words of the lists of all leaves together
+	uint budget;		// maximum number of listed edges of a leaf, or EDGE_COUNT_NO_BUDGET
 	uint face_count;
-	uint max_edge_count;	 // capacity of the light's list of edges; 0 for a light without size
+	uint max_edge_count;	 // capacity of the light's list of edges
 	float interpolation;	 // maximum distance by which an edge's projection onto the light's disc
-							 // moves between receivers of a block of EDGE_COUNT_BLOCKS_SMOOTH, in R
+							 // moves between receivers of a leaf of EDGE_COUNT_LEAVES_SMOOTH, in R
 	uint max_cut_face_count; // capacity of the list of faces that may cut the light's disc
-	uint max_bundle_count;	 // capacity of bundles; the groups of bundles start at this index
 	uint unfinished_slot_count;	 // see EDGE_COUNT_MAX_ITERATIONS
 	uint unfinished_round_count; // 0: no subgroup has more iterations
-	uint padding0;
-	uint padding1;
 };
-SHARED_SIZE(CountLightConstants, 464);
-SHARED_OFFSET(CountLightConstants, disc_radius, 384);
-SHARED_OFFSET(CountLightConstants, block_count, 400);
+SHARED_SIZE(CountLightConstants, 128);
+SHARED_OFFSET(CountLightConstants, disc_radius, 64);
+SHARED_OFFSET(CountLightConstants, block_count, 80);
 
-// The receivers of a block are divided into parts, each with its own CountBlockBox. If all
-// receivers are in one view and their distances from the camera differ much, as at an object's
-// outline, they are sorted by distance, and each quarter of the range of distances is a part: a
-// block is a thin cone of camera rays, so receivers at similar distances are close together in any
-// light view. Otherwise part i has the receivers in view i.
-#define EDGE_COUNT_SORTED_PARTS 4
-#define EDGE_COUNT_PARTS(view_count)                                                               \
-	((view_count) == 1u ? EDGE_COUNT_SORTED_PARTS : EDGE_COUNT_MAX_VIEWS)
-/// Bounds of the receivers of one part: a rectangle of (x', y'), a range of w, and a range of w
-/// relative to a plane.
-struct SHARED_ALIGN CountBlockBox {
-	vec4 min_max;	  // min x', min y', max x', max y'
-	vec4 slope_range; // slope: w per x' and y' of the plane; min and max of w - slope.(x', y')
-	vec4 w_range;	  // min and max of w; the others are 0
+/// A leaf: the receivers of a block whose distances from the camera are in one slice. A block is a thin cone of camera
+/// rays, so they are close together (Olsson, Billeter and Assarsson 2012, Clustered Deferred and Forward Shading,
+/// section 3.1: tiles with logarithmic slices of depth). Written by find_leaves.comp.
+///
+/// A leaf has a frame of its own: three axes (see make_count_frame) in which (x', y') and w of a point of light space
+/// are x / z, y / z and 1 / z; directional: x, y and depth_far_m - z.
+struct SHARED_ALIGN CountLeaf {
+	// The frame's z axis in light space; the distance by which all its receivers choose levels of detail: the least of
+	// their distances from the light's centre in metres (directional: their least z in light space).
+	vec4 axis_distance;
+	vec4 min_max;		// of (x', y'): min x', min y', max x', max y'
+	vec4 slope_range;	// slope: w per x' and y' of a plane near the receivers; min and max of w - slope.(x', y')
+	vec4 anchor_block;	// position of its anchor, see CountLeafResult; bits of its block's index
+	vec4 minimum_w;		// bounds of the receivers in light space; min of w
+	vec4 maximum_w;		// the same; max of w
+	// Bits of the words: pixels of the block (2 words), see find_pixel_in_block; EDGE_COUNT_LEAF_* flags; 0.
+	uvec4 pixels_flags;
 };
-SHARED_SIZE(CountBlockBox, 48);
+SHARED_SIZE(CountLeaf, 112);
+#define EDGE_COUNT_LEAF_IS_SMOOTH 1u // all pixels of the block have receivers, whose positions change evenly
+// Some receiver sees the light so far from the frame's axis that the leaf has no bounds: it needs everything.
+#define EDGE_COUNT_LEAF_IS_WIDE 2u
+#define EDGE_COUNT_MAX_SLICES 8 // leaves of a block
 
-// Words that describe the receivers of a block. Word EDGE_COUNT_RECEIVERS_PARTS has bit i set if
-// part i has receivers, and flags. EDGE_COUNT_IS_SORTED: parts are sorted by distance, and the bits
-// from EDGE_COUNT_VIEW_SHIFT on are their view. EDGE_COUNT_IS_PARTLY_LIT: some receiver is in no
-// part because no caster can hide it. EDGE_COUNT_IS_SMOOTH: each pixel has a receiver, all are in
-// one part, and their positions change evenly from pixel to pixel. If sorted, the words from
-// EDGE_COUNT_RECEIVERS_ORDER on list the pixels in order, one byte each: the index for
-// find_pixel_in_block, and the part.
-#define EDGE_COUNT_PARTS_MASK 0x3fu // EDGE_COUNT_MAX_VIEWS bits
-#define EDGE_COUNT_VIEW_SHIFT 8
-#define EDGE_COUNT_VIEW_MASK 7u
-#define EDGE_COUNT_IS_SMOOTH 0x20000000u
-#define EDGE_COUNT_IS_SORTED 0x40000000u
-#define EDGE_COUNT_IS_PARTLY_LIT 0x80000000u
-#define EDGE_COUNT_RECEIVERS_PARTS 0
-#define EDGE_COUNT_RECEIVERS_ORDER 1
-#define EDGE_COUNT_RECEIVERS_WORDS 17 // 1, and 64 pixels in 16 words
-#define EDGE_COUNT_ORDER_PIXEL_MASK 63u
-#define EDGE_COUNT_ORDER_PART_SHIFT 6
+// Room for a leaf's lists of silhouettes and of local faces. Where they are longer, needs_rays is set.
+#define EDGE_COUNT_MAX_SILHOUETTES 1024
+#define EDGE_COUNT_MAX_LOCAL_FACES 512
+
+/// What list_leaves.comp found for a leaf. Its words in the buffer of lists are indices of silhouette edges as seen
+/// from the light's centre, then of local faces, then entries of edges (see COUNT_EDGE_MASK).
+///
+/// The numbers of faces that the way from a receiver to the light's centre crosses are counted at one receiver, the
+/// anchor. See count_sweep_inc.glsl for the others.
+struct SHARED_ALIGN CountLeafResult {
+	uint first_word;
+	uint silhouette_count;
+	uint face_count;
+	uint edge_count;
+	int back_facing; // of the anchor, see CountCrossings
+	int light_facing;
+	int double_sided;
+	uint needs_rays; // 1: the lists of silhouettes and faces are not complete; each receiver walks the tree of faces
+};
+SHARED_SIZE(CountLeafResult, 32);
 
 // Indices in the buffer of totals.
 #define EDGE_COUNT_TOTAL_EDGES 0
-#define EDGE_COUNT_TOTAL_NODES                                                                     \
-	1 // per view: nodes of its face lists, including those that did not fit
-#define EDGE_COUNT_TOTAL_LEVELS                                                                    \
-	(EDGE_COUNT_TOTAL_NODES + EDGE_COUNT_MAX_VIEWS) // per view, see load_count_level
-#define EDGE_COUNT_TOTAL_CUT_FACES (EDGE_COUNT_TOTAL_LEVELS + EDGE_COUNT_MAX_VIEWS)
-#define EDGE_COUNT_TOTAL_COUNT 16 // all start at 0
+#define EDGE_COUNT_TOTAL_CUT_FACES 1
+#define EDGE_COUNT_TOTAL_COUNT 4 // all start at 0
 
-// Bindings of the passes over pixels and blocks, after those of map_resolve_inc.glsl.
+// Bindings of the passes over pixels and leaves, after those of map_resolve_inc.glsl.
 #define COUNT_BINDING_LIGHT (MAP_RESOLVE_FIRST_FREE_BINDING + 0)
-#define COUNT_BINDING_BOXES (MAP_RESOLVE_FIRST_FREE_BINDING + 1)
+#define COUNT_BINDING_LEAVES (MAP_RESOLVE_FIRST_FREE_BINDING + 1)
 #define COUNT_BINDING_EDGES (MAP_RESOLVE_FIRST_FREE_BINDING + 2)
 #define COUNT_BINDING_TOTALS (MAP_RESOLVE_FIRST_FREE_BINDING + 3)
-#define COUNT_BINDING_CHAINS (MAP_RESOLVE_FIRST_FREE_BINDING + 4)
+#define COUNT_BINDING_RESULTS (MAP_RESOLVE_FIRST_FREE_BINDING + 4)
 #define COUNT_BINDING_LISTS (MAP_RESOLVE_FIRST_FREE_BINDING + 5)
-#define COUNT_BINDING_HEADS (MAP_RESOLVE_FIRST_FREE_BINDING + 6)
-#define COUNT_BINDING_NODES (MAP_RESOLVE_FIRST_FREE_BINDING + 7)
-#define COUNT_BINDING_FACES (MAP_RESOLVE_FIRST_FREE_BINDING + 8)
-#define COUNT_BINDING_PLANES (MAP_RESOLVE_FIRST_FREE_BINDING + 9)
-#define COUNT_BINDING_MASKS (MAP_RESOLVE_FIRST_FREE_BINDING + 10)
-#define COUNT_BINDING_OUTPUT (MAP_RESOLVE_FIRST_FREE_BINDING + 11)
-#define COUNT_BINDING_BLOCKS (MAP_RESOLVE_FIRST_FREE_BINDING + 12)
-#define COUNT_BINDING_DEPTH_MAP (MAP_RESOLVE_FIRST_FREE_BINDING + 13)
-#define COUNT_BINDING_DISPATCHES (MAP_RESOLVE_FIRST_FREE_BINDING + 14)
-#define COUNT_BINDING_BUNDLES (MAP_RESOLVE_FIRST_FREE_BINDING + 15)
-#define COUNT_BINDING_BLOCK_RECEIVERS (MAP_RESOLVE_FIRST_FREE_BINDING + 16)
-#define COUNT_BINDING_CUT_FACES (MAP_RESOLVE_FIRST_FREE_BINDING + 17)
-#define COUNT_BINDING_STATUS (MAP_RESOLVE_FIRST_FREE_BINDING + 18)
-#define COUNT_BINDING_UNFINISHED_COUNTS (MAP_RESOLVE_FIRST_FREE_BINDING + 19)
-#define COUNT_BINDING_UNFINISHED_ITEMS (MAP_RESOLVE_FIRST_FREE_BINDING + 20)
-#define COUNT_BINDING_UNFINISHED_STATES (MAP_RESOLVE_FIRST_FREE_BINDING + 21)
-#define COUNT_BINDING_ROUND (MAP_RESOLVE_FIRST_FREE_BINDING + 22)
-#define COUNT_BINDING_NEXT_ROUND (MAP_RESOLVE_FIRST_FREE_BINDING + 23)
-#define COUNT_BINDING_NEXT_DISPATCH (MAP_RESOLVE_FIRST_FREE_BINDING + 24)
+#define COUNT_BINDING_NODES (MAP_RESOLVE_FIRST_FREE_BINDING + 6)
+#define COUNT_BINDING_FACES (MAP_RESOLVE_FIRST_FREE_BINDING + 7)
+#define COUNT_BINDING_PLANES (MAP_RESOLVE_FIRST_FREE_BINDING + 8)
+#define COUNT_BINDING_MASKS (MAP_RESOLVE_FIRST_FREE_BINDING + 9)
+#define COUNT_BINDING_OUTPUT (MAP_RESOLVE_FIRST_FREE_BINDING + 10)
+#define COUNT_BINDING_KINDS (MAP_RESOLVE_FIRST_FREE_BINDING + 11)
+#define COUNT_BINDING_DEPTH_MAP (MAP_RESOLVE_FIRST_FREE_BINDING + 12)
+#define COUNT_BINDING_COUNTS (MAP_RESOLVE_FIRST_FREE_BINDING + 13)
+#define COUNT_BINDING_CUT_FACES (MAP_RESOLVE_FIRST_FREE_BINDING + 14)
+#define COUNT_BINDING_STATUS (MAP_RESOLVE_FIRST_FREE_BINDING + 15)
+#define COUNT_BINDING_UNFINISHED_COUNTS (MAP_RESOLVE_FIRST_FREE_BINDING + 16)
+#define COUNT_BINDING_UNFINISHED_ITEMS (MAP_RESOLVE_FIRST_FREE_BINDING + 17)
+#define COUNT_BINDING_UNFINISHED_STATES (MAP_RESOLVE_FIRST_FREE_BINDING + 18)
+#define COUNT_BINDING_ROUND (MAP_RESOLVE_FIRST_FREE_BINDING + 19)
+#define COUNT_BINDING_NEXT_ROUND (MAP_RESOLVE_FIRST_FREE_BINDING + 20)
+#define COUNT_BINDING_NEXT_DISPATCH (MAP_RESOLVE_FIRST_FREE_BINDING + 21)
+#define COUNT_BINDING_ARGUMENTS (MAP_RESOLVE_FIRST_FREE_BINDING + 22)
 
 // Words of the status buffer, which is cleared in each frame and read back after it. The first has
-// one bit per kind of fault and pass, EDGE_COUNT_FAULT_* << pass; a pass is a kind of blocks that
-// is resolved (EDGE_COUNT_BLOCKS_*), or EDGE_COUNT_PASS_LIST_BLOCKS. The others count the work.
+// one bit per kind of fault and pass, EDGE_COUNT_FAULT_* << pass; a pass is a kind of leaves that
+// is resolved (EDGE_COUNT_LEAVES_*), or EDGE_COUNT_PASS_LIST_LEAVES. The others count the work.
 #define EDGE_COUNT_STATUS_FAULTS 0
 #define EDGE_COUNT_STATUS_LISTED_EDGES 1 // entries of all lists
-#define EDGE_COUNT_STATUS_LONGEST_LIST 2 // entries of a part's list
+#define EDGE_COUNT_STATUS_LONGEST_LIST 2 // entries of a leaf's list
+#define EDGE_COUNT_STATUS_RAYS 3 // receivers whose solids were counted along their own ray
 #define EDGE_COUNT_STATUS_WORDS 4
-#define EDGE_COUNT_PASS_LIST_BLOCKS 6
+#define EDGE_COUNT_PASS_LIST_LEAVES 6
 #define EDGE_COUNT_PASS_BITS 8
 #define EDGE_COUNT_FAULT_LOOP 0x1u		  // a loop did not reach its end: the driver ended it
-#define EDGE_COUNT_FAULT_FACE_LIST 0x100u // a list of faces has no end, or an index out of range
-#define EDGE_COUNT_FAULT_EDGE_LIST 0x10000u // the same of a list of edges
+#define EDGE_COUNT_FAULT_TREE 0x100u	  // a walk through a tree has no end
+#define EDGE_COUNT_FAULT_LIST 0x10000u // a list has an index out of range
 
-// Kinds of blocks. Blocks that are all lit have none, since the mask is cleared to 1. Each kind has a list of its blocks, and the arguments of an indirect dispatch,
-// (blocks, 1, 1). After the arguments of all kinds is the number of requested chunks, including
-// those that did not fit.
-#define EDGE_COUNT_BLOCKS_DARK 0	 // no edges, and no face between receivers: they are all dark
-#define EDGE_COUNT_BLOCKS_PLAIN 1	 // no edges
-#define EDGE_COUNT_BLOCKS_LISTED 2	 // a list of edges
-#define EDGE_COUNT_BLOCKS_UNLISTED 3 // edges, but no complete list
-#define EDGE_COUNT_BLOCKS_FILTERED 4 // more edges than the budget
-#define EDGE_COUNT_BLOCKS_SMOOTH                                                                   \
+// Kinds of leaves. Leaves that are all lit have none, since the mask is cleared to 1. Each kind has a list of its
+// leaves.
+#define EDGE_COUNT_LEAVES_DARK 0	 // nothing changes between its receivers: they are all dark
+#define EDGE_COUNT_LEAVES_PLAIN 1	 // no edges: each receiver sees the whole light or nothing of it
+#define EDGE_COUNT_LEAVES_LISTED 2	 // a list of edges
+#define EDGE_COUNT_LEAVES_UNLISTED 3 // no list
+#define EDGE_COUNT_LEAVES_FILTERED 4 // more edges than the budget
+#define EDGE_COUNT_LEAVES_SMOOTH                                                                   \
 	5 // a list of edges so far away that the mask is smooth, see count_smooth_inc.glsl
-#define EDGE_COUNT_BLOCK_KINDS 6
-#define EDGE_COUNT_DISPATCH_CHUNKS 18 // index: 3 arguments for each of 6 kinds precede it
-#define EDGE_COUNT_DISPATCH_WORDS 19
+#define EDGE_COUNT_LEAF_KINDS 6
+// The arguments of the indirect dispatches over leaves: one for each kind, and a buffer of its own with one for all
+// leaves. They have rows of EDGE_COUNT_GROUPS_PER_ROW work groups.
+#define EDGE_COUNT_ARGUMENT_WORDS 3
+#define EDGE_COUNT_GROUPS_PER_ROW 64
+// The buffer of counts: the leaves of each kind, all leaves, leaves beyond the first of their block, and words of all
+// lists. The last two include what did not fit.
+#define EDGE_COUNT_COUNT_ALL EDGE_COUNT_LEAF_KINDS
+#define EDGE_COUNT_COUNT_MORE (EDGE_COUNT_LEAF_KINDS + 1)
+#define EDGE_COUNT_COUNT_LIST_WORDS (EDGE_COUNT_LEAF_KINDS + 2)
+#define EDGE_COUNT_COUNT_WORDS (EDGE_COUNT_LEAF_KINDS + 3)
 
 // A subgroup that counts edges stops after about this many iterations. The edges that remain are
 // counted in rounds, each a dispatch of its own: a slot has the state of one unfinished subgroup
@@ -332,71 +316,57 @@ SHARED_SIZE(CountBlockBox, 48);
 //
 // Without the limit, a dispatch takes as long as the longest list of edges demands, and GPUs whose
 // dispatches take seconds are reset. The number is that of a CPU driver: llvmpipe ends every loop
-// after an invocation has made 65,535 iterations in all its loops together. The margin is for the
-// walk through a list of faces, and for what follows until the next test of the limit.
+// after an invocation has made 65,535 iterations in all its loops together. The margin is for
+// the numbers of solids, and for what follows until the next test of the limit.
 #define EDGE_COUNT_MAX_ITERATIONS 48000
 // Words of the buffer of counts: subgroups that were added, and those of them that were taken out
 // after the first round.
 #define EDGE_COUNT_UNFINISHED_ADDED 0
 #define EDGE_COUNT_UNFINISHED_TAKEN 1
 #define EDGE_COUNT_UNFINISHED_COUNTS 2
-// An item is a block times 2^EDGE_COUNT_SUBGROUP_BITS, plus the subgroup's index in the block.
+// An item is a leaf times 2^EDGE_COUNT_SUBGROUP_BITS, plus the subgroup's index in the leaf.
 #define EDGE_COUNT_SUBGROUP_BITS 4
 #define EDGE_COUNT_UNFINISHED_IS_NEW 0x80000000u // flag of an item: nothing is counted yet
 // Words of the state of one receiver: those of CountProgress, and of CountState without and with
 // its counters, which have 18 words for each 64 points.
 #define EDGE_COUNT_STATE_WORDS(sample_set_count) (5 + 18 * (sample_set_count))
-// The largest subgroup that is used: a block's number of pixels.
+// The largest subgroup that is used: a leaf's number of pixels.
 #define EDGE_COUNT_MAX_SUBGROUP 64
 
 // Layers of the debug image.
 #define EDGE_COUNT_DEBUG_EDGES 0
 #define EDGE_COUNT_DEBUG_SOLIDS 1 // in front of the light's centre, see sum_crossings
-#define EDGE_COUNT_DEBUG_BLOCKS 2
+#define EDGE_COUNT_DEBUG_LEAVES 2
 #define EDGE_COUNT_DEBUG_LAYERS 3
 
-// Taps of the blocker search, and of the filter, in blocks that exceed the budget.
+// Taps of the blocker search, and of the filter, in leaves that exceed the budget.
 #define EDGE_COUNT_FILTER_TAPS 64u
 
-/// Push constants of the passes over blocks.
-struct SHARED_ALIGN CountBlockPush {
-	uint kind;		  // EDGE_COUNT_BLOCKS_*
-	uint first_block; // start of that kind's list in the buffer of blocks
-	float nearest_w;  // EDGE_COUNT_BLOCKS_FILTERED: upper bound of the casters' w, see
+/// Push constants of the passes over leaves.
+struct SHARED_ALIGN CountLeafPush {
+	uint kind;		  // EDGE_COUNT_LEAVES_*
+	uint first_leaf;  // start of that kind's list in the buffer of kinds
+	float nearest_w;  // EDGE_COUNT_LEAVES_FILTERED: upper bound of the casters' w, see
 					  // LightViewConstants
 	uint round;		  // of the passes that count unfinished subgroups
 };
-SHARED_SIZE(CountBlockPush, 16);
+SHARED_SIZE(CountLeafPush, 16);
 
-// Bindings of the passes that list the faces of each texel.
-#define FACE_LIST_BINDING_LIGHT 0
-#define FACE_LIST_BINDING_FACES 1
-#define FACE_LIST_BINDING_HEADS 2
-#define FACE_LIST_BINDING_NODES 3
-#define FACE_LIST_BINDING_TOTALS 4
-#define FACE_LIST_BINDING_DISPATCHES 5
-#define FACE_LIST_BINDING_CUT_FACES 6
-#define FACE_LIST_GROUP_SIZE 64
+// Bindings of the pass that lists the faces near the light.
+#define CUT_FACES_BINDING_LIGHT 0
+#define CUT_FACES_BINDING_FACES 1
+#define CUT_FACES_BINDING_TOTALS 2
+#define CUT_FACES_BINDING_LIST 3
+#define CUT_FACES_GROUP_SIZE 64
 
-/// One attempt to list a view's faces. For the first attempt's texel size see choose_first_level()
-/// in clear_faces.comp.
-struct SHARED_ALIGN CountFaceListPush {
-	uint view;
-	uint first_face; // of a range of faces that the view may see
-	uint face_count;
-	uint is_first;		// the first attempt
-	uint is_next_final; // the next attempt is the final one: its map has one texel, where all faces
-						// fit
-	uint may_overflow;	// it is not known that the lists fit at the map's full size, map_size_px
+/// Push constants of bound_nodes.comp.
+struct SHARED_ALIGN CountBoundPush {
+	uint first_level; // the lowest level that it writes
 	uint padding0;
 	uint padding1;
+	uint padding2;
 };
-SHARED_SIZE(CountFaceListPush, 32);
-// Offsets, in words, of the indirect dispatch arguments of a further attempt: to clear the map, and
-// to list the faces.
-#define FACE_LIST_DISPATCH_CLEAR 0
-#define FACE_LIST_DISPATCH_LIST 3
-#define FACE_LIST_DISPATCH_WORDS 6
+SHARED_SIZE(CountBoundPush, 16);
 
 #include "shared/shared_end.h"
 #endif

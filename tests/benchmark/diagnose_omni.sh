@@ -39,8 +39,7 @@ try "omni light over few faces" "$1" three_lights Omni --size 64x64
 try "many faces" "$1" courtyard Lamp --size 64x64
 try "many faces and pixels" "$1" courtyard Lamp --size 256x256
 try "no edges" "$1" courtyard Lamp --size 256x256 --set light_size=0
-try "no face checks in blocks with edges" "$1" courtyard Lamp --size 256x256 --set edge_count_interpolation=0
-try "short lists of faces" "$1" courtyard Lamp --size 256x256 --set edge_count_map_size=1024
+try "no interpolation" "$1" courtyard Lamp --size 256x256 --set edge_count_interpolation=0
 if [ $# -gt 1 ]; then
     try "unoptimised shaders" "$2" courtyard Lamp --size 256x256
 fi

@@ -3,7 +3,7 @@
 
     measure_edge_count.py [PART]... [--groups A,B] [--rounds N] [--write]
 
-Parts: errors wrong hard maps times memory motion; default: all. Each part has its own table; errors and wrong have one per
+Parts: errors wrong hard times memory motion; default: all. Each part has its own table; errors and wrong have one per
 group. A table is written as soon as it is measured. The images are those of edge_count_images.py. References are traced
 once (the program caches them). With --groups the goals cover only these groups, and --write works only for the parts errors
 and wrong. Build first: scons.
@@ -35,7 +35,6 @@ WRONG_SIZE = "1280x720"
 MASK_SIZE = "400x400"
 TIME_SIZES = {STUDY: "512x512", PLAIN: "800x800", PACKAGES: "512x512", ARTISTS: "512x512"}
 TIMED_FRAMES = 20
-MAP_SIZES = (256, 1024)
 PCSS = ("pcss", ("pcss_taps=64",))
 RECEIVERS_PASS = "receivers"  # a pass of the shadow system, the same for every technique
 GRASS = "grass"  # this scene has goals for errors, but not for times
@@ -181,22 +180,6 @@ def measure_hard(images, folder, _rounds):
                 rows.append((image.name, technique, count, found["pixels"]))
         goals.add("hard shadow: wrong receivers in %d, %s" % (RATE_BASE, technique), limit, wrong / pixels * RATE_BASE, "%.2f")
     return [*goals.format(), "", *(format_table(("image", "technique", "wrong", "receivers"), rows) if rows else ["No image has a receiver that is off by more than 0.2."])]
-
-
-def measure_maps(images, folder, _rounds):
-    """Measure the largest difference between masks with a small and a large shadow map."""
-    paths = [os.path.join(folder, "mask_%d.exr" % size) for size in MAP_SIZES]
-    differences = {}
-    for image in images:
-        for size, path in zip(MAP_SIZES, paths):
-            image.draw(GNOMON, "edge_count", ("edge_count_map_size=%d" % size,), ERROR_SIZES[image.group], path)
-        small, large = (load_mask(path).visibility for path in paths)
-        differences[image.name] = max(abs(a - b) for a, b in zip(small, large))
-        report_progress("maps of %s: %.5f" % (image.name, differences[image.name]))
-    goals = Goals()
-    what = "greatest difference between maps of %d and %d" % MAP_SIZES
-    goals.add_worst(what, round(1 / 255, 4), differences, "%.5f")  # one step of an 8-bit mask
-    return goals.format()
 
 
 def get_pass_times(result, clock):
@@ -352,7 +335,6 @@ PARTS = {
     "errors": measure_errors,
     "wrong": measure_wrong,
     "hard": measure_hard,
-    "maps": measure_maps,
     "times": measure_times,
     "memory": measure_memory,
     "motion": measure_motion,

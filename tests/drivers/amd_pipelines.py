@@ -43,19 +43,16 @@ SPILLING = ("shadow_edge_count/resolve", "shadow_edge_count/debug")
 # of the ids that it has.
 SUBGROUP = "subgroup"  # the size that the engine requests
 CONSTANTS = {
-    # 0 subgroup size; 1 views: 6 of an omni light, else 1; 2 blocks without lists; 3 directional; 4 invocations of a work group;
-    # 5 casters may cut the light's disc
-    "shadow_edge_count": {0: (SUBGROUP,), 1: (1, 6), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1)},
+    # 0 subgroup size; 2 leaves without lists; 3 directional; 4 invocations of a work group; 5 casters may cut the light's disc
+    "shadow_edge_count": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1)},
     "shadow_map/resolve": {0: (0, 3)},  # width of the filter
     # 1 inner fins; 2 layers; 3 curve; 4 visibility begins at 0
     "shadow_penumbra_fins": {1: (0, 1), 2: (3,), 3: (0,), 4: (0, 1)},
     "renderer": {0: (0, 1)},  # coloured masks
     "shadows": {0: (0, 1)},
 }
-# Combinations that the program never uses: a directional light has one view and no disc, smooth blocks have lists, and
-# filtered ones none.
+# Combinations that the program never uses: a directional light has no disc, smooth leaves have lists, and unfinished ones none.
 IMPOSSIBLE = (
-    ("shadow_edge_count/", {1: 6, 3: 1}),
     ("shadow_edge_count/", {3: 1, 5: 1}),
     ("shadow_edge_count/resolve_smooth", {2: 1}),
     ("shadow_edge_count/resolve_unfinished", {2: 0}),

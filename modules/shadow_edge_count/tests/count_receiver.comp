@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/count_edge_inc.glsl"
-#include "shadow_edge_count/count_faces_inc.glsl"
+#include "shadow_edge_count/count_crossings_inc.glsl"
 
 // Input: receivers' positions in light space. Output: visibility, solids in front of the light's centre, signed area
-// (see CountState). Tests all faces and edges, without lists.
+// of the disc (see CountState). Tests all faces and edges, without lists.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];
@@ -32,27 +32,6 @@ uvec4 load_count_masks(uint p_index, uint p_pair) {
 	return uvec4(masks[p_index], uvec2(0u)); // one set of points
 }
 
-// Each texel has the same list, of all faces, and each face is in all its cells.
-CountViewConstants load_count_view(uint p_view) {
-	return light.views[p_view];
-}
-uint load_count_head(uint p_index) {
-	return 1u;
-}
-uvec2 load_count_node(uint p_index) {
-	return uvec2(p_index | 0xffffffffu << EDGE_COUNT_NODE_CELLS_SHIFT,
-			p_index + 1u < light.face_count ? p_index + 2u : 0u);
-}
-uint load_count_level(uint p_view) {
-	return 0u;
-}
-CountFaceRecord load_count_face(uint p_face) {
-	return faces[p_face];
-}
-vec4 load_count_plane(uint p_face) {
-	return planes[p_face];
-}
-
 void main() {
 	const uint item = gl_GlobalInvocationID.x;
 	if (item >= uint(items.length())) {
@@ -60,7 +39,13 @@ void main() {
 	}
 	// 0.0: any distance will do, since all faces have one level of detail.
 	const CountReceiver receiver = make_count_receiver(light, items[item].xyz, 0.0);
-	const CountCrossings crossings = count_crossings(light, 0u, vec2(0.0), receiver);
+	CountCrossings crossings = CountCrossings(0, 0, 0);
+	for (uint i = 0u; i < light.face_count; ++i) {
+		const bool is_in_front = is_count_in_front(planes[i], receiver.position);
+		if (is_in_front != is_count_light_in_front(planes[i])) {
+			count_face(receiver, faces[i], is_in_front, crossings);
+		}
+	}
 	CountState state = make_count_state(sum_crossings(crossings));
 	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && !IS_DIRECTIONAL; ++i) {
 		count_add_cut(receiver, faces[i], planes[i], crossings.back_facing >= crossings.light_facing, state);
@@ -75,5 +60,5 @@ void main() {
 		const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
 		count_sectors(find_edge_sectors(receiver, a, b, a, b, ivec2(weight, 0)), state);
 	}
-	results[item] = vec4(count_resolve(state), float(state.solid_count), state.area, 0.0);
+	results[item] = vec4(count_resolve(state), float(state.solid_count), float(state.area) * AREA_UNIT, 0.0);
 }

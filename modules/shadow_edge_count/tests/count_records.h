@@ -25,7 +25,7 @@ struct CountArrays {
 			p_word };
 	}
 
-	explicit CountArrays(const CountScene &p_scene, uint32_t p_map_size_px = 64) {
+	explicit CountArrays(const CountScene &p_scene) {
 		const float FAR = 3e38f; // the faces exist for receivers at all distances
 		for (const CountFace &face : p_scene.get_faces()) {
 			faces.push_back(
@@ -45,16 +45,12 @@ struct CountArrays {
 		const CountSpace &space = p_scene.get_space();
 		pipeline_constants = { { EDGE_COUNT_CONSTANT_IS_DIRECTIONAL,
 				space.is_directional ? 1u : 0u } };
-		light.views[0] = { glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0),
-			glm::vec2(float(p_scene.half_extent)), glm::uvec2(p_map_size_px) };
 		light.disc_radius = float(space.disc_radius);
 		// Beyond all receivers; warp() in test_count_cull.cpp uses the same depth.
 		light.depth_far_m = 3.0f * float(space.scene_size_m);
 		light.scene_size_m = float(space.scene_size_m);
 		light.nearer_tolerance = float(space.nearer_tolerance);
-		light.view_count = 1;
 		light.face_count = uint32_t(faces.size());
-		light.node_capacity = light.face_count; // of the lists of count_receiver.comp
 	}
 };
 

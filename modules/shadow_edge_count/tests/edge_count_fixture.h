@@ -57,7 +57,7 @@ public:
 		ShadowEdgeCount().get_light_views(p_light, p_scene, properties, views);
 		light_from_world = views[0].view_from_world;
 		const shader::CountLightConstants constants =
-				make_count_light_constants(views, settings.disc_radius, p_scene.scene_size_m);
+				make_count_light_constants(views[0], settings.disc_radius, p_scene.scene_size_m);
 		space = { views[0].is_orthographic, settings.disc_radius, constants.nearer_tolerance,
 			p_scene.scene_size_m };
 		// All casters, also those that the renderer culls.

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 
 using namespace gnomon;
 
@@ -18,10 +19,10 @@ const int UNKNOWN_WEIGHT = 9; // see count_cull.comp
 /// Receivers in light space, and their box: bounds of (x', y'), and of w relative to a plane.
 struct ReceiverBox {
 	std::vector<glm::dvec3> receivers;
-	shader::CountBlockBox box;
+	std::array<glm::vec4, 3> box; // see count_cull.comp
 };
 
-/// (x', y', w) of a point, see CountViewConstants.
+/// (x', y', w) of a point, see CountLeaf.
 glm::dvec3 warp(const CountScene &p_scene, const glm::dvec3 &p_r) {
 	return p_scene.get_space().is_directional
 			// The same depth_far_m as in CountArrays.
@@ -80,7 +81,7 @@ ReceiverBox make_box(
 struct CullResult {
 	std::vector<bool> is_used;		// the box may need the edge; by box, then by edge
 	std::vector<int> known_weights; // by box, then by edge; may be UNKNOWN_WEIGHT
-	size_t wrong_bundle_count = 0;	// bundles that are rejected although an edge of theirs is used
+	size_t wrong_node_count = 0;	// nodes that are rejected although an edge of theirs is used
 };
 
 CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
@@ -88,9 +89,7 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 	const CountArrays arrays(p_scene);
 	std::vector<glm::vec4> input;
 	for (const ReceiverBox &box : p_boxes) {
-		input.push_back(box.box.min_max);
-		input.push_back(box.box.slope_range);
-		input.push_back(box.box.w_range);
+		input.insert(input.end(), box.box.begin(), box.box.end());
 	}
 	const OwnedBuffer light = r_fixture.make_buffer("light",
 			std::vector<shader::CountLightConstants>{ arrays.light }, BufferUsage::STORAGE);
@@ -104,7 +103,7 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 	for (const glm::vec4 &found : results) {
 		result.is_used.push_back(found.x > 0.5f);
 		result.known_weights.push_back(int(found.y));
-		result.wrong_bundle_count += found.x > 0.5f && (found.z < 0.5f || found.w < 0.5f) ? 1 : 0;
+		result.wrong_node_count += found.x > 0.5f && (found.z < 0.5f || found.w < 0.5f) ? 1 : 0;
 	}
 	return result;
 }
@@ -119,7 +118,7 @@ CountScene make_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_r
 	scene.radius = scene.is_directional ? p_radius_sizes : p_radius_sizes * scene.scene_size;
 	scene.half_extent = scene.is_directional ? 6.0 : 0.95;
 	if (p_setup == LightSetup::SPOT_FAR_OFF) {
-		// The casters are about 50 degrees off the axis, as in the corner of an omni light's view.
+		// The casters are about 50 degrees off the axis, as in the corner of a wide view.
 		scene.light = { 2.2, 3.4, 1.4 };
 		scene.target = { 2.3, 1.4, 1.5 };
 		scene.half_extent = 2.6;
@@ -164,7 +163,7 @@ void check_boxes(KernelFixture &r_fixture, const CountScene &p_scene, TestRandom
 		boxes.push_back(make_box(p_scene, r_random, index % 2 == 0 ? 0.05 : 0.7, index % 3 != 0));
 	}
 	const CullResult result = find_uses(r_fixture, p_scene, boxes);
-	CHECK(result.wrong_bundle_count == 0);
+	CHECK(result.wrong_node_count == 0);
 	const std::vector<CountEdge> &edges = p_scene.get_edges();
 	for (size_t box = 0; box < box_count; ++box) {
 		std::vector<CountEdge> used;

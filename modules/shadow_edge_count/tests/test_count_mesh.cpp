@@ -1,4 +1,4 @@
-// The order of a mesh's edges, which makes bundles of consecutive edges compact.
+// The order of a mesh's faces and edges, which makes clusters of consecutive ones compact.
 
 #include "modules/mesh_tools/topology.h"
 #include "modules/shadow_edge_count/count_mesh.h"

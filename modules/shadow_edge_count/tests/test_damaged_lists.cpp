@@ -1,4 +1,4 @@
-// Lists that a faulty pass could leave: without an end, or with indices beyond all buffers. A frame
+// Lists that a faulty pass could leave: with counts or indices beyond all buffers. A frame
 // must end, its mask must be in 0..1, and one warning must name the light and the pass.
 
 #include "modules/core/log.h"
@@ -13,29 +13,26 @@ using namespace gnomon;
 
 namespace {
 
-enum class Damage { NONE, CYCLIC_FACES, FACES_BEYOND, EDGES_BEYOND, ENTRIES_BEYOND };
+enum class Damage { NONE, COUNTS_BEYOND, ENTRIES_BEYOND };
 Damage damage = Damage::NONE; // of the next frames
 
 /// edge_count with lists that are damaged before they are read.
 class DamagedEdgeCount : public ShadowEdgeCount {
 protected:
-	void after_lists(RenderGraph &r_graph, const CountFrameBuffers &p_light,
-			const CountBlocks &p_blocks) override {
-		const RGBuffer targets[] = { {}, p_light.nodes, p_light.heads, p_blocks.chains,
-			p_blocks.lists };
+	void after_lists(RenderGraph &r_graph, const CountFrameBuffers & /*p_light*/,
+			const CountLeaves &p_leaves) override {
+		const RGBuffer targets[] = { {}, p_leaves.results, p_leaves.lists };
 		const RGBuffer target = targets[static_cast<int>(damage)];
 		if (!target) {
 			return;
 		}
 		const auto word_count =
 				static_cast<uint32_t>(r_graph.get_desc(target).size_bytes / sizeof(uint32_t));
-		const uint32_t push[] = { 0xfffffff0u, damage == Damage::CYCLIC_FACES ? 1u : 0u,
-			word_count };
+		const uint32_t push[] = { 0x7ffffff0u, word_count };
 		add_compute_pass(r_graph, "damage lists",
 				device->get_compute_pipeline({ "damage lists", "tests/damage_words.comp" }),
 				{ PassBinding::write(0, target, PassBuilder::Content::UPDATE) },
-				{ word_count, 1, 1 },
-				{ reinterpret_cast<const uint8_t *>(push), sizeof(push) });
+				{ word_count, 1, 1 }, { reinterpret_cast<const uint8_t *>(push), sizeof(push) });
 	}
 
 public:
@@ -76,14 +73,13 @@ struct CaughtFaults {
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] lists without an end cost an image and one warning, not the device") {
+TEST_CASE("[GPU][EdgeCount] lists with wrong counts or entries cost an image and one warning, not "
+		  "the device") {
 	const DamagedTechnique technique;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
-		for (const auto &[next_damage, what] :
-				{ std::pair(Damage::NONE, ""), std::pair(Damage::CYCLIC_FACES, "a list of faces"),
-						std::pair(Damage::FACES_BEYOND, "a list of faces"),
-						std::pair(Damage::EDGES_BEYOND, "a list of edges"),
-						std::pair(Damage::ENTRIES_BEYOND, "a list of edges") }) {
+		for (const auto &[next_damage, what] : { std::pair(Damage::NONE, ""),
+					 std::pair(Damage::COUNTS_BEYOND, "a list of faces or edges"),
+					 std::pair(Damage::ENTRIES_BEYOND, "a list of faces or edges") }) {
 			CAPTURE(int(type));
 			CAPTURE(int(next_damage));
 			damage = next_damage;
@@ -101,7 +97,8 @@ TEST_CASE("[GPU][EdgeCount] lists without an end cost an image and one warning, 
 				continue;
 			}
 			CHECK(faults.count(what) > 0);
-			CHECK(faults.count("Light \"Lamp\", edge_count, pass \"resolve") == faults.lines.size());
+			CHECK(faults.count("Light \"Lamp\", edge_count, pass \"resolve") ==
+					faults.lines.size());
 			// Each pass reports a kind of fault once, not in each frame.
 			const std::set<std::string> different(faults.lines.begin(), faults.lines.end());
 			CHECK(different.size() == faults.lines.size());
@@ -111,13 +108,14 @@ TEST_CASE("[GPU][EdgeCount] lists without an end cost an image and one warning, 
 
 TEST_CASE("[EdgeCount] each fault of each pass has a line that names light, pass and next step") {
 	CHECK(describe_count_faults(0, "Sun").empty());
-	const auto lines = describe_count_faults(EDGE_COUNT_FAULT_LOOP << EDGE_COUNT_BLOCKS_LISTED |
-					EDGE_COUNT_FAULT_EDGE_LIST << EDGE_COUNT_BLOCKS_SMOOTH |
-					EDGE_COUNT_FAULT_FACE_LIST << EDGE_COUNT_PASS_LIST_BLOCKS,
+	const auto lines = describe_count_faults(EDGE_COUNT_FAULT_LOOP << EDGE_COUNT_LEAVES_LISTED |
+					EDGE_COUNT_FAULT_LIST << EDGE_COUNT_LEAVES_SMOOTH |
+					EDGE_COUNT_FAULT_TREE << EDGE_COUNT_PASS_LIST_LEAVES,
 			"Sun");
 	REQUIRE(lines.size() == 3);
-	CHECK(lines[0].find("Light \"Sun\", edge_count, pass \"resolve\": the driver ended a loop") == 0);
-	CHECK(lines[1].find("pass \"list blocks\": a list of faces") != std::string::npos);
-	CHECK(lines[2].find("pass \"resolve smooth\": a list of edges") != std::string::npos);
+	CHECK(lines[0].find("Light \"Sun\", edge_count, pass \"resolve\": the driver ended a loop") ==
+			0);
+	CHECK(lines[1].find("pass \"list leaves\": a walk through a tree") != std::string::npos);
+	CHECK(lines[2].find("pass \"resolve smooth\": a list of faces or edges") != std::string::npos);
 	CHECK(describe_count_faults(~0u, "Sun").size() == 21); // 3 kinds, 7 passes
 }

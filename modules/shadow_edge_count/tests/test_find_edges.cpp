@@ -190,20 +190,39 @@ Found find_edges(
 	return found;
 }
 
-/// The caster's topology with its edges in the order of CountMesh.
+/// The caster's topology with its faces and edges in the order of CountMesh.
 MeshTopology reorder(const Caster &p_caster) {
-	const auto make_key = [](const auto &p_edge) {
-		return std::tuple(p_edge.a, p_edge.b, p_edge.face0, p_edge.face1);
-	};
-	std::map<std::tuple<uint32_t, uint32_t, uint32_t, uint32_t>, MeshEdge> edges;
-	for (const MeshEdge &edge : p_caster.topology->edges) {
-		edges[make_key(edge)] = edge;
+	const MeshTopology &source = *p_caster.topology;
+	MeshTopology topology = source;
+	std::map<std::tuple<uint32_t, uint32_t, uint32_t>, uint32_t> faces; // by corners
+	for (uint32_t face = 0; face < source.get_face_count(); ++face) {
+		const uint32_t *corners = &source.triangles[3 * size_t(face)];
+		faces[{ corners[0], corners[1], corners[2] }] = face;
 	}
-	MeshTopology topology = *p_caster.topology;
+	std::vector<uint32_t> old_faces; // by new index
+	std::vector<uint32_t> new_faces(faces.size());
+	for (const shader::CountMeshFace &face : p_caster.mesh.faces) {
+		const uint32_t old_face = faces.at({ face.a, face.b, face.c });
+		new_faces[old_face] = uint32_t(old_faces.size());
+		old_faces.push_back(old_face);
+	}
+	for (size_t face = 0; face < old_faces.size(); ++face) {
+		const uint32_t old_face = old_faces[face];
+		for (size_t corner = 0; corner < 3; ++corner) {
+			topology.triangles[3 * face + corner] = source.triangles[3 * size_t(old_face) + corner];
+		}
+		topology.plane_faces[face] = new_faces[source.plane_faces[old_face]];
+		topology.part_indices[face] = source.part_indices[old_face];
+	}
+	std::map<std::tuple<uint32_t, uint32_t, uint32_t>, MeshEdge> edges;
+	for (MeshEdge edge : source.edges) {
+		edge.face0 = new_faces[edge.face0];
+		edge.face1 = edge.face1 == NO_FACE ? NO_FACE : new_faces[edge.face1];
+		edges[{ edge.a, edge.b, edge.face0 }] = edge;
+	}
 	topology.edges.clear();
-	for (shader::CountMeshEdge edge : p_caster.mesh.edges) {
-		edge.face0 &= EDGE_COUNT_FACE_MASK;
-		topology.edges.push_back(edges.at(make_key(edge)));
+	for (const shader::CountMeshEdge &edge : p_caster.mesh.edges) {
+		topology.edges.push_back(edges.at({ edge.a, edge.b, edge.face0 & EDGE_COUNT_FACE_MASK }));
 	}
 	return topology;
 }

@@ -1,0 +1,31 @@
+// A leaf, and what list_leaves.comp found for it.
+#ifndef LEAF_INC_GLSL
+#define LEAF_INC_GLSL
+
+#include "shadow_edge_count/count_box_inc.glsl"
+#include "shadow_edge_count/count_pixels_inc.glsl"
+
+#ifdef WRITES_LEAVES
+layout(std430, set = 0, binding = COUNT_BINDING_LEAVES) writeonly buffer Leaves {
+#else
+layout(std430, set = 0, binding = COUNT_BINDING_LEAVES) readonly buffer Leaves {
+#endif
+	CountLeaf leaves[];
+};
+
+bool is_wide_leaf(CountLeaf p_leaf) {
+	return (p_leaf.pixels_flags.z & EDGE_COUNT_LEAF_IS_WIDE) != 0u;
+}
+
+/// The block's position in the image, in blocks.
+uvec2 find_leaf_block(CountLeaf p_leaf) {
+	const uint block = floatBitsToUint(p_leaf.anchor_block.w);
+	return uvec2(block % light.block_count.x, block / light.block_count.x);
+}
+
+/// The number of the leaf's receivers.
+uint count_leaf_pixels(CountLeaf p_leaf) {
+	return uint(bitCount(p_leaf.pixels_flags.x) + bitCount(p_leaf.pixels_flags.y));
+}
+
+#endif

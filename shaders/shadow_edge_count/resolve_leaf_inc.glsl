@@ -1,0 +1,47 @@
+// The leaf and the pixels of a work group, for passes over the leaves of one kind.
+#ifndef RESOLVE_LEAF_INC_GLSL
+#define RESOLVE_LEAF_INC_GLSL
+
+#include "common/work_rows_inc.glsl"
+#include "shadow_edge_count/leaf_inc.glsl"
+
+#ifndef COUNT_GROUP_SIZE // invocations per work group, if it is not one per pixel
+#define COUNT_GROUP_SIZE (EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX)
+#endif
+#ifdef COUNT_GROUP_IS_SUBGROUP
+layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
+#else
+// In one dimension: with two, llvmpipe fills subgroups only up to the size in x.
+layout(local_size_x = COUNT_GROUP_SIZE) in;
+#endif
+layout(std430, set = 0, binding = COUNT_BINDING_KINDS) readonly buffer Kinds {
+	uint kinds[]; // the leaves of each kind
+};
+layout(std430, set = 0, binding = COUNT_BINDING_COUNTS) readonly buffer Counts {
+	uint counts[]; // EDGE_COUNT_COUNT_*
+};
+layout(push_constant) uniform Push {
+	CountLeafPush push;
+};
+
+/// Limits an index to the leaves of the light.
+uint limit_leaf(uint p_leaf) {
+	return min(p_leaf, light.leaf_capacity - 1u);
+}
+
+/// The index of the work group's leaf. Even entries of the list come first, then odd ones (see interleave_work):
+/// neighbours in the list are neighbours in the image and take about the same time, so both halves of the dispatch take
+/// about the same time too. r_is_valid: false if there are fewer leaves.
+uint find_group_leaf(out bool r_is_valid) {
+	const uint count = counts[push.kind];
+	const uint group = find_work_group();
+	r_is_valid = group < count;
+	return limit_leaf(kinds[push.first_leaf + (r_is_valid ? interleave_work(group, count) : 0u)]);
+}
+
+/// The position in the image of a pixel of the leaf's block. p_index: for find_pixel_in_block.
+ivec2 find_image_pixel(CountLeaf p_leaf, uint p_index) {
+	return ivec2(find_leaf_block(p_leaf) * uint(EDGE_COUNT_BLOCK_PX) + find_pixel_in_block(p_index));
+}
+
+#endif
