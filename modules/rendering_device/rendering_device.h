@@ -80,6 +80,8 @@ struct DeviceFeatures {
 	/// Vote, arithmetic, ballot and shuffle in compute shaders, with subgroups of at least
 	/// MIN_SUBGROUP_SIZE invocations.
 	bool subgroup_operations = false;
+	/// The device is a CPU driver. Some compute shaders have another shape there.
+	bool runs_on_cpu = false;
 };
 
 /// Use of GPU memory.

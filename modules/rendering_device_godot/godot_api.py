@@ -57,13 +57,14 @@ USED = {
         "enums": """
             TextureType TextureUsageBits TextureSamples SamplerFilter SamplerRepeatMode IndexBufferFormat StorageBufferUsage
             BufferCreationBits UniformType RenderPrimitive PolygonCullMode PolygonFrontFace StencilOperation
-            CompareOperator BlendFactor BlendOperation DrawFlags MemoryType Limit DataFormat
+            CompareOperator BlendFactor BlendOperation DrawFlags MemoryType Limit DataFormat DeviceType
             TextureSliceType ShaderStage ShaderLanguage
         """,
     },
     "RenderingServer": {
         "methods": """
             get_rendering_device create_local_rendering_device get_current_rendering_method call_on_render_thread
+            get_video_adapter_type
             compositor_effect_create compositor_effect_set_callback compositor_effect_set_flag
             compositor_effect_set_enabled compositor_create compositor_set_compositor_effects scenario_set_compositor
             shader_create shader_get_code shader_set_code get_shader_parameter_list shader_get_parameter_default

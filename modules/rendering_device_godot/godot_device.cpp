@@ -44,6 +44,8 @@ GodotDevice::GodotDevice(
 	features.fragment_stores = true;
 	features.max_texture_size_px = uint32_t(rd.limit_get(RD::LIMIT_MAX_TEXTURE_SIZE_2D));
 	features.max_storage_buffer_bytes = MAX_BUFFER_BYTES;
+	features.runs_on_cpu = godot::RenderingServer(godot::find_singleton("RenderingServer"))
+								   .get_video_adapter_type() == RD::DEVICE_TYPE_CPU;
 	features.subgroup_size = measure_subgroup_size();
 	features.subgroup_operations = features.subgroup_size >= MIN_SUBGROUP_SIZE;
 	for (const auto &feature : p_options.denied_features) {

@@ -169,6 +169,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	features.subgroup_operations = features.subgroup_size >= MIN_SUBGROUP_SIZE &&
 			(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
 			(subgroup.supportedOperations & operations) == operations;
+	features.runs_on_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
 	for (bool DeviceFeatures::*const denied : options.denied_features) {
 		features.*denied = false;
 	}

@@ -16,12 +16,15 @@ constexpr uint64_t MAX_ROUNDS = 24;
 
 } // namespace
 
-uint32_t get_count_subgroup_size(const RenderingDevice &p_device) {
-	return std::min<uint32_t>(p_device.get_features().subgroup_size, EDGE_COUNT_MAX_SUBGROUP);
+CountShape get_count_shape(const RenderingDevice &p_device, uint32_t p_sample_set_count) {
+	const DeviceFeatures &features = p_device.get_features();
+	const uint32_t lanes = features.runs_on_cpu ? 1 : p_sample_set_count;
+	return { std::min<uint32_t>(features.subgroup_size, EDGE_COUNT_MAX_SUBGROUP), lanes,
+		p_sample_set_count / lanes };
 }
 
-CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_edge_count,
-		uint32_t p_subgroup_size, uint32_t p_sample_set_count) {
+CountRoundLimits choose_round_limits(
+		glm::uvec2 p_size_px, uint32_t p_edge_count, const CountShape &p_shape) {
 	// An edge needs at most 1.5 iterations, and some more to walk through the tree.
 	const uint64_t iterations = uint64_t(p_edge_count) * 2;
 	if (iterations <= EDGE_COUNT_MAX_ITERATIONS) {
@@ -29,13 +32,14 @@ CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_edge_count
 	}
 	const glm::uvec2 blocks =
 			(p_size_px + (EDGE_COUNT_BLOCK_PX - 1u)) / uint32_t(EDGE_COUNT_BLOCK_PX);
-	const uint32_t receivers = blocks.x * blocks.y * BLOCK_PIXELS;
-	const uint32_t state_bytes = sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(p_sample_set_count);
-	const uint32_t slot_receivers = std::min(receivers,
-			static_cast<uint32_t>(MAX_STATE_BYTES / state_bytes / BLOCK_PIXELS) * BLOCK_PIXELS);
-	const uint64_t rounds = (iterations / EDGE_COUNT_MAX_ITERATIONS + 1) *
-			((receivers + slot_receivers - 1) / slot_receivers);
-	return { slot_receivers / p_subgroup_size,
+	const uint32_t block_lanes = BLOCK_PIXELS * p_shape.lanes_per_receiver;
+	const uint32_t lanes = blocks.x * blocks.y * block_lanes;
+	const uint32_t state_bytes = sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(p_shape.sets_per_lane);
+	const uint32_t slot_lanes = std::min(lanes,
+			static_cast<uint32_t>(MAX_STATE_BYTES / state_bytes / block_lanes) * block_lanes);
+	const uint64_t rounds =
+			(iterations / EDGE_COUNT_MAX_ITERATIONS + 1) * ((lanes + slot_lanes - 1) / slot_lanes);
+	return { slot_lanes / p_shape.subgroup_size,
 		static_cast<uint32_t>(std::min(rounds, MAX_ROUNDS)) };
 }
 
@@ -53,20 +57,19 @@ std::vector<RGBuffer> CountRounds::list_cleared() const {
 	return cleared;
 }
 
-CountRounds create_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p_device,
-		const shader::CountLightConstants &p_light, uint32_t p_sample_set_count) {
+CountRounds create_rounds_buffers(RenderGraph &r_graph, const shader::CountLightConstants &p_light,
+		const CountShape &p_shape) {
 	const auto make_words = [&](const std::string &p_name, uint64_t p_count,
 									BufferUsage p_usage = BufferUsage::STORAGE) {
 		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t), p_usage });
 	};
-	const uint32_t subgroup_size = get_count_subgroup_size(p_device);
 	const uint64_t slot_count = p_light.unfinished_slot_count;
 	CountRounds rounds;
 	rounds.counts = make_words("unfinished counts", EDGE_COUNT_UNFINISHED_COUNTS,
 			BufferUsage::STORAGE | BufferUsage::COPY_TARGET);
 	// Without rounds nothing is added, but the passes need buffers.
-	const uint64_t subgroup_count =
-			uint64_t(p_light.leaf_capacity) * (BLOCK_PIXELS / subgroup_size);
+	const uint64_t subgroup_count = uint64_t(p_light.leaf_capacity) * BLOCK_PIXELS *
+			p_shape.lanes_per_receiver / p_shape.subgroup_size;
 	rounds.items = make_words("unfinished subgroups", slot_count == 0 ? 1 : subgroup_count);
 	for (uint32_t round = 0; round <= p_light.unfinished_round_count; ++round) {
 		rounds.dispatches.push_back(make_words(text("dispatch of round ", round), 3,
@@ -74,7 +77,7 @@ CountRounds create_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p
 	}
 	if (slot_count > 0) {
 		rounds.states = make_words("states of subgroups",
-				slot_count * subgroup_size * EDGE_COUNT_STATE_WORDS(p_sample_set_count));
+				slot_count * p_shape.subgroup_size * EDGE_COUNT_STATE_WORDS(p_shape.sets_per_lane));
 		for (RGBuffer &slots : rounds.slots) {
 			slots = make_words("slots of a round", 2 * slot_count);
 		}

@@ -12,17 +12,22 @@ namespace gnomon {
 // Rounds: subgroups of receivers with very many edges are counted in several dispatches, see
 // EDGE_COUNT_MAX_ITERATIONS.
 
-/// The size of the subgroups that count edges.
-uint32_t get_count_subgroup_size(const RenderingDevice &p_device);
+/// The shape of the passes that count edges, see EDGE_COUNT_CONSTANT_IS_CPU.
+struct CountShape {
+	uint32_t subgroup_size = 8;
+	uint32_t lanes_per_receiver = 1; // invocations
+	uint32_t sets_per_lane = 1;		 // sets of 64 points on the light that an invocation counts
+};
+/// p_sample_set_count: all sets of the light, 1 or 4.
+CountShape get_count_shape(const RenderingDevice &p_device, uint32_t p_sample_set_count);
 
 struct CountRoundLimits {
 	uint32_t slot_count = 0;  // subgroups that can be between two rounds at the same time
 	uint32_t round_count = 0; // 0: no subgroup needs more iterations than one dispatch has
 };
-/// p_size_px: of the image. p_edge_count: number of edges of the casters. p_sample_set_count: sets
-/// of 64 points on the light, 1 or 4.
-CountRoundLimits choose_round_limits(glm::uvec2 p_size_px, uint32_t p_edge_count,
-		uint32_t p_subgroup_size, uint32_t p_sample_set_count);
+/// p_size_px: of the image. p_edge_count: number of edges of the casters.
+CountRoundLimits choose_round_limits(
+		glm::uvec2 p_size_px, uint32_t p_edge_count, const CountShape &p_shape);
 
 /// The buffers of all rounds of a light.
 struct CountRounds {
@@ -41,8 +46,8 @@ struct CountRounds {
 	std::vector<RGBuffer> list_cleared() const;
 };
 
-CountRounds create_rounds_buffers(RenderGraph &r_graph, const RenderingDevice &p_device,
-		const shader::CountLightConstants &p_light, uint32_t p_sample_set_count);
+CountRounds create_rounds_buffers(RenderGraph &r_graph, const shader::CountLightConstants &p_light,
+		const CountShape &p_shape);
 
 /// Adds a pass with all rounds, if there are any. p_pipeline: of resolve_unfinished.comp.
 /// p_bindings: of the passes that count edges, and the mask.

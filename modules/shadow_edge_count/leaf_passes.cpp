@@ -66,12 +66,19 @@ std::vector<PassBinding> make_count_bindings(
 	return bindings;
 }
 
-/// The specialization constants of every shader that processes leaves.
-std::vector<SpecializationConstant> make_pipeline_constants(const CountLeafPasses &p_passes) {
+CountShape get_shape(const CountLeafPasses &p_passes) {
+	return get_count_shape(p_passes.inputs.device, p_passes.settings.get_sample_set_count());
+}
+
+/// The specialization constants of every shader that processes leaves. p_group_size: of passes that
+/// count edges.
+std::vector<SpecializationConstant> make_pipeline_constants(
+		const CountLeafPasses &p_passes, uint32_t p_group_size = 1) {
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	return { { EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, inputs.device.get_features().subgroup_size },
 		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, inputs.views.front().is_orthographic ? 1u : 0u },
-		{ EDGE_COUNT_CONSTANT_GROUP_SIZE, get_count_subgroup_size(inputs.device) },
+		{ EDGE_COUNT_CONSTANT_GROUP_SIZE, p_group_size },
+		{ EDGE_COUNT_CONSTANT_IS_CPU, inputs.device.get_features().runs_on_cpu ? 1u : 0u },
 		{ EDGE_COUNT_CONSTANT_MAY_CUT_DISC, p_passes.capacities.cut_face_count > 0 ? 1u : 0u } };
 }
 
@@ -82,7 +89,11 @@ void add_kind_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	const shader::CountLeafPush push = { p_kind, p_kind * p_leaves.leaf_capacity,
 		p_kind == EDGE_COUNT_LEAVES_FILTERED ? compute_nearest_w(inputs) : 0.0f, /*round=*/0 };
-	std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes);
+	const uint32_t receiver_count = p_kind == EDGE_COUNT_LEAVES_SMOOTH
+			? EDGE_COUNT_SMOOTH_PIXELS
+			: EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
+	std::vector<SpecializationConstant> constants = make_pipeline_constants(
+			p_passes, receiver_count * get_shape(p_passes).lanes_per_receiver);
 	const bool has_no_list =
 			p_kind == EDGE_COUNT_LEAVES_UNLISTED || p_kind == EDGE_COUNT_LEAVES_FILTERED;
 	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, has_no_list ? 1u : 0u });
@@ -103,7 +114,8 @@ void add_kind_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 /// Adds the rounds that count what subgroups without iterations left have not counted.
 void add_rounds(RenderGraph &r_graph, const CountLeafPasses &p_passes, const CountLeaves &p_leaves,
 		RGTexture p_mask) {
-	std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes);
+	std::vector<SpecializationConstant> constants =
+			make_pipeline_constants(p_passes, get_shape(p_passes).subgroup_size);
 	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, 1u });
 	const bool is_fine = p_passes.settings.get_sample_set_count() > 1;
 	const std::string shader = choose_fetching_shader(p_passes.inputs.device,
@@ -161,7 +173,7 @@ shader::CountLightConstants make_leaf_constants(const ShadowTechnique::Inputs &p
 	constants.max_cut_face_count = p_capacities.cut_face_count;
 	constants.interpolation = p_settings.interpolation;
 	const CountRoundLimits limits = choose_round_limits(p_inputs.size_px, p_capacities.edge_count,
-			get_count_subgroup_size(p_inputs.device), p_settings.get_sample_set_count());
+			get_count_shape(p_inputs.device, p_settings.get_sample_set_count()));
 	constants.unfinished_slot_count = limits.slot_count;
 	constants.unfinished_round_count = limits.round_count;
 	return constants;
@@ -183,8 +195,7 @@ CountLeaves add_leaf_passes(RenderGraph &r_graph, const CountLeafPasses &p_passe
 			make_buffer("leaf results", constants.leaf_capacity, sizeof(shader::CountLeafResult));
 	leaves.lists = r_graph.create_buffer(make_fetched_buffer_desc(inputs.device, "leaf lists",
 			uint64_t(constants.list_capacity) * sizeof(uint32_t), Format::R32_UINT));
-	leaves.rounds = create_rounds_buffers(
-			r_graph, inputs.device, constants, p_passes.settings.get_sample_set_count());
+	leaves.rounds = create_rounds_buffers(r_graph, constants, get_shape(p_passes));
 	leaves.kinds = make_buffer("leaves by kind",
 			uint64_t(EDGE_COUNT_LEAF_KINDS) * constants.leaf_capacity, sizeof(uint32_t));
 	const auto make_arguments = [&](const char *p_name, uint64_t p_count) {

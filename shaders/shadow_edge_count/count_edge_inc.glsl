@@ -119,14 +119,23 @@ void count_sample_set(
 			second & p_sectors.twice.y);
 }
 
+/// What flipped sectors add to all counters in excess.
+int find_surplus(CountSectors p_sectors) {
+	const uvec2 surplus = (p_sectors.flip & p_sectors.once & 1u) + (p_sectors.flip & p_sectors.twice & 2u);
+	return int(surplus.x + surplus.y);
+}
+
+/// The area of two sectors as an integer, see CountState.
+int round_area(CountSectors p_sectors) {
+	const ivec2 area = ivec2(floor(p_sectors.area + 0.5));
+	return area.x + area.y;
+}
+
 /// Adds the areas and points of two sectors: two at a time need half as many carries. Without branches, since software
 /// drivers copy all counters where the sides of a branch join.
 void count_sectors(CountSectors p_sectors, inout CountState r_state) {
-	const ivec2 area = ivec2(floor(p_sectors.area + 0.5));
-	r_state.area += area.x + area.y;
-	// What flipped sectors add to all counters in excess.
-	const uvec2 surplus = (p_sectors.flip & p_sectors.once & 1u) + (p_sectors.flip & p_sectors.twice & 2u);
-	r_state.surplus += int(surplus.x + surplus.y);
+	r_state.area += round_area(p_sectors);
+	r_state.surplus += find_surplus(p_sectors);
 	const uvec4 first0 = load_count_masks(p_sectors.mask_index.x, 0u);
 	const uvec4 second0 = load_count_masks(p_sectors.mask_index.y, 0u);
 	count_sample_set(p_sectors, first0.xy, second0.xy, 0u, r_state.counters0);
@@ -193,11 +202,11 @@ vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_min, float p_max) {
 	return vec3(x.x, y.x, d.x);
 }
 
-/// Adds the line along which a face crosses the disc's plane: it bounds the face's shadow, as an edge does. All faces
+/// The line along which a face crosses the disc's plane: it bounds the face's shadow, as an edge does. All faces
 /// of double-sided mesh parts have this line. Of closed mesh parts, only the faces that count as solids do: those with
 /// the receiver in front if p_uses_front_faces, else those with the receiver behind.
-void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plane, bool p_uses_front_faces,
-		inout CountState r_state) {
+CountSectors find_cut_sectors(
+		CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plane, bool p_uses_front_faces) {
 	const vec3 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz));
 	const vec3 b = count_offset(p_receiver, uintBitsToFloat(p_face.b_first_distance.xyz));
 	const vec3 c = count_offset(p_receiver, uintBitsToFloat(p_face.c_end_distance.xyz));
@@ -225,7 +234,7 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 			is_counted && any(is_in) && !all(is_in) && is_in_distance_range(p_receiver.leaf_distance, p_face);
 	// The second of the two edges is unused.
 	const DiscEdges edges = DiscEdges(vec2(from.x), vec2(from.y), vec2(to.x), vec2(to.y));
-	count_sectors(make_count_sectors(edges, bvec2(is_between), ivec2(1), bvec2(is_valid, false)), r_state);
+	return make_count_sectors(edges, bvec2(is_between), ivec2(1), bvec2(is_valid, false));
 }
 
 /// Signed weight of an edge as seen by the receiver.
@@ -260,29 +269,40 @@ bool has_overlap(CountState p_state, int p_added) {
 	return overlaps;
 }
 
+/// What to add to the counters of all points.
+int find_added(CountState p_state) {
+	return clamp(p_state.solid_count, 0, COUNT_MAX_SOLIDS) - p_state.surplus;
+}
+
 /// Visibility from all counts, 0..1. If no more than one solid hides the light, the areas alone are
 /// exact. Otherwise the hidden points give the visibility, corrected by the mean count, which the areas
 /// give more precisely than the points. regression_slope scales this correction: how much of a change of the count
 /// changes visibility, by linear regression over pairs of neighbouring points. It is k in "Counting" in
-/// doc/techniques/edge_count.md.
-float count_resolve(CountState p_state) {
+/// doc/techniques/edge_count.md. p_sums: of all sample sets; needed only if p_overlaps.
+float find_visibility(CountState p_state, bool p_overlaps, CountSums p_sums) {
 	const float fraction = 1.0 / float(EDGE_COUNT_SAMPLE_COUNT * COUNT_SAMPLE_SET_COUNT);
 	const int solids = clamp(p_state.solid_count, 0, COUNT_MAX_SOLIDS);
 	const float mean = float(solids) + float(p_state.area) * AREA_UNIT;
-	float visibility = 1.0 - mean;
-	const int added = solids - p_state.surplus;
-	if (has_overlap(p_state, added)) {
-		CountSums sums = CountSums(0, 0, CountChanges(0, 0));
+	const float regression_slope = float(p_sums.changes.product) / float(max(p_sums.changes.square, 1));
+	const float by_points =
+			1.0 - float(p_sums.hidden) * fraction - regression_slope * (mean - float(p_sums.count) * fraction);
+	return clamp(p_overlaps ? by_points : 1.0 - mean, 0.0, 1.0);
+}
+
+/// Visibility from the counts of all sample sets.
+float count_resolve(CountState p_state) {
+	const int added = find_added(p_state);
+	const bool overlaps = has_overlap(p_state, added);
+	CountSums sums = CountSums(0, 0, CountChanges(0, 0));
+	if (overlaps) {
 		add_sample_set(p_state.counters0, added, sums);
 #if COUNT_SAMPLE_SET_COUNT == 4
 		add_sample_set(p_state.counters1, added, sums);
 		add_sample_set(p_state.counters2, added, sums);
 		add_sample_set(p_state.counters3, added, sums);
 #endif
-		const float regression_slope = float(sums.changes.product) / float(max(sums.changes.square, 1));
-		visibility = 1.0 - float(sums.hidden) * fraction - regression_slope * (mean - float(sums.count) * fraction);
 	}
-	return clamp(visibility, 0.0, 1.0);
+	return find_visibility(p_state, overlaps, sums);
 }
 
 #endif

@@ -5,8 +5,6 @@
 #ifndef COUNT_ROUNDS_INC_GLSL
 #define COUNT_ROUNDS_INC_GLSL
 
-#define COUNT_GROUP_SIZE EDGE_COUNT_MAX_SUBGROUP
-#define COUNT_GROUP_IS_SUBGROUP
 #include "shadow_edge_count/count_resolve_inc.glsl"
 #include "shadow_edge_count/count_unfinished_inc.glsl"
 
@@ -24,7 +22,7 @@ layout(std430, set = 0, binding = COUNT_BINDING_NEXT_ROUND) writeonly buffer Nex
 
 uint find_state_index(uint p_slot, uint p_word) {
 	const uint slot = min(p_slot, light.unfinished_slot_count - 1u);
-	return (slot * uint(EDGE_COUNT_STATE_WORDS(COUNT_SAMPLE_SET_COUNT)) + p_word) * SUBGROUP_SIZE +
+	return (slot * uint(EDGE_COUNT_STATE_WORDS(COUNT_SAMPLE_SET_COUNT / LANES_PER_RECEIVER)) + p_word) * SUBGROUP_SIZE +
 			gl_SubgroupInvocationID;
 }
 
@@ -77,9 +75,12 @@ CountState load_count_state(uint p_slot) {
 	state.surplus = int(load_state(p_slot, 4u));
 	state.counters0 = load_counters(p_slot, 0u);
 #if COUNT_SAMPLE_SET_COUNT == 4
-	state.counters1 = load_counters(p_slot, 1u);
-	state.counters2 = load_counters(p_slot, 2u);
-	state.counters3 = load_counters(p_slot, 3u);
+	state.counters1 = state.counters2 = state.counters3 = make_point_counters();
+	if (IS_CPU) {
+		state.counters1 = load_counters(p_slot, 1u);
+		state.counters2 = load_counters(p_slot, 2u);
+		state.counters3 = load_counters(p_slot, 3u);
+	}
 #endif
 	return state;
 }
@@ -92,16 +93,18 @@ void save_count_state(uint p_slot, CountState p_state, CountProgress p_progress)
 	save_state(p_slot, 4u, uint(p_state.surplus));
 	save_counters(p_slot, 0u, p_state.counters0);
 #if COUNT_SAMPLE_SET_COUNT == 4
-	save_counters(p_slot, 1u, p_state.counters1);
-	save_counters(p_slot, 2u, p_state.counters2);
-	save_counters(p_slot, 3u, p_state.counters3);
+	if (IS_CPU) {
+		save_counters(p_slot, 1u, p_state.counters1);
+		save_counters(p_slot, 2u, p_state.counters2);
+		save_counters(p_slot, 3u, p_state.counters3);
+	}
 #endif
 }
 
 /// Capacity of unfinished_items: all subgroups of all leaves. (Godot does not know the length of an array.)
 uint find_max_item_count() {
 	return light.leaf_capacity *
-			(uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) / SUBGROUP_SIZE);
+			(uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) * LANES_PER_RECEIVER / SUBGROUP_SIZE);
 }
 
 /// The next subgroup that waits for a slot, with EDGE_COUNT_UNFINISHED_IS_NEW. r_is_any: there was one. Called where all
@@ -124,7 +127,7 @@ bool count_slot(uint p_slot, uint p_item) {
 	const uint item = p_item & ~EDGE_COUNT_UNFINISHED_IS_NEW;
 	const uint subgroup = item & (1u << EDGE_COUNT_SUBGROUP_BITS) - 1u;
 	const CountSubject subject = load_ranked_subject(limit_leaf(item >> EDGE_COUNT_SUBGROUP_BITS),
-			subgroup * SUBGROUP_SIZE + gl_SubgroupInvocationID, true);
+			(subgroup * SUBGROUP_SIZE + gl_SubgroupInvocationID) / LANES_PER_RECEIVER, true);
 	CountState state = count_at_center(subject, is_new);
 	CountProgress progress = start_progress(subject);
 	if (!is_new) {

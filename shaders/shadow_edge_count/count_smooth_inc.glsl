@@ -9,14 +9,13 @@
 #ifndef COUNT_SMOOTH_INC_GLSL
 #define COUNT_SMOOTH_INC_GLSL
 
-#define COUNT_GROUP_SIZE 16
 #include "shadow_edge_count/count_resolve_inc.glsl"
 
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 const uint SIDE = 4u; // number of the block's rows, and of its columns, that are counted
 const int MAX_DEGREE = 3;
-const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX / COUNT_GROUP_SIZE);
+const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) / gl_WorkGroupSize.x;
 
 shared float counted[SIDE * SIDE]; // visibility
 shared float coefficients[SIDE * SIDE]; // those of a degree above MAX_DEGREE are not used
@@ -80,13 +79,14 @@ void main() {
 	const uint invocation = gl_LocalInvocationIndex;
 	bool is_valid;
 	const uint leaf = find_group_leaf(is_valid);
-	const CountSubject subject = load_subject(leaf, find_pixel_index(find_counted_pixel(invocation)), is_valid);
-	counted[invocation] = count_pixel(subject).visibility;
+	const uint item = invocation / LANES_PER_RECEIVER;
+	const CountSubject subject = load_subject(leaf, find_pixel_index(find_counted_pixel(item)), is_valid);
+	counted[item] = count_pixel(subject).visibility; // all lanes of a receiver have the same
 	barrier();
-	coefficients[invocation] = find_coefficient(invocation);
+	coefficients[item] = find_coefficient(item);
 	barrier();
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION && is_valid; ++i) {
-		const uint index = i * uint(COUNT_GROUP_SIZE) + invocation;
+		const uint index = i * gl_WorkGroupSize.x + invocation;
 		imageStore(mask_image, find_image_pixel(subject.leaf, index), vec4(find_fitted(find_pixel_in_block(index))));
 	}
 }

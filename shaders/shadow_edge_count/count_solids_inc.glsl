@@ -17,8 +17,7 @@ layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
 
 layout(constant_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
 /// Active invocations of a subgroup: a work group may be smaller than the device's subgroups.
-const uint SUBGROUP_SIZE =
-		FULL_SUBGROUP_SIZE < uint(COUNT_GROUP_SIZE) ? FULL_SUBGROUP_SIZE : uint(COUNT_GROUP_SIZE);
+const uint SUBGROUP_SIZE = FULL_SUBGROUP_SIZE < gl_WorkGroupSize.x ? FULL_SUBGROUP_SIZE : gl_WorkGroupSize.x;
 #include "shadow_edge_count/plane_fit_inc.glsl"
 
 /// A leaf, and the receiver of it that an invocation processes.
@@ -62,7 +61,7 @@ CountSubject load_ranked_subject(uint p_leaf, uint p_rank, bool p_is_valid) {
 CountSubject load_group_subject() {
 	bool is_valid;
 	const uint leaf = find_group_leaf(is_valid);
-	return load_ranked_subject(leaf, gl_LocalInvocationIndex, is_valid);
+	return load_ranked_subject(leaf, gl_LocalInvocationIndex / LANES_PER_RECEIVER, is_valid);
 }
 
 /// The bounds of the receivers of a subgroup for which p_is_selected is true.
@@ -167,7 +166,7 @@ CountCrossings count_subject_crossings(CountSubject p_subject) {
 	const bool is_anchor = position == anchor;
 	const bool needs_ray = p_subject.is_receiver && (p_subject.result.needs_rays != 0u || (is_undecided && !is_anchor));
 	const CountCrossings along_ray = count_along_ray(p_subject.receiver, needs_ray);
-	ray_count += needs_ray ? 1u : 0u;
+	ray_count += needs_ray && gl_SubgroupInvocationID % LANES_PER_RECEIVER == 0u ? 1u : 0u;
 	const ivec3 found = ivec3(p_subject.result.back_facing, p_subject.result.light_facing, p_subject.result.double_sided) +
 			(is_anchor ? ivec3(0) : changes);
 	return CountCrossings(needs_ray ? along_ray.back_facing : found.x, needs_ray ? along_ray.light_facing : found.y,

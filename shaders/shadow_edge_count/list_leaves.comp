@@ -30,6 +30,7 @@ layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
 	uint status[]; // EDGE_COUNT_STATUS_*
 };
 
+layout(constant_id = EDGE_COUNT_CONSTANT_IS_CPU) const bool IS_CPU = true;
 const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
 #include "common/subgroup_inc.glsl"
@@ -46,16 +47,17 @@ const uint NODE_INDEX_MASK = (1u << NODE_LEVEL_SHIFT) - 1u;
 shared uint open_nodes[MAX_PARENTS * WIDTH * uint(EDGE_COUNT_MAX_LEVELS + 1)];
 uint open_count;
 // Clusters whose faces or edges are to be tested. All are, before more nodes are if there may be no room for them.
-const uint MAX_CLUSTERS = 32u + MAX_PARENTS * WIDTH;
+const uint MAX_CLUSTERS = (IS_CPU ? 32u : 8u) + MAX_PARENTS * WIDTH;
 shared uint clusters[MAX_CLUSTERS];
 uint cluster_count;
 // Edges within the reach of the leaf, which are to be examined.
 shared uint reached_edges[MAX_CLUSTERS * CLUSTER_SIZE];
 uint reached_count;
-// The leaf's lists; counts include what does not fit. A list of entries that is longer is written in a second walk.
-const uint MAX_SHARED_ENTRIES = 1024u;
-const uint MAX_SILHOUETTES = uint(EDGE_COUNT_MAX_SILHOUETTES);
-const uint MAX_LOCAL_FACES = uint(EDGE_COUNT_MAX_LOCAL_FACES);
+// The leaf's lists; counts include what does not fit. A list of entries that is longer is written in a second walk. On a
+// GPU, all shared memory of a work group of 32 takes less than 8 KiB, so that an SIMD unit of AMD's has room for four.
+const uint MAX_SHARED_ENTRIES = IS_CPU ? 1024u : 512u;
+const uint MAX_SILHOUETTES = IS_CPU ? uint(EDGE_COUNT_MAX_SILHOUETTES) : 320u;
+const uint MAX_LOCAL_FACES = IS_CPU ? uint(EDGE_COUNT_MAX_LOCAL_FACES) : 256u;
 shared uint entries[MAX_SHARED_ENTRIES];
 shared uint silhouettes[MAX_SILHOUETTES];
 shared uint local_faces[MAX_LOCAL_FACES];

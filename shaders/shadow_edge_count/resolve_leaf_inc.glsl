@@ -5,14 +5,14 @@
 #include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/leaf_inc.glsl"
 
-#ifndef COUNT_GROUP_SIZE // invocations per work group, if it is not one per pixel
-#define COUNT_GROUP_SIZE (EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX)
-#endif
-#ifdef COUNT_GROUP_IS_SUBGROUP
-layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
-#else
 // In one dimension: with two, llvmpipe fills subgroups only up to the size in x.
-layout(local_size_x = COUNT_GROUP_SIZE) in;
+#ifdef COUNTS_EDGES
+layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
+layout(constant_id = EDGE_COUNT_CONSTANT_IS_CPU) const bool IS_CPU = true;
+const uint LANES_PER_RECEIVER = IS_CPU ? 1u : uint(COUNT_SAMPLE_SET_COUNT); // invocations
+#else
+layout(local_size_x = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) in;
+const uint LANES_PER_RECEIVER = 1u;
 #endif
 layout(std430, set = 0, binding = COUNT_BINDING_KINDS) readonly buffer Kinds {
 	uint kinds[]; // the leaves of each kind

@@ -165,9 +165,10 @@ SHARED_SIZE(CountFindPush, 32);
 #define EDGE_COUNT_CONSTANT_SUBGROUP_SIZE 0 // invocations of a subgroup
 #define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2	 // the leaves of the pass read the tree of edges
 #define EDGE_COUNT_CONSTANT_IS_DIRECTIONAL 3 // the light is directional
-#define EDGE_COUNT_CONSTANT_GROUP_SIZE                                                             \
-	4 // invocations of a work group that is one subgroup, at most EDGE_COUNT_MAX_SUBGROUP
+#define EDGE_COUNT_CONSTANT_GROUP_SIZE 4 // invocations of a work group of the passes that count edges
 #define EDGE_COUNT_CONSTANT_MAY_CUT_DISC 5 // some caster may come within R of the light's centre
+// The device is a CPU: passes that count edges have the shape that suits it. Masks are equal bit for bit.
+#define EDGE_COUNT_CONSTANT_IS_CPU 6
 #define EDGE_COUNT_NO_BUDGET 0xffffffffu
 
 /// Constants of one light, and the sizes of its buffers.
@@ -223,7 +224,7 @@ SHARED_SIZE(CountLeaf, 112);
 #define EDGE_COUNT_LEAF_IS_WIDE 2u
 #define EDGE_COUNT_MAX_SLICES 8 // leaves of a block
 
-// Room for a leaf's lists of silhouettes and of local faces. Where they are longer, needs_rays is set.
+// Maximum lengths of a leaf's lists of silhouettes and of local faces. Where they are longer, needs_rays is set.
 #define EDGE_COUNT_MAX_SILHOUETTES 1024
 #define EDGE_COUNT_MAX_LOCAL_FACES 512
 
@@ -298,6 +299,7 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_LEAVES_SMOOTH                                                                   \
 	5 // a list of edges so far away that the mask is smooth, see count_smooth_inc.glsl
 #define EDGE_COUNT_LEAF_KINDS 6
+#define EDGE_COUNT_SMOOTH_PIXELS 16 // that are counted in a smooth leaf
 // The arguments of the indirect dispatches over leaves: one for each kind, and a buffer of its own with one for all
 // leaves. They have rows of EDGE_COUNT_GROUPS_PER_ROW work groups.
 #define EDGE_COUNT_ARGUMENT_WORDS 3
@@ -325,9 +327,9 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_UNFINISHED_TAKEN 1
 #define EDGE_COUNT_UNFINISHED_COUNTS 2
 // An item is a leaf times 2^EDGE_COUNT_SUBGROUP_BITS, plus the subgroup's index in the leaf.
-#define EDGE_COUNT_SUBGROUP_BITS 4
+#define EDGE_COUNT_SUBGROUP_BITS 6
 #define EDGE_COUNT_UNFINISHED_IS_NEW 0x80000000u // flag of an item: nothing is counted yet
-// Words of the state of one receiver: those of CountProgress, and of CountState without and with
+// Words of the state of one invocation: those of CountProgress, and of CountState without and with
 // its counters, which have 18 words for each 64 points.
 #define EDGE_COUNT_STATE_WORDS(sample_set_count) (5 + 18 * (sample_set_count))
 // The largest subgroup that is used: a leaf's number of pixels.

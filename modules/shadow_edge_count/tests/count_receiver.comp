@@ -48,7 +48,8 @@ void main() {
 	}
 	CountState state = make_count_state(sum_crossings(crossings));
 	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && !IS_DIRECTIONAL; ++i) {
-		count_add_cut(receiver, faces[i], planes[i], crossings.back_facing >= crossings.light_facing, state);
+		count_sectors(
+				find_cut_sectors(receiver, faces[i], planes[i], crossings.back_facing >= crossings.light_facing), state);
 	}
 	for (uint i = 0u; i < uint(edges.length()) && light.disc_radius > 0.0; ++i) {
 		const CountEdgeRecord edge = edges[i];

@@ -34,30 +34,31 @@ std::shared_ptr<const Mesh> make_screen(uint32_t p_side, float p_size_m) {
 TEST_CASE("[EdgeCount] there are rounds only if a subgroup can run out of iterations, and the "
 		  "states between them take at most 20 MB") {
 	const glm::uvec2 size_px(640, 360);
-	const CountRoundLimits none = choose_round_limits(size_px, 8'000, 8, 1);
+	const CountRoundLimits none = choose_round_limits(size_px, 24'000, { 8, 1, 1 });
 	CHECK(none.round_count == 0);
 	CHECK(none.slot_count == 0);
 	for (const uint32_t subgroup_size : { 4u, 8u, 16u, 32u, 64u }) {
-		{
-			for (const uint32_t set_count : { 1u, 4u }) {
-				for (const uint32_t edge_count : { 24'001u, 200'000u, 10'000'000u }) {
-					CAPTURE(subgroup_size);
-					CAPTURE(set_count);
-					CAPTURE(edge_count);
-					const CountRoundLimits limits =
-							choose_round_limits(size_px, edge_count, subgroup_size, set_count);
-					CHECK(limits.round_count >= 2);
-					CHECK(limits.round_count <= 24);
-					CHECK(limits.slot_count >= 1);
-					CHECK(uint64_t(limits.slot_count) * subgroup_size *
-									EDGE_COUNT_STATE_WORDS(set_count) * 4 <=
-							20'500'000);
-				}
+		for (const auto &[lanes, sets] :
+				{ std::pair(1u, 1u), std::pair(1u, 4u), std::pair(4u, 1u) }) {
+			for (const uint32_t edge_count : { 24'001u, 200'000u, 10'000'000u }) {
+				CAPTURE(subgroup_size);
+				CAPTURE(lanes);
+				CAPTURE(sets);
+				CAPTURE(edge_count);
+				const CountRoundLimits limits =
+						choose_round_limits(size_px, edge_count, { subgroup_size, lanes, sets });
+				CHECK(limits.round_count >= 2);
+				CHECK(limits.round_count <= 24);
+				CHECK(limits.slot_count >= 1);
+				CHECK(uint64_t(limits.slot_count) * subgroup_size * EDGE_COUNT_STATE_WORDS(sets) *
+								4 <=
+						20'500'000);
 			}
 		}
 	}
 	// A small image has a slot for each of its subgroups.
-	CHECK(choose_round_limits({ 17, 9 }, 200'000, 8, 4).slot_count == 3 * 2 * 64 / 8);
+	CHECK(choose_round_limits({ 17, 9 }, 200'000, { 8, 1, 4 }).slot_count == 3 * 2 * 64 / 8);
+	CHECK(choose_round_limits({ 17, 9 }, 200'000, { 32, 4, 1 }).slot_count == 3 * 2 * 64 * 4 / 32);
 }
 
 TEST_CASE("[GPU][EdgeCount] a receiver that sees the light behind 160,000 edges counts all of "

@@ -1,0 +1,139 @@
+// Counts the edges of a slice in the shape that suits GPUs: one invocation, a lane, per receiver and sample set, so that
+// each has the counters of 64 points. The lanes of a receiver are consecutive. They divide the edges among themselves to
+// test them and to find their sectors, and pass the sectors to each other.
+#ifndef COUNT_SLICE_GPU_INC_GLSL
+#define COUNT_SLICE_GPU_INC_GLSL
+
+/// The invocation's sample set.
+uint find_lane() {
+	return gl_SubgroupInvocationID % LANES_PER_RECEIVER;
+}
+
+uvec2 or_lanes(uvec2 p_bits) {
+	uvec2 bits = p_bits;
+	for (uint i = 1u; i < LANES_PER_RECEIVER; i <<= 1u) {
+		bits |= subgroupShuffleXor(bits, i);
+	}
+	return bits;
+}
+
+ivec4 add_lanes(ivec4 p_values) {
+	ivec4 sums = p_values;
+	for (uint i = 1u; i < LANES_PER_RECEIVER; i <<= 1u) {
+		sums += subgroupShuffleXor(sums, i);
+	}
+	return sums;
+}
+
+/// Edges of a slice that a receiver has to count, one bit each.
+struct OwnEdges {
+	uvec2 all;
+	uvec2 is_negative; // their weight is negative
+	uvec2 is_twice; // their weight is 2 or -2
+};
+
+bool has_bit(uvec2 p_bits, uint p_index) {
+	return ((p_index < 32u ? p_bits.x : p_bits.y) >> (p_index & 31u) & 1u) != 0u;
+}
+
+/// Each lane tests its share of the edges.
+OwnEdges find_own_edges(uint p_count, CountSubject p_subject) {
+	OwnEdges own = OwnEdges(uvec2(0u), uvec2(0u), uvec2(0u));
+	for (uint i = find_lane(); i < p_count; i += LANES_PER_RECEIVER) {
+		const uint entry = chosen_edges[gl_SubgroupID * SLICE_SIZE + i];
+		const CountEdgeRecord edge = load_count_edge(entry & COUNT_EDGE_MASK);
+		if (p_subject.is_receiver &&
+				may_hide(p_subject.receiver.position, p_subject.receiver.to_light, uintBitsToFloat(edge.a_face0.xyz),
+						uintBitsToFloat(edge.b_face1.xyz))) {
+			const uint packed_weight = entry >> COUNT_PACKED_WEIGHT_SHIFT;
+			const int weight = (packed_weight & COUNT_HAS_WEIGHT) != 0u
+					? unpack_weight(packed_weight)
+					: count_weight(p_subject.receiver.position, load_count_plane0(edge), load_count_plane1(edge),
+							  make_count_kind(edge.a_face0.w, edge.b_face1.w));
+			const uvec2 bit = i < 32u ? uvec2(1u << i, 0u) : uvec2(0u, 1u << (i - 32u));
+			own.all |= weight != 0 ? bit : uvec2(0u);
+			own.is_negative |= weight < 0 ? bit : uvec2(0u);
+			own.is_twice |= abs(weight) == 2 ? bit : uvec2(0u);
+		}
+	}
+	return OwnEdges(or_lanes(own.all), or_lanes(own.is_negative), or_lanes(own.is_twice));
+}
+
+/// An edge to be counted, and its weight as seen by the receiver; 0: none.
+struct OwnEdge {
+	vec3 a;
+	vec3 b;
+	int weight;
+};
+
+/// The edge with p_rank own ones before it.
+OwnEdge load_own_edge(OwnEdges p_own, uint p_count, uint p_rank) {
+	const bool is_valid = p_rank < p_count;
+	const uint slot = is_valid ? find_set_bit(p_own.all, p_rank) : 0u;
+	const CountEdgeRecord edge = load_count_edge(chosen_edges[gl_SubgroupID * SLICE_SIZE + slot] & COUNT_EDGE_MASK);
+	const int weight = has_bit(p_own.is_twice, slot) ? 2 : 1;
+	return OwnEdge(uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz),
+			is_valid ? (has_bit(p_own.is_negative, slot) ? -weight : weight) : 0);
+}
+
+/// Adds the points of two sectors to the lane's counters. Their area is added where they were found.
+void count_lane_sectors(CountSectors p_sectors, inout CountState r_state) {
+	r_state.surplus += find_surplus(p_sectors);
+	const uint lane = find_lane();
+	const uvec4 first = load_count_masks(p_sectors.mask_index.x, lane / 2u);
+	const uvec4 second = load_count_masks(p_sectors.mask_index.y, lane / 2u);
+	const bool is_odd = (lane & 1u) != 0u;
+	count_sample_set(p_sectors, is_odd ? first.zw : first.xy, is_odd ? second.zw : second.xy, lane, r_state.counters0);
+}
+
+/// The sectors that the lane whose number differs by the bits p_other has found, without their area.
+CountSectors load_lane_sectors(CountSectors p_sectors, uint p_other) {
+	const uvec2 bits = p_sectors.flip & 1u | p_sectors.once & 2u | p_sectors.twice & 4u;
+	CountSectors sectors;
+	sectors.area = vec2(0.0);
+	sectors.mask_index = subgroupShuffleXor(p_sectors.mask_index, p_other);
+	sectors.from_angle = subgroupShuffleXor(p_sectors.from_angle, p_other);
+	sectors.to_angle = subgroupShuffleXor(p_sectors.to_angle, p_other);
+	const uint packed = subgroupShuffleXor(bits.x | bits.y << 3, p_other);
+	const uvec2 shared_bits = uvec2(packed, packed >> 3);
+	sectors.flip = make_bit_masks(notEqual(shared_bits & 1u, uvec2(0u)));
+	sectors.once = make_bit_masks(notEqual(shared_bits & 2u, uvec2(0u)));
+	sectors.twice = make_bit_masks(notEqual(shared_bits & 4u, uvec2(0u)));
+	return sectors;
+}
+
+void count_slice_on_gpu(uint p_count, CountSubject p_subject, inout CountState r_state, inout uint r_edge_count) {
+	const OwnEdges own = find_own_edges(p_count, p_subject);
+	const uint count = uint(bitCount(own.all.x) + bitCount(own.all.y));
+	const uint max_count = subgroup_max(count);
+	r_edge_count += count;
+	// Each lane finds the sectors of two edges at a time.
+	for (uint first = 0u; first < max_count; first += 2u * LANES_PER_RECEIVER) {
+		const uint rank = first + 2u * find_lane();
+		const OwnEdge edge0 = load_own_edge(own, count, rank);
+		const OwnEdge edge1 = load_own_edge(own, count, rank + 1u);
+		const CountSectors sectors = find_edge_sectors(
+				p_subject.receiver, edge0.a, edge0.b, edge1.a, edge1.b, ivec2(edge0.weight, edge1.weight));
+		r_state.area += round_area(sectors);
+		for (uint other = 0u; other < LANES_PER_RECEIVER; ++other) {
+			count_lane_sectors(load_lane_sectors(sectors, other), r_state);
+		}
+	}
+	iteration_count += p_count;
+}
+
+/// Visibility from the counts of a receiver's lanes.
+float resolve_lanes(CountState p_state) {
+	const int added = find_added(p_state);
+	const PointCounters sums = add_to_all(p_state.counters0, added);
+	CountSums own = CountSums(0, 0, CountChanges(0, 0));
+	add_sample_set(p_state.counters0, added, own);
+	const ivec4 counts = add_lanes(ivec4(own.hidden, own.count, own.changes.square, own.changes.product));
+	const ivec4 others = add_lanes(ivec4(p_state.area, has_overlap(sums) ? 1 : 0, 0, 0));
+	CountState state = p_state;
+	state.area = others.x;
+	return find_visibility(
+			state, others.y > 0, CountSums(counts.x, counts.y, CountChanges(counts.z, counts.w)));
+}
+
+#endif
