@@ -15,12 +15,13 @@ namespace gnomon {
 
 namespace {
 
-// Capacity of all lists together: an average per block of pixels, and at most 24 MB at 4 bytes per
+// Capacity of all lists together: an average per block of pixels, and at most 23 MB at 4 bytes per
 // word. Leaves whose lists do not fit take more time, but are still exact.
 constexpr uint64_t WORDS_PER_BLOCK = 2048;
-constexpr uint64_t MAX_LIST_WORDS = 6'000'000;
-// Leaves per block of pixels, on average; each block has room for one.
-constexpr uint32_t LEAVES_PER_BLOCK = 2;
+constexpr uint64_t MAX_LIST_WORDS = 5'700'000;
+// Every block of pixels has room for one leaf, and half of them for a second one. More are in few
+// blocks, and those whose leaves are completely lit need none.
+constexpr uint32_t LEAVES_PER_TWO_BLOCKS = 3;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
@@ -164,7 +165,8 @@ shader::CountLightConstants make_leaf_constants(const ShadowTechnique::Inputs &p
 	}
 	constants.block_count = divide_up(p_inputs.size_px, EDGE_COUNT_BLOCK_PX);
 	constants.empty_views = p_empty_views;
-	constants.leaf_capacity = LEAVES_PER_BLOCK * constants.block_count.x * constants.block_count.y;
+	constants.leaf_capacity =
+			(LEAVES_PER_TWO_BLOCKS * constants.block_count.x * constants.block_count.y + 1) / 2;
 	constants.list_capacity = choose_list_capacity(
 			p_inputs.size_px, p_capacities.edge_count + p_capacities.face_count);
 	constants.budget = p_settings.budget;

@@ -277,7 +277,7 @@ def measure_memory(images, folder, _rounds):
         used[image.source] = statistics.fmean(map(measure_bytes, (SMALLEST_SIZE, MEMORY_SIZE))) / MB
         report_progress("memory of %s: %.1f MB" % (image.source, used[image.source]))
     goals = Goals()
-    goals.add_worst("MB of a light at %s" % MEMORY_SIZE.replace("x", " x "), 64, used, "%.1f")
+    goals.add_worst("MB of a light at %s" % MEMORY_SIZE.replace("x", " x "), 48, used, "%.1f")
     return goals.format()
 
 

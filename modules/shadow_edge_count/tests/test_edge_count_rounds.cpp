@@ -32,7 +32,7 @@ std::shared_ptr<const Mesh> make_screen(uint32_t p_side, float p_size_m) {
 } // namespace
 
 TEST_CASE("[EdgeCount] there are rounds only if a subgroup can run out of iterations, and the "
-		  "states between them take at most 20 MB") {
+		  "states between them take at most 4 MB") {
 	const glm::uvec2 size_px(640, 360);
 	const CountRoundLimits none = choose_round_limits(size_px, 24'000, { 8, 1, 1 });
 	CHECK(none.round_count == 0);
@@ -52,7 +52,7 @@ TEST_CASE("[EdgeCount] there are rounds only if a subgroup can run out of iterat
 				CHECK(limits.slot_count >= 1);
 				CHECK(uint64_t(limits.slot_count) * subgroup_size * EDGE_COUNT_STATE_WORDS(sets) *
 								4 <=
-						20'500'000);
+						4'000'000);
 			}
 		}
 	}
