@@ -25,9 +25,11 @@ CountShape get_count_shape(const RenderingDevice &p_device, uint32_t p_sample_se
 
 CountRoundLimits choose_round_limits(
 		glm::uvec2 p_size_px, uint32_t p_edge_count, const CountShape &p_shape) {
-	// An edge needs at most 1.5 iterations, and some more to walk through the tree.
+	// An edge needs at most 1.5 iterations, and some more to walk through the tree. Lights with a
+	// third of the edges that need rounds have them too, so that a scene in which more and more
+	// casters come into view does not suddenly take more memory.
 	const uint64_t iterations = uint64_t(p_edge_count) * 2;
-	if (iterations <= EDGE_COUNT_MAX_ITERATIONS) {
+	if (3 * iterations <= EDGE_COUNT_MAX_ITERATIONS) {
 		return {};
 	}
 	const glm::uvec2 blocks =

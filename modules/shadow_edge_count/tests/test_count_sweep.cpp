@@ -4,7 +4,6 @@
 #include "modules/shadow_edge_count/count_buffers.h"
 #include "modules/shadow_edge_count/tests/count_records.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
-#include "modules/shadows/fetched_buffers.h"
 
 #include "tests/shaders/kernel_fixture.h"
 
@@ -69,7 +68,7 @@ std::vector<glm::vec4> sweep(KernelFixture &r_fixture, const CountScene &p_scene
 		arrays.faces[face].b_first_distance = arrays.faces[0].a_kind;
 		arrays.faces[face].c_end_distance = arrays.faces[0].a_kind;
 	}
-	const BufferUsage fetched = get_fetched_usage(*r_fixture.device);
+	const BufferUsage fetched = BufferUsage::TEXEL; // the kernel has no variant for storage buffers
 	const OwnedBuffer light = r_fixture.make_buffer("light",
 			std::vector<shader::CountLightConstants>{ arrays.light }, BufferUsage::STORAGE);
 	const OwnedBuffer edges =
@@ -83,10 +82,13 @@ std::vector<glm::vec4> sweep(KernelFixture &r_fixture, const CountScene &p_scene
 	std::vector<uint32_t> totals(EDGE_COUNT_TOTAL_COUNT);
 	totals[EDGE_COUNT_TOTAL_EDGES] = uint32_t(arrays.edges.size());
 	const OwnedBuffer totals_buffer = r_fixture.make_buffer("totals", totals, BufferUsage::STORAGE);
+	const OwnedBuffer cut_faces =
+			r_fixture.make_buffer("cut faces", std::vector<uint32_t>(1), fetched, Format::R32_UINT);
 	return r_fixture.run("count_sweep.comp", p_pairs, p_pairs.size() / 2, 1,
 			{ { COUNT_BINDING_LIGHT, light.get() }, { COUNT_BINDING_EDGES, edges.get() },
 					{ COUNT_BINDING_FACES, faces.get() }, { COUNT_BINDING_PLANES, planes.get() },
 					{ COUNT_BINDING_NODES, nodes.get() },
+					{ COUNT_BINDING_CUT_FACES, cut_faces.get() },
 					{ COUNT_BINDING_TOTALS, totals_buffer.get() } },
 			arrays.pipeline_constants);
 }
