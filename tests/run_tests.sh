@@ -245,7 +245,7 @@ part_layers() {
     run_part "layers canary" python3 tests/layers/test_layers.py --self-test
 }
 part_scenes() {
-    run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py \
+    run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py tests/demo/test_valley.py \
         tests/demo/test_foliage_scenes.py tests/demo/test_animated_casters.py \
         tests/demo/test_package_meshes.py tests/demo/test_run_demo.py
 }
