@@ -18,7 +18,7 @@ struct CountMesh {
 	/// The edges that can be silhouettes: all but those inside a flat region. Sorted for spatial
 	/// locality, so that clusters of consecutive edges are small, see CountNode.
 	std::vector<shader::CountMeshEdge> edges;
-	std::vector<shader::CountMeshFace> faces; // all, sorted likewise
+	std::vector<shader::CountMeshFace> faces; // all, also sorted
 	/// For each connected part of the mesh that this one was cut out of: centre and radius of a
 	/// sphere around the part before the alpha test (connected by edges, whatever their winding).
 	/// All levels of detail have the same source parts, so they switch at the same distance. One

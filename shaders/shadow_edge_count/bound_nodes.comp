@@ -23,10 +23,10 @@ void main() {
 		const uint level = push.first_level + i;
 		const uint index = find_work_group() * group_size + invocation;
 		const bool exists = level < uint(EDGE_COUNT_MAX_LEVELS) && invocation < group_size &&
-				index < find_level_size(item_count, level);
+				index < find_node_count(item_count, level);
 		NodeBounds bounds = make_node_bounds();
 		if (exists) {
-			const uint end = min((index + 1u) * width, find_level_size(item_count, level - 1u));
+			const uint end = min((index + 1u) * width, find_node_count(item_count, level - 1u));
 			for (uint child = index * width; child < end; ++child) {
 				if (i == 0u) {
 					extend_bounds(unpack_node(nodes[find_first_node(has_faces, level - 1u) + child]), bounds);

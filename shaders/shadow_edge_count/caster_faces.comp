@@ -4,7 +4,7 @@
 #include "shadow_edge_count/casters_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-// Computes the vertices and planes of the casters' faces in light space, and the distances of the parts of blocks that
+// Computes the vertices and planes of the casters' faces in light space, and the distances of the leaves that
 // see them (see CountFaceRecord). One invocation per face.
 layout(local_size_x = FIND_GROUP_SIZE) in;
 FETCHED_UVEC4S(FIND_BINDING_MESH_FACES, mesh_faces_buffer); // of all meshes: CountMeshFace
@@ -17,7 +17,7 @@ layout(std430, set = 0, binding = FIND_BINDING_FACES) writeonly buffer Faces {
 
 const float FAR = 3e38;
 
-/// The distance of a block's part (EDGE_COUNT_CHAIN_DISTANCE) from which on the penumbra at a source part of the mesh
+/// The distance of a leaf from which on the penumbra at a source part of the mesh
 /// has at least this half width. p_source_part: centre and radius in light space. Precise, so that the range of one
 /// level of detail ends exactly where that of the other begins. Derived in "Levels of detail" in
 /// doc/techniques/edge_count.md.
@@ -34,7 +34,7 @@ float find_switch_distance(vec4 p_source_part, float p_half_width) {
 	return reach < 1.0 ? point_light_distance : FAR;
 }
 
-/// The distances of the parts that see the face, see CountFaceRecord.
+/// The distances of the leaves that see the face, see CountFaceRecord.
 vec2 find_distances(CountCasterRecord p_caster, uint p_source_part) {
 	if ((p_caster.flags & EDGE_COUNT_CASTER_LEVEL) == 0u) {
 		return vec2(-FAR, FAR);

@@ -90,6 +90,7 @@ bool has_choice_room(CountChoice p_choice, uint p_more) {
 }
 
 /// Collects edges from the leaf's list, from p_first on. Ends when the slice may be full, or no iterations are left.
+/// Each step moves the cursor forward in a tree whose size is limited, whatever its nodes have, so the loop ends.
 /// p_first_word: of the list. p_end: its number of entries.
 CountChoice choose_from_list(uint p_first, uint p_first_word, uint p_end, CountBox p_box) {
 	CountChoice choice = CountChoice(p_first, 0u);
@@ -124,6 +125,7 @@ void choose_from_cluster(CountBox p_box, uint p_cluster, uint p_edge_count, bool
 }
 
 /// Collects edges from the tree, from a packed cursor on. Ends when the slice may be full, or no iterations are left.
+/// Each step moves the cursor forward in a tree whose size is limited, whatever its nodes have, so the loop ends.
 CountChoice choose_from_tree(uint p_first, CountBox p_box) {
 	const CountTree tree = make_count_tree(/*p_has_faces=*/false);
 	const uint width = min(uint(EDGE_COUNT_NODE_WIDTH), SUBGROUP_SIZE); // nodes that are tested together

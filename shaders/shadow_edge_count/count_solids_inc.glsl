@@ -173,8 +173,8 @@ CountCrossings count_subject_crossings(CountSubject p_subject) {
 			needs_ray ? along_ray.double_sided : found.z);
 }
 
-/// Writes the faults and the number of rays of the subgroup. One invocation does: drivers insert subgroup operations around other atomics, and
-/// would do so in divergent flow.
+/// Writes the faults and the number of rays of the subgroup. One invocation does: drivers insert subgroup operations
+/// around other atomics, and would do so in divergent flow.
 void report_subgroup_status() {
 	const uint faults = subgroup_or(count_faults);
 	const uint rays = subgroup_add(ray_count);

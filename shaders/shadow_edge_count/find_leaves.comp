@@ -149,7 +149,7 @@ bool may_any_matter(bool p_has_faces) {
 }
 
 /// True if each pixel has a receiver, and positions change evenly from pixel to pixel: they deviate from a linear
-/// function through three corners of the block by no more than MAX_DEVIATION of the block's size. 
+/// function through three corners of the block by no more than MAX_DEVIATION of the block's size.
 bool is_smooth() {
 	const float MAX_DEVIATION = 0.25;
 	const uint RIGHT = 21u; // indices of two corners, see find_pixel_in_block: the even bits are those of x

@@ -5,6 +5,7 @@
 #include "common/fetch_inc.glsl"
 #include "shadow_edge_count/count_constants_inc.glsl"
 #include "shadow_edge_count/count_space_inc.glsl"
+#include "shadow_edge_count/node_levels_inc.glsl"
 
 FETCHED_UVEC4S(COUNT_BINDING_FACES, faces_buffer);
 FETCHED_VEC4S(COUNT_BINDING_PLANES, planes_buffer);
@@ -75,12 +76,6 @@ struct CountTree {
 	uint level_count;
 };
 
-/// The number of nodes of a level.
-uint find_node_count(uint p_item_count, uint p_level) {
-	const uint shift = uint(findMSB(EDGE_COUNT_CLUSTER_SIZE)) + p_level * uint(findMSB(EDGE_COUNT_NODE_WIDTH));
-	return (p_item_count + (1u << shift) - 1u) >> shift;
-}
-
 CountTree make_count_tree(bool p_has_faces) {
 	CountTree tree;
 	tree.low_levels = p_has_faces ? light.face_levels[0] : light.edge_levels[0];
@@ -101,7 +96,7 @@ CountNode load_count_node(CountTree p_tree, uint p_level, uint p_index) {
 	return CountNode(FETCH_VEC4(nodes_buffer, first), FETCH_VEC4(nodes_buffer, first + 1));
 }
 
-/// A place in the walk through a tree: the next node to test, before all that follow in depth-first order. No stack is
+/// A position in the walk through a tree: the next node to test, before all that follow in depth-first order. No stack is
 /// needed, as a node's level and index determine its parent.
 struct TreeCursor {
 	uint level;

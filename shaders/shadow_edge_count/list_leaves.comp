@@ -54,7 +54,7 @@ uint cluster_count;
 shared uint reached_edges[MAX_CLUSTERS * CLUSTER_SIZE];
 uint reached_count;
 // The leaf's lists; counts include what does not fit. A list of entries that is longer is written in a second walk. On a
-// GPU, all shared memory of a work group of 32 takes less than 8 KiB, so that an SIMD unit of AMD's has room for four.
+// GPU, all shared memory of a work group of 32 takes 8 KiB, so that AMD's compute units have room for four per SIMD unit.
 const uint MAX_SHARED_ENTRIES = IS_CPU ? 1024u : 512u;
 const uint MAX_SILHOUETTES = IS_CPU ? uint(EDGE_COUNT_MAX_SILHOUETTES) : 320u;
 const uint MAX_LOCAL_FACES = IS_CPU ? uint(EDGE_COUNT_MAX_LOCAL_FACES) : 256u;
@@ -96,7 +96,7 @@ void open_next_nodes(CountTree p_tree, bool p_has_faces) {
 	// One iteration, unless a subgroup has fewer invocations than a node has children.
 	uint item = gl_SubgroupInvocationID;
 	uint next_count = first_parent;
-	// All parents are read before their places are written.
+	// All parents are read before their slots are written.
 	uint parents[MAX_PARENTS * WIDTH / GROUP_SIZE];
 	for (uint i = 0u; i < MAX_PARENTS * WIDTH / GROUP_SIZE; ++i) {
 		const uint parent = first_parent + (item + i * GROUP_SIZE) / WIDTH;

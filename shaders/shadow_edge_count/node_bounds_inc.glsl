@@ -3,6 +3,7 @@
 #define NODE_BOUNDS_INC_GLSL
 
 #include "common/work_rows_inc.glsl"
+#include "shadow_edge_count/node_levels_inc.glsl"
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
 layout(std140, set = 0, binding = FIND_BINDING_LIGHT) restrict readonly buffer Light {
@@ -55,12 +56,6 @@ CountNode pack_node(NodeBounds p_bounds) {
 /// The number of faces, or of edges, of the light.
 uint find_item_count(bool p_has_faces) {
 	return p_has_faces ? light.face_count : min(totals[EDGE_COUNT_TOTAL_EDGES], light.max_edge_count);
-}
-
-/// The number of nodes of a level, for so many items.
-uint find_level_size(uint p_item_count, uint p_level) {
-	const uint shift = uint(findMSB(EDGE_COUNT_CLUSTER_SIZE)) + p_level * uint(findMSB(EDGE_COUNT_NODE_WIDTH));
-	return (p_item_count + (1u << shift) - 1u) >> shift;
 }
 
 /// The index in `nodes` of the first node of a level.

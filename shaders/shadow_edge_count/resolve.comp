@@ -5,5 +5,5 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
-// Resolves blocks with edges, with 64 points of the light.
+// Resolves leaves with edges, with 64 points of the light.
 #include "shadow_edge_count/count_mask_inc.glsl"

@@ -5,5 +5,5 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
-// Resolves smooth blocks, with 64 points of the light.
+// Resolves smooth leaves, with 64 points of the light.
 #include "shadow_edge_count/count_smooth_inc.glsl"

@@ -55,8 +55,6 @@ SHARED_SIZE(CountNode, 32);
 #define EDGE_COUNT_NODE_WIDTH 8
 // Levels of a tree: 16 * 8 * 8^6 is more than 10 million, so the highest level has at most 8 nodes.
 #define EDGE_COUNT_MAX_LEVELS 7
-#define EDGE_COUNT_TREE_FACES 0
-#define EDGE_COUNT_TREE_EDGES 1
 
 // mark_edges.comp sets one bit per edge, 32 per word, and counts the set bits per block of 64
 // words. From these counts list_edges.comp computes each edge's index, so that the list is in the
