@@ -152,7 +152,7 @@ void RenderGraph::run_passes(Mode p_mode) {
 			}
 			window_image->texture = *image;
 		}
-		commands->begin_span(pass.name);
+		commands->begin_span(pass.name, pass.needs_time);
 		barriers.clear();
 		collect_barriers(index, barriers);
 		if (!barriers.empty()) {

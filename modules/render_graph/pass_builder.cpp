@@ -66,6 +66,11 @@ PassBuilder &PassBuilder::keep() {
 	return *this;
 }
 
+PassBuilder &PassBuilder::needs_time() {
+	graph.passes[pass_index].needs_time = true;
+	return *this;
+}
+
 void PassBuilder::execute(std::function<void(PassContext &)> p_record) {
 	graph.passes[pass_index].record = std::move(p_record);
 }

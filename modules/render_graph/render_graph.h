@@ -85,6 +85,8 @@ public:
 	PassBuilder &without_targets(glm::uvec2 p_size_px);
 	/// Prevents culling of the pass, even if nothing reads its output.
 	PassBuilder &keep();
+	/// Its time is wanted also on devices that time only few passes, see CommandList::begin_span.
+	PassBuilder &needs_time();
 	/// Sets the function that records the pass.
 	void execute(std::function<void(PassContext &)> p_record);
 	/// Makes it a host pass: p_run is called on the CPU after all earlier passes have been

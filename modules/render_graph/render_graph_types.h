@@ -41,6 +41,7 @@ struct RenderGraph::Pass {
 	std::vector<std::pair<RGTexture, ColorTarget>> colors;
 	std::optional<std::pair<RGTexture, DepthTarget>> depth;
 	std::optional<glm::uvec2> size_without_targets_px;
+	bool needs_time = false; // see PassBuilder::needs_time
 	bool is_retained = false;
 	bool is_culled = false;
 	std::function<void(PassContext &)> record;

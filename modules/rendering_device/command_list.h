@@ -15,8 +15,9 @@ public:
 
 	/// Begins a named span, whose GPU time is measured with timestamps. If the device is lost, the
 	/// error names the last span that began. Spans do not nest, and they begin and end outside
-	/// begin_rendering .. end_rendering.
-	virtual void begin_span(const std::string &p_name) = 0;
+	/// begin_rendering .. end_rendering. p_needs_time: a device that times only few spans (Godot's)
+	/// times this one.
+	virtual void begin_span(const std::string &p_name, bool p_needs_time = false) = 0;
 	virtual void end_span() = 0;
 
 	/// Records barriers, outside begin_rendering .. end_rendering.

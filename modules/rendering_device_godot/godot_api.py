@@ -53,6 +53,7 @@ USED = {
             compute_list_bind_uniform_set compute_list_dispatch compute_list_dispatch_indirect compute_list_end
             free_rid limit_get submit sync set_resource_name
             get_device_vendor_name get_device_name get_memory_usage
+            capture_timestamp get_captured_timestamps_count get_captured_timestamp_gpu_time get_captured_timestamp_name
         """,
         "enums": """
             TextureType TextureUsageBits TextureSamples SamplerFilter SamplerRepeatMode IndexBufferFormat StorageBufferUsage

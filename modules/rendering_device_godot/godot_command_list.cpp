@@ -41,9 +41,15 @@ int64_t to_godot_uniform(ResourceKind p_kind) {
 
 } // namespace
 
-void GodotDevice::begin_span(const std::string &p_name) {
+void GodotDevice::begin_span(const std::string &p_name, bool p_needs_time) {
 	end_compute_list();
-	spans.push_back({ p_name, 0 });
+	if (p_needs_time || is_span_timed) { // the end of one is the beginning of the next
+		rd.capture_timestamp(p_needs_time ? std::string(TIMED_SPAN_PREFIX) + p_name : "");
+		is_any_timed = true;
+	}
+	is_span_timed = p_needs_time;
+	const auto timed = timed_ms.find(p_name);
+	spans.push_back({ p_name, p_needs_time && timed != timed_ms.end() ? timed->second : 0 });
 }
 
 void GodotDevice::end_span() {

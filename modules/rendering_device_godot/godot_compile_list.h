@@ -25,7 +25,7 @@ public:
 	void set_limit(uint32_t p_count) { compilations_left = p_count; }
 	uint32_t get_compilations_left() const { return compilations_left; }
 
-	void begin_span(const std::string &) override {}
+	void begin_span(const std::string &, bool) override {}
 	void end_span() override {}
 	void barriers(std::span<const Barrier> p_barriers) override;
 	void begin_rendering(

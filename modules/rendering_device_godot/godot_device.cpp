@@ -450,6 +450,9 @@ CommandList &GodotDevice::begin_commands() {
 	wait_idle();
 	is_recording = true;
 	++submission;
+	if (is_any_timed) {
+		read_timestamps();
+	}
 	spans.clear();
 	is_not_abandoned = std::make_shared<bool>(true);
 	flush_uploads();
@@ -457,6 +460,21 @@ CommandList &GodotDevice::begin_commands() {
 		return compile_list;
 	}
 	return *this;
+}
+
+void GodotDevice::read_timestamps() {
+	std::string name;
+	uint64_t start_ns = 0;
+	const int64_t count = rd.get_captured_timestamps_count();
+	for (int64_t index = 0; index < count; ++index) {
+		const auto time_ns = static_cast<uint64_t>(rd.get_captured_timestamp_gpu_time(index));
+		if (!name.empty()) {
+			timed_ms[name] = double(time_ns - start_ns) * 1e-6;
+		}
+		name = rd.get_captured_timestamp_name(index).to_utf8();
+		name = name.starts_with(TIMED_SPAN_PREFIX) ? name.substr(TIMED_SPAN_PREFIX.size()) : "";
+		start_ns = time_ns;
+	}
 }
 
 void GodotDevice::compile_only(std::optional<uint32_t> p_count) {
@@ -467,6 +485,10 @@ void GodotDevice::compile_only(std::optional<uint32_t> p_count) {
 void GodotDevice::submit_commands(SubmitMode p_mode) {
 	GNOMON_ASSERT(is_recording, "no commands are being recorded");
 	end_compute_list();
+	if (is_span_timed) {
+		rd.capture_timestamp("");
+		is_span_timed = false;
+	}
 	is_recording = false;
 	if (kind == Kind::LOCAL) {
 		rd.submit();

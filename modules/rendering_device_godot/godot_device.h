@@ -125,7 +125,7 @@ public:
 private:
 	friend class GodotCompileList;
 	// CommandList
-	void begin_span(const std::string &p_name) override;
+	void begin_span(const std::string &p_name, bool p_needs_time = false) override;
 	void end_span() override;
 	void barriers(std::span<const Barrier> p_barriers) override;
 	void begin_rendering(
@@ -196,6 +196,8 @@ private:
 	void prune(Cache &r_cache, bool (*p_is_valid)(const godot::RenderingDevice &, godot::RID));
 	void prune_spare_uploads();
 	void call_read_backs();
+	/// Sets timed_ms from the timestamps of the newest frame that has finished.
+	void read_timestamps();
 	void add_read_back(std::span<const uint8_t> p_bytes, ReadBackCallback &&p_callback);
 	godot::Callable make_callable(ReadBackCallback p_callback) const;
 
@@ -206,7 +208,13 @@ private:
 	std::optional<bool> two_samples; // result of measure_two_samples()
 	CommandCounts counts;
 	MemoryUse use;
-	std::vector<GpuSpan> spans; // without times, because Godot only times whole frames
+	/// Of the newest submission. Only those that need a time have one, of an earlier frame: Godot
+	/// times what is between two timestamps, and has room for few of them.
+	std::vector<GpuSpan> spans;
+	static constexpr std::string_view TIMED_SPAN_PREFIX = "Gnomon: "; // of timestamps
+	bool is_any_timed = false;	// some span needed a time
+	bool is_span_timed = false; // the last timestamp began a span
+	std::map<std::string, double> timed_ms; // by span
 
 	SlotTable<BufferRID, GodotBuffer> buffers{ "buffer" };
 	SlotTable<TextureRID, GodotTexture> textures{ "texture" };

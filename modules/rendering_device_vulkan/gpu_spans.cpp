@@ -12,7 +12,7 @@ constexpr uint32_t SPANS_PER_QUERY_POOL = 64; // with two timestamps each
 
 } // namespace
 
-void VulkanCommandList::begin_span(const std::string &p_name) {
+void VulkanCommandList::begin_span(const std::string &p_name, bool /*p_needs_time*/) {
 	check_recording("begin_span");
 	GNOMON_ASSERT(!is_in_span && !is_rendering, "span '", p_name,
 			"' begins inside another or inside begin_rendering .. end_rendering");

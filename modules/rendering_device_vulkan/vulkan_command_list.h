@@ -18,7 +18,7 @@ struct TextureResource;
 class VulkanCommandList final : public CommandList {
 public:
 	// gpu_spans.cpp
-	void begin_span(const std::string &p_name) override;
+	void begin_span(const std::string &p_name, bool p_needs_time = false) override;
 	void end_span() override;
 
 	// command_list.cpp

@@ -101,8 +101,7 @@ void add_rounds_pass(RenderGraph &r_graph, const CountRounds &p_rounds, Pipeline
 				PassBinding::write(COUNT_BINDING_ROUND, p_rounds.slots[round % 2], update));
 		bindings.push_back(PassBinding::write(
 				COUNT_BINDING_NEXT_ROUND, p_rounds.slots[(round + 1) % 2], update));
-		const shader::CountLeafPush push = { EDGE_COUNT_LEAVES_UNLISTED, /*first_leaf=*/0,
-			/*nearest_w=*/0.0f, round };
+		const shader::CountLeafPush push = { .kind = EDGE_COUNT_LEAVES_UNLISTED, .round = round };
 		steps.push_back({ .pipeline = p_pipeline,
 				.bindings = std::move(bindings),
 				.push = make_push_bytes(push),

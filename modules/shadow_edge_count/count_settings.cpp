@@ -39,6 +39,11 @@ void add_count_properties(PropertyList &r_list) {
 			"taps, which is faster and less exact. -1: no limit; 0: all that has an edge is "
 			"filtered.",
 			"", group, /*special=*/"-1", "no limit" });
+	r_list.add({ "edge_count_time_budget", PropertyType::FLOAT, -1.0, "0.1,1000,0.1",
+			"GPU time that this light's shadow may take in a frame, as measured in the frames "
+			"before. Where it is not enough, the blocks of 8 x 8 pixels with the most edges are "
+			"counted with 64 points, then at one of 2 x 2 pixels, and then filtered. -1: no limit.",
+			"ms", group, /*special=*/"-1", "no limit" });
 	r_list.add({ "edge_count_interpolation", PropertyType::FLOAT, 0.5, "0,1,0.01",
 			"Where the image of every edge on the light moves by no more than this share of the "
 			"light's radius within a block of 8 x 8 pixels, 16 of these are counted and the others "
@@ -60,6 +65,7 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
 	settings.budget = budget < 0 ? EDGE_COUNT_NO_BUDGET : static_cast<uint32_t>(budget);
+	settings.time_budget_ms = std::get<double>(p_properties.at("edge_count_time_budget"));
 	settings.disc_radius = compute_disc_radius(p_light, p_scene);
 	return settings;
 }

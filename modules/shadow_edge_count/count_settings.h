@@ -10,6 +10,7 @@ namespace gnomon {
 struct CountSettings {
 	uint32_t sample_count = 64;				// points of the light: 64 or 256
 	uint32_t budget = EDGE_COUNT_NO_BUDGET; // maximum number of edges of one leaf
+	double time_budget_ms = -1; // see CountTimeBudget; below 0: none
 	float interpolation = 0; // maximum motion of an edge's projection onto the disc, see
 							 // CountLightConstants
 	/// R: the mean of the light's two penumbra widths in metres, by default its radius.
@@ -17,6 +18,7 @@ struct CountSettings {
 	double disc_radius = 0;
 
 	bool has_budget() const { return budget != EDGE_COUNT_NO_BUDGET; }
+	bool has_time_budget() const { return time_budget_ms >= 0; }
 	/// Number of sets of 64 points: 1 or 4.
 	uint32_t get_sample_set_count() const { return sample_count / EDGE_COUNT_SAMPLE_COUNT; }
 };

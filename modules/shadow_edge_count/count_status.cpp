@@ -3,6 +3,7 @@
 #include "modules/core/log.h"
 #include "modules/core/text.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace gnomon {
@@ -72,6 +73,22 @@ void CountStatus::get_counters(std::vector<WorkCounter> &r_counters) const {
 		r_counters.push_back({ "longest_list", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_LIST] });
 		r_counters.push_back({ "rays", (*latest->words)[EDGE_COUNT_STATUS_RAYS] });
 	}
+	if (const std::optional<CountRungs> rungs = get_rungs()) {
+		r_counters.push_back({ "cost", rungs->cost });
+		for (uint32_t rung = 0; rung < EDGE_COUNT_RUNG_COUNT; ++rung) {
+			r_counters.push_back({ text("leaves_on_rung_", rung), rungs->leaf_counts[rung] });
+		}
+	}
+}
+
+std::optional<CountRungs> CountStatus::get_rungs() const {
+	if (!latest->words || (*latest->words)[EDGE_COUNT_STATUS_COST] == 0) {
+		return {};
+	}
+	CountRungs rungs = { .cost = (*latest->words)[EDGE_COUNT_STATUS_COST], .leaf_counts = {} };
+	std::copy_n(latest->words->begin() + EDGE_COUNT_STATUS_RUNGS, EDGE_COUNT_RUNG_COUNT,
+			rungs.leaf_counts.begin());
+	return rungs;
 }
 
 } // namespace gnomon

@@ -13,6 +13,12 @@
 
 namespace gnomon {
 
+/// Of a light with a time budget, see EDGE_COUNT_RUNG_FULL.
+struct CountRungs {
+	uint32_t cost = 0; // of all leaves on their rungs
+	std::array<uint32_t, EDGE_COUNT_RUNG_COUNT> leaf_counts = {};
+};
+
 /// What the passes over leaves reported of themselves: faults, and counts of their work. Read back
 /// without waiting, so it is that of a frame whose submission has finished.
 class CountStatus {
@@ -22,6 +28,8 @@ public:
 	void add_read_back(RenderGraph &r_graph, RGBuffer p_status, const std::string &p_light);
 	/// Appends the counts of the newest frame that was read back, if any.
 	void get_counters(std::vector<WorkCounter> &r_counters) const;
+	/// The rungs of the newest frame that was read back, if that had a time budget.
+	std::optional<CountRungs> get_rungs() const;
 
 private:
 	/// Shared with the callbacks, which may arrive after this object is gone.

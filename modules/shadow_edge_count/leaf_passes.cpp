@@ -22,6 +22,11 @@ constexpr uint64_t MAX_LIST_WORDS = 5'700'000;
 // Every block of pixels has room for one leaf, and half of them for a second one. More are in few
 // blocks, and those whose leaves are completely lit need none.
 constexpr uint32_t LEAVES_PER_TWO_BLOCKS = 3;
+// Leaves of a chunk (see CountLeafPush), so that no dispatch takes 100 ms: 20 us a leaf are usual on
+// a CPU with two cores.
+constexpr uint32_t CPU_CHUNK_LEAVES = 4096;
+constexpr uint32_t GPU_CHUNK_LEAVES = 16384;
+constexpr uint32_t BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
@@ -61,9 +66,9 @@ std::vector<PassBinding> make_solid_bindings(
 
 /// The bindings of passes that count edges, see count_resolve_inc.glsl.
 std::vector<PassBinding> make_count_bindings(
-		const CountLeafPasses &p_passes, const CountLeaves &p_leaves) {
+		const CountLeafPasses &p_passes, const CountLeaves &p_leaves, RGBuffer p_masks) {
 	std::vector<PassBinding> bindings = make_solid_bindings(p_passes, p_leaves);
-	bindings.push_back(PassBinding::read(COUNT_BINDING_MASKS, p_passes.masks));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_MASKS, p_masks));
 	return bindings;
 }
 
@@ -80,35 +85,115 @@ std::vector<SpecializationConstant> make_pipeline_constants(
 		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, inputs.views.front().is_orthographic ? 1u : 0u },
 		{ EDGE_COUNT_CONSTANT_GROUP_SIZE, p_group_size },
 		{ EDGE_COUNT_CONSTANT_IS_CPU, inputs.device.get_features().runs_on_cpu ? 1u : 0u },
-		{ EDGE_COUNT_CONSTANT_MAY_CUT_DISC, p_passes.capacities.cut_face_count > 0 ? 1u : 0u } };
+		{ EDGE_COUNT_CONSTANT_MAY_CUT_DISC, p_passes.capacities.cut_face_count > 0 ? 1u : 0u },
+		{ EDGE_COUNT_CONSTANT_HAS_RUNGS, p_passes.settings.has_time_budget() ? 1u : 0u } };
 }
 
-/// Adds an indirect dispatch over the leaves of one kind.
-void add_kind_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
-		const CountLeaves &p_leaves, const std::string &p_name, const std::string &p_shader,
-		uint32_t p_kind, std::vector<PassBinding> p_bindings) {
+/// Records the dispatches of all chunks of a kind of leaves, see CountLeafPush. Nothing separates
+/// them: each leaf is in one of them.
+void dispatch_chunks(PassContext &p_context, shader::CountLeafPush p_push, uint32_t p_chunk_count,
+		RGBuffer p_arguments) {
+	for (uint32_t chunk = 0; chunk < p_chunk_count; ++chunk) {
+		p_push.chunk = chunk;
+		p_context.commands.push_constants(p_push);
+		p_context.commands.dispatch_indirect(p_context.get(p_arguments),
+				EDGE_COUNT_ARGUMENT_WORDS * p_push.kind * sizeof(uint32_t));
+	}
+}
+
+/// Leaves that one pass resolves, and how.
+struct KindPass {
+	std::string name;
+	std::string shader;
+	uint32_t kind = 0;		  // EDGE_COUNT_LEAVES_*
+	uint32_t rungs = ~0u; // bit i: those on rung i
+	// If edges are counted: how many of a leaf's 64 receivers are, and with how many sets of points.
+	uint32_t receiver_count = BLOCK_PIXELS;
+	uint32_t sample_set_count = 1;
+};
+
+/// A pass that counts edges.
+struct CountingPass {
+	const char *name;
+	const char *shader; // with 256 points, another one is chosen
+	uint32_t kind;		// EDGE_COUNT_LEAVES_*
+	uint32_t point_count;
+	uint32_t rungs = ~0u; // see KindPass
+	uint32_t receiver_count = BLOCK_PIXELS;
+	bool may_be_unfinished = false; // some subgroups may have edges left for rounds
+	bool has_few_points = false;	// fewer than the light
+};
+
+std::vector<CountingPass> list_counting_passes(const CountSettings &p_settings) {
+	const uint32_t few_points = EDGE_COUNT_SAMPLE_COUNT;
+	const uint32_t points = p_settings.sample_count;
+	// Without a time budget all leaves are on the first rung. A light with few points has no second
+	// one, so that the first is also what the ladder calls the second.
+	const uint32_t few_points_rung = 1u << EDGE_COUNT_RUNG_FEW_POINTS;
+	const uint32_t few_pixels_rung = 1u << EDGE_COUNT_RUNG_FEW_PIXELS;
+	const bool is_lowered = p_settings.has_time_budget() && points > few_points;
+	const uint32_t full = 1u << EDGE_COUNT_RUNG_FULL | (is_lowered ? 0 : few_points_rung);
+	std::vector<CountingPass> passes = {
+		{ "resolve smooth", "resolve_smooth", EDGE_COUNT_LEAVES_SMOOTH, points,
+				is_lowered ? full : full | few_pixels_rung, EDGE_COUNT_SMOOTH_PIXELS },
+		{ "resolve", "resolve", EDGE_COUNT_LEAVES_LISTED, points, full, BLOCK_PIXELS,
+				/*may_be_unfinished=*/true },
+		{ "resolve without lists", "resolve", EDGE_COUNT_LEAVES_UNLISTED, points, full,
+				BLOCK_PIXELS, /*may_be_unfinished=*/true },
+	};
+	if (is_lowered) {
+		passes.push_back({ "resolve smooth, 64 points", "resolve_smooth", EDGE_COUNT_LEAVES_SMOOTH,
+				few_points, few_points_rung | few_pixels_rung, EDGE_COUNT_SMOOTH_PIXELS,
+				/*may_be_unfinished=*/false, /*has_few_points=*/true });
+		passes.push_back({ "resolve, 64 points", "resolve", EDGE_COUNT_LEAVES_LISTED, few_points,
+				few_points_rung, BLOCK_PIXELS, /*may_be_unfinished=*/true,
+				/*has_few_points=*/true });
+	}
+	if (p_settings.has_time_budget()) {
+		passes.push_back({ "resolve, 16 pixels", "resolve_coarse", EDGE_COUNT_LEAVES_LISTED,
+				few_points, few_pixels_rung, EDGE_COUNT_SMOOTH_PIXELS,
+				/*may_be_unfinished=*/false, /*has_few_points=*/is_lowered });
+	}
+	return passes;
+}
+
+/// Adds indirect dispatches over the leaves of some kinds, with the same bindings.
+void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
+		const CountLeaves &p_leaves, std::span<const KindPass> p_kinds,
+		std::vector<PassBinding> p_bindings) {
+	struct Step {
+		PipelineRID pipeline;
+		shader::CountLeafPush push;
+	};
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
-	const shader::CountLeafPush push = { p_kind, p_kind * p_leaves.leaf_capacity,
-		p_kind == EDGE_COUNT_LEAVES_FILTERED ? compute_nearest_w(inputs) : 0.0f, /*round=*/0 };
-	const uint32_t receiver_count = p_kind == EDGE_COUNT_LEAVES_SMOOTH
-			? EDGE_COUNT_SMOOTH_PIXELS
-			: EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
-	std::vector<SpecializationConstant> constants = make_pipeline_constants(
-			p_passes, receiver_count * get_shape(p_passes).lanes_per_receiver);
-	const bool has_no_list =
-			p_kind == EDGE_COUNT_LEAVES_UNLISTED || p_kind == EDGE_COUNT_LEAVES_FILTERED;
-	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, has_no_list ? 1u : 0u });
-	const PipelineRID pipeline =
-			inputs.device.get_compute_pipeline({ p_shader, p_shader, std::move(constants) });
-	PassBuilder pass = r_graph.add_pass(p_name);
+	std::vector<Step> steps;
+	for (const KindPass &kind : p_kinds) {
+		std::vector<SpecializationConstant> constants = make_pipeline_constants(
+				p_passes, kind.receiver_count *
+						get_count_shape(inputs.device, kind.sample_set_count).lanes_per_receiver);
+		const bool has_no_list = kind.kind == EDGE_COUNT_LEAVES_UNLISTED ||
+				kind.kind == EDGE_COUNT_LEAVES_FILTERED;
+		constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, has_no_list ? 1u : 0u });
+		steps.push_back({ inputs.device.get_compute_pipeline(
+								  { kind.shader, kind.shader, std::move(constants) }),
+				{ .kind = kind.kind,
+						.first_leaf = kind.kind * p_leaves.leaf_capacity,
+						.nearest_w = p_passes.depth_map ? compute_nearest_w(inputs) : 0.0f,
+						.rungs = kind.rungs } });
+	}
+	PassBuilder pass = r_graph.add_pass(p_kinds.front().name);
+	if (p_passes.settings.has_time_budget()) {
+		pass.needs_time();
+	}
 	declare_bindings(pass, p_bindings);
 	pass.reads(p_leaves.arguments, Access::INDIRECT_READ);
-	pass.execute([=, arguments = p_leaves.arguments, bindings = std::move(p_bindings)](
-						 PassContext &p_context) {
-		bind_compute(p_context, pipeline, bindings,
-				std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
-		p_context.commands.dispatch_indirect(
-				p_context.get(arguments), EDGE_COUNT_ARGUMENT_WORDS * p_kind * sizeof(uint32_t));
+	pass.execute([=, arguments = p_leaves.arguments, chunk_count = p_leaves.chunk_count,
+						 bindings = std::move(p_bindings)](PassContext &p_context) {
+		for (const Step &step : steps) {
+			bind_compute(p_context, step.pipeline, bindings,
+					std::span(reinterpret_cast<const uint8_t *>(&step.push), sizeof(step.push)));
+			dispatch_chunks(p_context, step.push, chunk_count, arguments);
+		}
 	});
 }
 
@@ -122,7 +207,7 @@ void add_rounds(RenderGraph &r_graph, const CountLeafPasses &p_passes, const Cou
 	const std::string shader = choose_fetching_shader(p_passes.inputs.device,
 			is_fine ? "shadow_edge_count/resolve_unfinished_fine.comp"
 					: "shadow_edge_count/resolve_unfinished.comp");
-	std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_leaves);
+	std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_leaves, p_passes.masks);
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
 	add_rounds_pass(r_graph, p_leaves.rounds,
@@ -130,16 +215,49 @@ void add_rounds(RenderGraph &r_graph, const CountLeafPasses &p_passes, const Cou
 			bindings);
 }
 
-/// Adds a pass that filters leaves with more edges than the budget (percentage-closer soft
-/// shadows).
+/// Adds a pass that filters leaves with more edges than the budget, or for which there is no time
+/// (percentage-closer soft shadows).
 void add_filter_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 		const CountLeaves &p_leaves, RGTexture p_mask) {
 	std::vector<PassBinding> bindings = make_kind_bindings(p_leaves);
 	bindings.push_back(PassBinding::read(COUNT_BINDING_DEPTH_MAP, p_passes.depth_map));
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
-	add_kind_pass(r_graph, p_passes, p_leaves, "filter", "shadow_edge_count/filter_leaves.comp",
-			EDGE_COUNT_LEAVES_FILTERED, std::move(bindings));
+	std::vector<KindPass> kinds;
+	const auto add_kind = [&](uint32_t p_kind, uint32_t p_rungs) {
+		kinds.push_back({ "filter", "shadow_edge_count/filter_leaves.comp", p_kind, p_rungs });
+	};
+	if (p_passes.settings.has_budget()) {
+		add_kind(EDGE_COUNT_LEAVES_FILTERED, ~0u);
+	}
+	if (p_passes.settings.has_time_budget()) {
+		for (const uint32_t kind : { EDGE_COUNT_LEAVES_LISTED, EDGE_COUNT_LEAVES_UNLISTED,
+					 EDGE_COUNT_LEAVES_SMOOTH }) {
+			add_kind(kind, 1u << EDGE_COUNT_RUNG_FILTERED);
+		}
+	}
+	add_kind_passes(r_graph, p_passes, p_leaves, kinds, std::move(bindings));
+}
+
+/// Adds a pass that chooses the rungs of leaves, see EDGE_COUNT_RUNG_FULL.
+void add_rungs_pass(
+		RenderGraph &r_graph, const CountLeafPasses &p_passes, const CountLeaves &p_leaves) {
+	// On a CPU measured with leaves.gltf. On GPUs, whose invocations share the points, estimated.
+	const float few_points_share =
+			p_passes.inputs.device.get_features().runs_on_cpu ? 0.75f : 0.35f;
+	const shader::CountRungsPush push = p_passes.settings.get_sample_set_count() > 1
+			? shader::CountRungsPush{ p_passes.cost_limit, EDGE_COUNT_RUNG_FULL, few_points_share,
+				  /*padding=*/0 }
+			: shader::CountRungsPush{ p_passes.cost_limit, EDGE_COUNT_RUNG_FEW_POINTS,
+				  /*few_points_share=*/1.0f, /*padding=*/0 };
+	const char *shader = "shadow_edge_count/choose_rungs.comp";
+	const auto update = PassBuilder::Content::UPDATE;
+	add_compute_pass(r_graph, "choose rungs",
+			p_passes.inputs.device.get_compute_pipeline({ shader, shader, /*constants=*/{} }),
+			{ PassBinding::write(RUNGS_BINDING_COUNTS, p_leaves.counts, update),
+					PassBinding::write(RUNGS_BINDING_STATUS, p_leaves.status, update),
+					PassBinding::write(RUNGS_BINDING_LADDER, p_passes.ladder, update) },
+			{ 1, 1, 1 }, make_push_bytes(push));
 }
 
 } // namespace
@@ -178,6 +296,9 @@ shader::CountLightConstants make_leaf_constants(const ShadowTechnique::Inputs &p
 			get_count_shape(p_inputs.device, p_settings.get_sample_set_count()));
 	constants.unfinished_slot_count = limits.slot_count;
 	constants.unfinished_round_count = limits.round_count;
+	const uint32_t chunk_leaves =
+			p_inputs.device.get_features().runs_on_cpu ? CPU_CHUNK_LEAVES : GPU_CHUNK_LEAVES;
+	constants.chunk_count = (constants.leaf_capacity + chunk_leaves - 1) / chunk_leaves;
 	return constants;
 }
 
@@ -189,6 +310,7 @@ CountLeaves add_leaf_passes(RenderGraph &r_graph, const CountLeafPasses &p_passe
 	leaves.receivers = make_map_resolve_bindings(r_graph, inputs);
 	leaves.constants = r_graph.upload_constants("counted light", constants);
 	leaves.leaf_capacity = constants.leaf_capacity;
+	leaves.chunk_count = constants.chunk_count;
 	const auto make_buffer = [&](const char *p_name, uint64_t p_count, uint64_t p_item_bytes) {
 		return r_graph.create_buffer({ p_name, p_count * p_item_bytes, BufferUsage::STORAGE });
 	};
@@ -251,46 +373,56 @@ CountLeaves add_leaf_passes(RenderGraph &r_graph, const CountLeafPasses &p_passe
 			COUNT_BINDING_ARGUMENTS, leaves.arguments, PassBuilder::Content::UPDATE));
 	list_bindings.push_back(
 			PassBinding::write(COUNT_BINDING_COUNTS, leaves.counts, PassBuilder::Content::UPDATE));
-	add_compute_steps(r_graph, "list leaves",
-			{ { .pipeline = get_pipeline("shadow_edge_count/list_leaves.comp"),
-					.bindings = std::move(list_bindings),
-					.arguments = all_arguments } });
+	const PipelineRID list_pipeline = get_pipeline("shadow_edge_count/list_leaves.comp");
+	PassBuilder list = r_graph.add_pass("list leaves");
+	if (p_passes.settings.has_time_budget()) {
+		list.needs_time();
+	}
+	declare_bindings(list, list_bindings);
+	list.reads(all_arguments, Access::INDIRECT_READ);
+	list.execute([=, chunk_count = leaves.chunk_count](PassContext &p_context) {
+		const shader::CountLeafPush push = {};
+		bind_compute(p_context, list_pipeline, list_bindings,
+				std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
+		dispatch_chunks(p_context, push, chunk_count, all_arguments);
+	});
+	if (p_passes.settings.has_time_budget()) {
+		add_rungs_pass(r_graph, p_passes, leaves);
+	}
 	return leaves;
 }
 
 RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountLeafPasses &p_passes, const CountLeaves &p_leaves) {
-	const auto choose = [&](const char *p_shader) {
-		return choose_fetching_shader(p_passes.inputs.device, p_shader);
-	};
 	const RGTexture mask = create_tiled_mask(r_graph, p_passes.inputs.size_px);
-	std::vector<PassBinding> bindings = make_kind_bindings(p_leaves);
-	bindings.push_back(
-			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
-	add_kind_pass(r_graph, p_passes, p_leaves, "resolve dark",
-			"shadow_edge_count/resolve_dark.comp", EDGE_COUNT_LEAVES_DARK, std::move(bindings));
-	bindings = make_solid_bindings(p_passes, p_leaves);
-	bindings.push_back(
-			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
-	add_kind_pass(r_graph, p_passes, p_leaves, "resolve plain",
-			choose("shadow_edge_count/resolve_plain.comp"), EDGE_COUNT_LEAVES_PLAIN,
-			std::move(bindings));
-	const bool is_fine = p_passes.settings.get_sample_set_count() > 1;
-	const char *resolve =
-			is_fine ? "shadow_edge_count/resolve_fine.comp" : "shadow_edge_count/resolve.comp";
-	const char *resolve_smooth = is_fine ? "shadow_edge_count/resolve_smooth_fine.comp"
-										 : "shadow_edge_count/resolve_smooth.comp";
-	for (const auto &[kind, name, shader] :
-			{ std::tuple(EDGE_COUNT_LEAVES_SMOOTH, "resolve smooth", resolve_smooth),
-					std::tuple(EDGE_COUNT_LEAVES_LISTED, "resolve", resolve),
-					std::tuple(EDGE_COUNT_LEAVES_UNLISTED, "resolve without lists", resolve) }) {
-		bindings = make_count_bindings(p_passes, p_leaves);
-		bindings.push_back(
-				PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
-		if (kind != EDGE_COUNT_LEAVES_SMOOTH) {
+	const PassBinding output =
+			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE);
+	const auto add_pass = [&](const KindPass &p_pass, std::vector<PassBinding> p_bindings) {
+		p_bindings.push_back(output);
+		add_kind_passes(r_graph, p_passes, p_leaves, { &p_pass, 1 }, std::move(p_bindings));
+	};
+	add_pass({ "resolve dark", "shadow_edge_count/resolve_dark.comp", EDGE_COUNT_LEAVES_DARK },
+			make_kind_bindings(p_leaves));
+	add_pass({ "resolve plain",
+					 choose_fetching_shader(
+							 p_passes.inputs.device, "shadow_edge_count/resolve_plain.comp"),
+					 EDGE_COUNT_LEAVES_PLAIN },
+			make_solid_bindings(p_passes, p_leaves));
+	for (const CountingPass &pass : list_counting_passes(p_passes.settings)) {
+		std::vector<PassBinding> bindings = make_count_bindings(
+				p_passes, p_leaves, pass.has_few_points ? p_passes.few_masks : p_passes.masks);
+		if (pass.may_be_unfinished) {
 			p_leaves.rounds.bind_queue(bindings);
 		}
-		add_kind_pass(r_graph, p_passes, p_leaves, name, choose(shader), kind, std::move(bindings));
+		const std::string suffix = pass.point_count > EDGE_COUNT_SAMPLE_COUNT ? "_fine" : "";
+		add_pass({ .name = pass.name,
+						 .shader = choose_fetching_shader(p_passes.inputs.device,
+								 text("shadow_edge_count/", pass.shader, suffix, ".comp")),
+						 .kind = pass.kind,
+						 .rungs = pass.rungs,
+						 .receiver_count = pass.receiver_count,
+						 .sample_set_count = pass.point_count / EDGE_COUNT_SAMPLE_COUNT },
+				std::move(bindings));
 	}
 	add_rounds(r_graph, p_passes, p_leaves, mask);
 	if (p_passes.depth_map) {
@@ -308,12 +440,13 @@ RGTexture add_count_debug_pass(
 					/*is_array=*/true });
 	add_clear_pass(r_graph, "clear debug", output, 0.0f); // of leaves that are all lit
 	for (uint32_t kind = 0; kind < EDGE_COUNT_LEAF_KINDS; ++kind) {
-		std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_leaves);
+		std::vector<PassBinding> bindings =
+				make_count_bindings(p_passes, p_leaves, p_passes.masks);
 		bindings.push_back(
 				PassBinding::write(COUNT_BINDING_OUTPUT, output, PassBuilder::Content::UPDATE));
-		add_kind_pass(r_graph, p_passes, p_leaves, text("debug ", kind),
-				choose_fetching_shader(p_passes.inputs.device, "shadow_edge_count/debug.comp"),
-				kind, std::move(bindings));
+		const KindPass pass = { text("debug ", kind),
+			choose_fetching_shader(p_passes.inputs.device, "shadow_edge_count/debug.comp"), kind };
+		add_kind_passes(r_graph, p_passes, p_leaves, { &pass, 1 }, std::move(bindings));
 	}
 	return output;
 }

@@ -14,6 +14,11 @@ struct CountLeafPasses {
 	CountCapacities capacities;
 	uint32_t empty_views = 0; // bit i: view i has no casters or no receivers
 	RGBuffer masks;			  // mask tables of all sample sets, see DiscMasks
+	RGBuffer few_masks;		  // with a time budget: of 64 points; else empty
+	/// With a time budget: the position of its ladder in the frame before, and the cost for which
+	/// there is time, see EDGE_COUNT_RUNG_FULL.
+	RGBuffer ladder;
+	uint32_t cost_limit = EDGE_COUNT_NO_COST_LIMIT;
 	/// Depth maps of the views. Empty if no leaf can have more edges than the budget.
 	RGTexture depth_map;
 };
@@ -31,6 +36,7 @@ struct CountLeaves {
 	RGBuffer status;					// EDGE_COUNT_STATUS_*, see count_status.h
 	CountRounds rounds;					// for subgroups with very many edges
 	uint32_t leaf_capacity = 0;
+	uint32_t chunk_count = 1; // see CountLeafPush
 };
 
 /// The light's constants for all passes. p_empty_views: bit i is set if view i has no casters or no

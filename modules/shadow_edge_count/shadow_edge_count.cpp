@@ -68,8 +68,9 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	are_casters_found = false;
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius, order);
-	may_filter =
-			settings.has_budget() && (casters.edge_count > settings.budget || !p_inputs.may_skip);
+	may_filter = settings.has_time_budget() ||
+			(settings.has_budget() &&
+					(casters.edge_count > settings.budget || !p_inputs.may_skip));
 	// Only the filter reads views other than that of the receiver.
 	views.begin(p_inputs,
 			may_filter ? CachedViews::FilterReach::ADJACENT_VIEWS
@@ -106,6 +107,12 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		plan_casters(r_plan);
 	}
 	plan_filter(r_plan);
+	plan_rungs(r_plan);
+	if (!settings.has_time_budget()) {
+		time_budget.reset();
+	} else if (!time_budget) {
+		time_budget.emplace(p_inputs.device.get_features().runs_on_cpu);
+	}
 }
 
 void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
@@ -152,6 +159,34 @@ void ShadowEdgeCount::plan_filter(TechniquePlan &r_plan) {
 	}
 }
 
+void ShadowEdgeCount::plan_rungs(TechniquePlan &r_plan) {
+	if (!settings.has_time_budget()) {
+		r_plan.skip("fewer points, fewer pixels", "edge_count_time_budget is -1: no limit");
+		return;
+	}
+	const std::string pass = text("within ", settings.time_budget_ms, " ms");
+	const std::optional<CountRungs> rungs = status.get_rungs();
+	if (!rungs) {
+		r_plan.run(text(pass, ", no leaf was counted yet"));
+		return;
+	}
+	const auto count = [&](uint32_t p_rung) { return rungs->leaf_counts[p_rung]; };
+	const uint32_t few_points = settings.get_sample_set_count() > 1
+			? count(EDGE_COUNT_RUNG_FEW_POINTS)
+			: 0; // those leaves are counted as all others
+	r_plan.run(text(pass, ", leaves in the frame before: full ",
+			count(EDGE_COUNT_RUNG_FULL) + count(EDGE_COUNT_RUNG_FEW_POINTS) - few_points,
+			", 64 points ", few_points, ", 16 of 64 pixels ", count(EDGE_COUNT_RUNG_FEW_PIXELS),
+			", filtered ", count(EDGE_COUNT_RUNG_FILTERED)));
+}
+
+void ShadowEdgeCount::receive_times(std::span<const PassTiming> p_passes) {
+	const std::optional<CountRungs> rungs = status.get_rungs();
+	if (time_budget && rungs) {
+		time_budget->learn(p_passes, rungs->cost);
+	}
+}
+
 void ShadowEdgeCount::at_light_view(
 		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
 	views.set_drawn(p_inputs, p_view_index);
@@ -191,30 +226,50 @@ RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &
 	return frame_depth_map;
 }
 
-RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inputs) {
-	const uint32_t sample_set_count = settings.get_sample_set_count();
-	if (!masks || mask_sample_set_count != sample_set_count) {
-		// The tables of all sets are interleaved, since the shader reads the masks of two sets at
-		// once.
-		std::vector<uint64_t> tables;
-		for (uint32_t sample_set = 0; sample_set < sample_set_count; ++sample_set) {
-			const DiscMasks disc_masks(sample_set, sample_set_count);
-			const std::vector<uint64_t> &table = disc_masks.get_table();
-			tables.resize(table.size() * sample_set_count);
-			for (size_t i = 0; i < table.size(); ++i) {
-				tables[i * sample_set_count + sample_set] = table[i];
-			}
+OwnedBuffer ShadowEdgeCount::make_masks(const Inputs &p_inputs, uint32_t p_point_count) {
+	// The tables of all sets are interleaved, since the shader reads the masks of two sets at once.
+	const uint32_t set_count = p_point_count / EDGE_COUNT_SAMPLE_COUNT;
+	std::vector<uint64_t> tables;
+	for (uint32_t sample_set = 0; sample_set < set_count; ++sample_set) {
+		const DiscMasks disc_masks(sample_set, set_count);
+		const std::vector<uint64_t> &table = disc_masks.get_table();
+		tables.resize(table.size() * set_count);
+		for (size_t i = 0; i < table.size(); ++i) {
+			tables[i * set_count + sample_set] = table[i];
 		}
-		const auto bytes = bytes_of(std::span<const uint64_t>(tables));
-		masks = OwnedBuffer(p_inputs.device,
-				p_inputs.device.create_buffer_with_data(
-						{ "masks of " + p_inputs.light.name, bytes.size(),
-								BufferUsage::TEXEL | BufferUsage::COPY_TARGET, MemoryKind::GPU,
-								sample_set_count == 1 ? Format::RG32_UINT : Format::RGBA32_UINT },
-						bytes));
-		mask_sample_set_count = sample_set_count;
 	}
-	return r_graph.import_buffer(masks.get());
+	const auto bytes = bytes_of(std::span<const uint64_t>(tables));
+	return OwnedBuffer(p_inputs.device,
+			p_inputs.device.create_buffer_with_data(
+					{ text("masks of ", p_point_count, " points"), bytes.size(),
+							BufferUsage::TEXEL | BufferUsage::COPY_TARGET, MemoryKind::GPU,
+							set_count == 1 ? Format::RG32_UINT : Format::RGBA32_UINT },
+					bytes));
+}
+
+void ShadowEdgeCount::prepare_masks(const Inputs &p_inputs) {
+	if (!masks || mask_point_count != settings.sample_count) {
+		masks = make_masks(p_inputs, settings.sample_count);
+		mask_point_count = settings.sample_count;
+	}
+	if (!settings.has_time_budget()) {
+		few_masks.reset();
+		ladder.reset();
+		return;
+	}
+	if (settings.sample_count == EDGE_COUNT_SAMPLE_COUNT) {
+		few_masks.reset();
+	} else if (!few_masks) {
+		few_masks = make_masks(p_inputs, EDGE_COUNT_SAMPLE_COUNT);
+	}
+	if (!ladder || !p_inputs.may_reuse) {
+		const uint32_t start = 0;
+		ladder = OwnedBuffer(p_inputs.device,
+				p_inputs.device.create_buffer_with_data(
+						{ "ladder of " + p_inputs.light.name, sizeof(start),
+								BufferUsage::STORAGE | BufferUsage::COPY_TARGET },
+						bytes_of(std::span(&start, 1))));
+	}
 }
 
 RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
@@ -223,9 +278,18 @@ RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 			empty_views == ~0u >> (32 - p_inputs.views.size())) {
 		return add_constant_mask(r_graph, p_inputs.size_px, /*p_visibility=*/1.0f);
 	}
-	CountLeafPasses passes = { p_inputs, settings, buffers.import(r_graph),
-		buffers.get_capacities(), empty_views, import_masks(r_graph, p_inputs),
-		/*depth_map=*/{} };
+	prepare_masks(p_inputs);
+	CountLeafPasses passes = { .inputs = p_inputs,
+		.settings = settings,
+		.light = buffers.import(r_graph),
+		.capacities = buffers.get_capacities(),
+		.empty_views = empty_views,
+		.masks = r_graph.import_buffer(masks.get()) };
+	if (time_budget) {
+		passes.few_masks = few_masks ? r_graph.import_buffer(few_masks.get()) : passes.masks;
+		passes.ladder = r_graph.import_buffer(ladder.get());
+		passes.cost_limit = find_cost_limit();
+	}
 	if (may_filter) {
 		passes.depth_map = import_depth_map(r_graph, p_inputs);
 	}
@@ -251,14 +315,15 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
-	for (const char *name : { "bound_nodes.comp", "resolve_dark.comp", "filter_leaves.comp" }) {
+	for (const char *name : { "bound_nodes.comp", "resolve_dark.comp", "filter_leaves.comp",
+				 "choose_rungs.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
 				 "bound_clusters.comp", "list_cut_faces.comp", "find_leaves.comp",
 				 "list_leaves.comp", "resolve_plain.comp", "resolve_smooth.comp",
 				 "resolve_smooth_fine.comp", "resolve.comp", "resolve_fine.comp",
-				 "resolve_unfinished.comp", "resolve_unfinished_fine.comp", "debug.comp" }) {
+				 "resolve_coarse.comp", "resolve_unfinished.comp", "resolve_unfinished_fine.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 		files.push_back(get_storage_variant(files.back()));
 	}

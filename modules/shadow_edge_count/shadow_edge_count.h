@@ -1,9 +1,10 @@
 #pragma once
 
-#include "modules/shadow_edge_count/count_status.h"
+#include "modules/shadow_edge_count/count_time_budget.h"
 #include "modules/shadow_edge_count/leaf_passes.h"
 #include "modules/shadows/cached_views.h"
 
+#include <optional>
 #include <vector>
 
 namespace gnomon {
@@ -27,6 +28,7 @@ public:
 			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;
 	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
 	void get_debug_views(std::vector<DebugView> &r_views) const override;
+	void receive_times(std::span<const PassTiming> p_passes) override;
 	void get_counters(std::vector<WorkCounter> &r_counters) const override {
 		status.get_counters(r_counters);
 	}
@@ -37,6 +39,10 @@ protected:
 	/// damage lists here.
 	virtual void after_lists(RenderGraph & /*r_graph*/, const CountFrameBuffers & /*p_light*/,
 			const CountLeaves & /*p_leaves*/) {}
+	/// With a time budget: the cost for which there is time in this frame. Tests choose it.
+	virtual uint32_t find_cost_limit() const {
+		return time_budget->find_cost_limit(settings.time_budget_ms);
+	}
 
 private:
 	/// The light and casters for which the buffers were last filled.
@@ -49,7 +55,11 @@ private:
 
 	void plan_casters(TechniquePlan &r_plan);
 	void plan_filter(TechniquePlan &r_plan);
-	RGBuffer import_masks(RenderGraph &r_graph, const Inputs &p_inputs);
+	void plan_rungs(TechniquePlan &r_plan);
+	/// The mask tables of all sample sets of so many points.
+	static OwnedBuffer make_masks(const Inputs &p_inputs, uint32_t p_point_count);
+	/// Creates what a frame of these settings needs, and frees what it does not need.
+	void prepare_masks(const Inputs &p_inputs);
 	/// The depth map for leaves over budget; one texture array for all views.
 	RGTexture import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs);
 
@@ -57,8 +67,11 @@ private:
 	CountBuffers buffers;
 	CachedViews views;
 	CachedState cached;
-	OwnedBuffer masks;					// mask tables of all sample sets, see import_masks
-	uint32_t mask_sample_set_count = 0; // number of sets in masks
+	OwnedBuffer masks;			   // see make_masks
+	uint32_t mask_point_count = 0; // of the points in masks
+	OwnedBuffer few_masks;		   // with a time budget: of EDGE_COUNT_SAMPLE_COUNT points
+	OwnedBuffer ladder;			   // with a time budget: see CountLeafPasses
+	std::optional<CountTimeBudget> time_budget;
 	OwnedTexture depth_map;
 	CountStatus status;
 

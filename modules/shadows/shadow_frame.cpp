@@ -134,6 +134,16 @@ ShadowFrame::~ShadowFrame() {
 
 void ShadowFrame::end() {
 	has_ended = true;
+	for (auto &[key, slot] : system.slots) {
+		if (key.second == 0 && slot.last_frame == system.frame) {
+			std::vector<PassTiming> passes;
+			std::copy_if(graph.get_timings().begin(), graph.get_timings().end(),
+					std::back_inserter(passes), [&](const PassTiming &p_pass) {
+						return p_pass.name.starts_with(key.first + ": ");
+					});
+			slot.technique->receive_times(passes);
+		}
+	}
 	system.meshes->collect_garbage();
 }
 

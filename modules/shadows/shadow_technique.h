@@ -176,6 +176,10 @@ public:
 	/// Returns the standard error of the last mask, for a technique that samples at random and can
 	/// estimate it, otherwise 0. Called after the frame was executed.
 	virtual float get_standard_error() const { return 0.0f; }
+	/// Tells the technique the times of its light's passes in the newest frame that has finished,
+	/// which may be an earlier one. Called after each frame was executed. On a device without
+	/// timestamps the GPU times are 0.
+	virtual void receive_times(std::span<const PassTiming> /*p_passes*/) {}
 	/// Appends the work that the technique counted on the GPU in the last frame whose submission
 	/// has finished. Called after the frame was executed.
 	virtual void get_counters(std::vector<WorkCounter> & /*r_counters*/) const {}

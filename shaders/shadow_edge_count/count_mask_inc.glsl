@@ -10,7 +10,12 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D 
 void main() {
 	load_count_constants();
 	iteration_limit = light.unfinished_round_count > 0u ? uint(EDGE_COUNT_MAX_ITERATIONS) : NO_ITERATION_LIMIT;
-	const CountSubject subject = load_group_subject();
+	bool is_valid;
+	const uint leaf = find_group_leaf(is_valid);
+	if (HAS_RUNGS && !is_valid) {
+		return; // another pass resolves the leaf
+	}
+	const CountSubject subject = load_group_subject(leaf, is_valid);
 	const CountPixel pixel = count_pixel(subject);
 	if (pixel.is_receiver) {
 		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));

@@ -79,6 +79,9 @@ void main() {
 	const uint invocation = gl_LocalInvocationIndex;
 	bool is_valid;
 	const uint leaf = find_group_leaf(is_valid);
+	if (HAS_RUNGS && !is_valid) {
+		return; // another pass resolves the leaf
+	}
 	const uint item = invocation / LANES_PER_RECEIVER;
 	const CountSubject subject = load_subject(leaf, find_pixel_index(find_counted_pixel(item)), is_valid);
 	counted[item] = count_pixel(subject).visibility; // all lanes of a receiver have the same

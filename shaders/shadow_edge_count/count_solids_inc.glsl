@@ -58,10 +58,8 @@ CountSubject load_ranked_subject(uint p_leaf, uint p_rank, bool p_is_valid) {
 }
 
 /// The receiver of an invocation of a pass with one work group per leaf.
-CountSubject load_group_subject() {
-	bool is_valid;
-	const uint leaf = find_group_leaf(is_valid);
-	return load_ranked_subject(leaf, gl_LocalInvocationIndex / LANES_PER_RECEIVER, is_valid);
+CountSubject load_group_subject(uint p_leaf, bool p_is_valid) {
+	return load_ranked_subject(p_leaf, gl_LocalInvocationIndex / LANES_PER_RECEIVER, p_is_valid);
 }
 
 /// The bounds of the receivers of a subgroup for which p_is_selected is true.

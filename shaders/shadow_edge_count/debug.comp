@@ -14,7 +14,9 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DA
 // each pixel counts, and the kind of its leaf.
 void main() {
 	load_count_constants();
-	const CountPixel pixel = count_pixel(load_group_subject());
+	bool is_valid;
+	const uint leaf = find_group_leaf(is_valid);
+	const CountPixel pixel = count_pixel(load_group_subject(leaf, is_valid));
 	if (!pixel.is_receiver) {
 		return;
 	}

@@ -28,4 +28,9 @@ uint count_leaf_pixels(CountLeaf p_leaf) {
 	return uint(bitCount(p_leaf.pixels_flags.x) + bitCount(p_leaf.pixels_flags.y));
 }
 
+/// The number of leaves of a chunk of p_count leaves, see CountLeafPush.
+uint find_chunk_size(uint p_count, uint p_chunk) {
+	return (p_count + light.chunk_count - 1u - p_chunk) / light.chunk_count;
+}
+
 #endif

@@ -8,6 +8,7 @@
 #include "shadow_edge_count/count_classify_inc.glsl"
 #include "shadow_edge_count/count_status_inc.glsl"
 #include "shadow_edge_count/leaf_tests_inc.glsl"
+#include "shadow_edge_count/rungs_inc.glsl"
 
 // Finds for each leaf what is between its receivers and the light: the faces that its anchor's way to the light's centre
 // crosses, the faces that may pass between its receivers (local faces), the silhouette edges as seen from the light's
@@ -30,7 +31,12 @@ layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
 	uint status[]; // EDGE_COUNT_STATUS_*
 };
 
+layout(push_constant) uniform Push {
+	CountLeafPush push;
+};
+
 layout(constant_id = EDGE_COUNT_CONSTANT_IS_CPU) const bool IS_CPU = true;
+layout(constant_id = EDGE_COUNT_CONSTANT_HAS_RUNGS) const bool HAS_RUNGS = false;
 const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
 #include "common/subgroup_inc.glsl"
@@ -300,14 +306,25 @@ void write_status(bool p_is_elected) {
 // Smooth leaves cannot continue in a further pass (EDGE_COUNT_MAX_ITERATIONS): with more edges, a leaf is not smooth.
 const uint MAX_SMOOTH_EDGES = uint(EDGE_COUNT_MAX_ITERATIONS) / 2u; // an edge needs less than 1.5 iterations
 
+/// Adds the cost of a leaf with edges to the sum of its class, which is returned.
+uint add_leaf_cost(CountLeaf p_leaf, uint p_kind) {
+	const bool is_smooth = p_kind == uint(EDGE_COUNT_LEAVES_SMOOTH);
+	const bool is_extreme = p_kind == uint(EDGE_COUNT_LEAVES_UNLISTED) || entry_count > MAX_SMOOTH_EDGES;
+	const uint cost = find_leaf_cost(is_smooth ? uint(EDGE_COUNT_SMOOTH_PIXELS) : count_leaf_pixels(p_leaf), entry_count);
+	const uint cost_class = is_extreme ? uint(EDGE_COUNT_COST_EXTREME) : find_cost_class(cost);
+	atomicAdd(counts[uint(EDGE_COUNT_COUNT_COSTS) + cost_class], cost);
+	atomicAdd(counts[uint(EDGE_COUNT_COUNT_COST_LEAVES) + cost_class], 1u);
+	return cost_class;
+}
+
 void main() {
 	load_count_constants();
-	const uint leaf_count = min(counts[EDGE_COUNT_COUNT_ALL], light.leaf_capacity);
+	const uint leaf_count = find_chunk_size(min(counts[EDGE_COUNT_COUNT_ALL], light.leaf_capacity), push.chunk);
 	const uint group = find_work_group();
 	if (group >= leaf_count) {
 		return;
 	}
-	const uint leaf_index = interleave_work(group, leaf_count);
+	const uint leaf_index = interleave_work(group, leaf_count) * light.chunk_count + push.chunk;
 	const CountLeaf leaf = leaves[leaf_index];
 	prepare_leaf_tests(leaf);
 	anchor_receiver = make_count_receiver(light, anchor, leaf.axis_distance.w);
@@ -347,8 +364,12 @@ void main() {
 		results[leaf_index] = CountLeafResult(range.first_word, range.silhouette_count, range.face_count,
 				range.is_listed ? entry_count : 0u, crossings.back_facing, crossings.light_facing, crossings.double_sided,
 				range.needs_rays ? 1u : 0u);
+		const bool has_cost = HAS_RUNGS && (kind == uint(EDGE_COUNT_LEAVES_LISTED) ||
+				kind == uint(EDGE_COUNT_LEAVES_UNLISTED) || kind == uint(EDGE_COUNT_LEAVES_SMOOTH));
+		const uint cost_class = has_cost ? add_leaf_cost(leaf, kind) : 0u;
 		if (kind != uint(EDGE_COUNT_LEAVES_DARK) || sum_crossings(crossings) > 0) {
-			kinds[kind * light.leaf_capacity + extend_dispatch(kind, kind)] = leaf_index;
+			kinds[kind * light.leaf_capacity + extend_dispatch(kind, kind)] =
+					cost_class << EDGE_COUNT_KIND_LEAF_BITS | leaf_index;
 		}
 	}
 }

@@ -4,6 +4,7 @@
 
 #include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/leaf_inc.glsl"
+#include "shadow_edge_count/rungs_inc.glsl"
 
 // In one dimension: with two, llvmpipe fills subgroups only up to the size in x.
 #ifdef COUNTS_EDGES
@@ -14,6 +15,7 @@ const uint LANES_PER_RECEIVER = IS_CPU ? 1u : uint(COUNT_SAMPLE_SET_COUNT); // i
 layout(local_size_x = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) in;
 const uint LANES_PER_RECEIVER = 1u;
 #endif
+layout(constant_id = EDGE_COUNT_CONSTANT_HAS_RUNGS) const bool HAS_RUNGS = false;
 layout(std430, set = 0, binding = COUNT_BINDING_KINDS) readonly buffer Kinds {
 	uint kinds[]; // the leaves of each kind
 };
@@ -29,14 +31,23 @@ uint limit_leaf(uint p_leaf) {
 	return min(p_leaf, light.leaf_capacity - 1u);
 }
 
+/// Whether the pass resolves a leaf with this word in the list of its kind.
+bool is_on_rung(uint p_word) {
+	const uint rung = HAS_RUNGS ? find_rung(p_word >> EDGE_COUNT_KIND_LEAF_BITS, counts[EDGE_COUNT_COUNT_LADDER]) : 0u;
+	return (push.rungs >> rung & 1u) != 0u;
+}
+
 /// The index of the work group's leaf. Even entries of the list come first, then odd ones (see interleave_work):
 /// neighbours in the list are neighbours in the image and take about the same time, so both halves of the dispatch take
-/// about the same time too. r_is_valid: false if there are fewer leaves.
+/// about the same time too. r_is_valid: false if there are fewer leaves, or if another pass resolves the leaf.
 uint find_group_leaf(out bool r_is_valid) {
-	const uint count = counts[push.kind];
+	const uint count = find_chunk_size(counts[push.kind], push.chunk);
 	const uint group = find_work_group();
-	r_is_valid = group < count;
-	return limit_leaf(kinds[push.first_leaf + (r_is_valid ? interleave_work(group, count) : 0u)]);
+	const bool exists = group < count;
+	const uint index = (exists ? interleave_work(group, count) : 0u) * light.chunk_count + push.chunk;
+	const uint word = kinds[push.first_leaf + (exists ? index : 0u)];
+	r_is_valid = exists && is_on_rung(word);
+	return limit_leaf(word & (1u << EDGE_COUNT_KIND_LEAF_BITS) - 1u);
 }
 
 /// The position in the image of a pixel of the leaf's block. p_index: for find_pixel_in_block.

@@ -12,7 +12,9 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D 
 
 void main() {
 	load_count_constants();
-	const CountSubject subject = load_group_subject();
+	bool is_valid;
+	const uint leaf = find_group_leaf(is_valid);
+	const CountSubject subject = load_group_subject(leaf, is_valid);
 	const CountCrossings crossings = count_subject_crossings(subject);
 	if (subject.is_receiver) {
 		imageStore(mask_image, subject.pixel, vec4(sum_crossings(crossings) == 0 ? 1.0 : 0.0));

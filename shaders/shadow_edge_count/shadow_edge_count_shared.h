@@ -167,6 +167,7 @@ SHARED_SIZE(CountFindPush, 32);
 #define EDGE_COUNT_CONSTANT_MAY_CUT_DISC 5 // some caster may come within R of the light's centre
 // The device is a CPU: passes that count edges have the shape that suits it. Masks are equal bit for bit.
 #define EDGE_COUNT_CONSTANT_IS_CPU 6
+#define EDGE_COUNT_CONSTANT_HAS_RUNGS 7 // the light has a time budget, see EDGE_COUNT_RUNG_FULL
 #define EDGE_COUNT_NO_BUDGET 0xffffffffu
 
 /// Constants of one light, and the sizes of its buffers.
@@ -193,8 +194,12 @@ struct SHARED_ALIGN CountLightConstants {
 	uint max_cut_face_count; // capacity of the list of faces that may cut the light's disc
 	uint unfinished_slot_count;	 // see EDGE_COUNT_MAX_ITERATIONS
 	uint unfinished_round_count; // 0: no subgroup has more iterations
+	uint chunk_count; // dispatches into which the leaves of a kind are divided, see CountLeafPush
+	uint padding0;
+	uint padding1;
+	uint padding2;
 };
-SHARED_SIZE(CountLightConstants, 128);
+SHARED_SIZE(CountLightConstants, 144);
 SHARED_OFFSET(CountLightConstants, disc_radius, 64);
 SHARED_OFFSET(CountLightConstants, block_count, 80);
 
@@ -273,6 +278,29 @@ SHARED_SIZE(CountLeafResult, 32);
 #define COUNT_BINDING_NEXT_DISPATCH (MAP_RESOLVE_FIRST_FREE_BINDING + 21)
 #define COUNT_BINDING_ARGUMENTS (MAP_RESOLVE_FIRST_FREE_BINDING + 22)
 
+// A light with a time budget lowers its most expensive leaves, one rung after the other, until the expected time of all is
+// within the budget. The cost of a leaf is the mean over its block's pixels of the listed edges plus
+// EDGE_COUNT_COST_OF_RECEIVER: a measure of time that does not depend on scheduling. Its class is its base 2 logarithm,
+// rounded down. A leaf's rung depends on its class and one number for the whole light, the position of its
+// ladder, which choose_rungs.comp finds from the sums of each class's costs.
+#define EDGE_COUNT_RUNG_FULL 0
+#define EDGE_COUNT_RUNG_FEW_POINTS 1 // 64 points of the light
+#define EDGE_COUNT_RUNG_FEW_PIXELS 2 // and of 2 x 2 pixels one is counted
+#define EDGE_COUNT_RUNG_FILTERED 3
+#define EDGE_COUNT_RUNG_COUNT 4
+// As many edges as the rest of a receiver's work takes time, and the cost of a filtered leaf. Measured on a CPU.
+#define EDGE_COUNT_COST_OF_RECEIVER 32
+#define EDGE_COUNT_COST_OF_FILTER 80
+#define EDGE_COUNT_COST_CLASSES 26
+#define EDGE_COUNT_FIRST_LOWERED_CLASS 7 // leaves below it take about the time of the filter
+// The highest class has leaves that cannot be on a rung between the first and the last: without lists, or with so many
+// edges that they are counted in rounds (EDGE_COUNT_MAX_ITERATIONS).
+#define EDGE_COUNT_COST_EXTREME (EDGE_COUNT_COST_CLASSES - 1)
+#define EDGE_COUNT_NO_COST_LIMIT 0xffffffffu
+
+// A word of the lists of leaves by kind: the leaf's index, and above it the class of its cost.
+#define EDGE_COUNT_KIND_LEAF_BITS 27
+
 // Words of the status buffer, which is cleared in each frame and read back after it. The first has
 // one bit per kind of fault and pass, EDGE_COUNT_FAULT_* << pass; a pass is a kind of leaves that
 // is resolved (EDGE_COUNT_LEAVES_*), or EDGE_COUNT_PASS_LIST_LEAVES. The others count the work.
@@ -280,7 +308,9 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_STATUS_LISTED_EDGES 1 // entries of all lists
 #define EDGE_COUNT_STATUS_LONGEST_LIST 2 // entries of a leaf's list
 #define EDGE_COUNT_STATUS_RAYS 3 // receivers whose solids were counted along their own ray
-#define EDGE_COUNT_STATUS_WORDS 4
+#define EDGE_COUNT_STATUS_COST 4 // with a time budget: cost of all leaves on their rungs
+#define EDGE_COUNT_STATUS_RUNGS 5 // with a time budget: number of leaves on each rung
+#define EDGE_COUNT_STATUS_WORDS (EDGE_COUNT_STATUS_RUNGS + EDGE_COUNT_RUNG_COUNT)
 #define EDGE_COUNT_PASS_LIST_LEAVES 6
 #define EDGE_COUNT_PASS_BITS 8
 #define EDGE_COUNT_FAULT_LOOP 0x1u		  // a loop did not reach its end: the driver ended it
@@ -307,7 +337,11 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_COUNT_ALL EDGE_COUNT_LEAF_KINDS
 #define EDGE_COUNT_COUNT_MORE (EDGE_COUNT_LEAF_KINDS + 1)
 #define EDGE_COUNT_COUNT_LIST_WORDS (EDGE_COUNT_LEAF_KINDS + 2)
-#define EDGE_COUNT_COUNT_WORDS (EDGE_COUNT_LEAF_KINDS + 3)
+// With a time budget, for each class: the sum of its leaves' costs, and their number. Then the position of the ladder.
+#define EDGE_COUNT_COUNT_COSTS (EDGE_COUNT_LEAF_KINDS + 3)
+#define EDGE_COUNT_COUNT_COST_LEAVES (EDGE_COUNT_COUNT_COSTS + EDGE_COUNT_COST_CLASSES)
+#define EDGE_COUNT_COUNT_LADDER (EDGE_COUNT_COUNT_COST_LEAVES + EDGE_COUNT_COST_CLASSES)
+#define EDGE_COUNT_COUNT_WORDS (EDGE_COUNT_COUNT_LADDER + 1)
 
 // A subgroup that counts edges stops after about this many iterations. The edges that remain are
 // counted in rounds, each a dispatch of its own: a slot has the state of one unfinished subgroup
@@ -349,8 +383,14 @@ struct SHARED_ALIGN CountLeafPush {
 	float nearest_w;  // EDGE_COUNT_LEAVES_FILTERED: upper bound of the casters' w, see
 					  // LightViewConstants
 	uint round;		  // of the passes that count unfinished subgroups
+	// The leaves with an index of chunk + i * CountLightConstants::chunk_count in the kind's list. Several dispatches,
+	// without barriers between them, take the same time, but none takes so long that a GPU does nothing else.
+	uint chunk;
+	uint rungs; // bit i: resolves leaves on rung i
+	uint padding0;
+	uint padding1;
 };
-SHARED_SIZE(CountLeafPush, 16);
+SHARED_SIZE(CountLeafPush, 32);
 
 // Bindings of the pass that lists the faces near the light.
 #define CUT_FACES_BINDING_LIGHT 0
@@ -358,6 +398,20 @@ SHARED_SIZE(CountLeafPush, 16);
 #define CUT_FACES_BINDING_TOTALS 2
 #define CUT_FACES_BINDING_LIST 3
 #define CUT_FACES_GROUP_SIZE 64
+
+// Bindings of choose_rungs.comp.
+#define RUNGS_BINDING_COUNTS 0
+#define RUNGS_BINDING_STATUS 1
+#define RUNGS_BINDING_LADDER 2 // one word, which stays from frame to frame
+
+/// Push constants of choose_rungs.comp.
+struct SHARED_ALIGN CountRungsPush {
+	uint cost_limit; // the cost for which there is time
+	uint first_rung; // the ladder begins below it: on those above leaves cost the same
+	float few_points_share; // the cost of a leaf on EDGE_COUNT_RUNG_FEW_POINTS, of that on the first rung
+	uint padding;
+};
+SHARED_SIZE(CountRungsPush, 16);
 
 /// Push constants of bound_nodes.comp.
 struct SHARED_ALIGN CountBoundPush {

@@ -44,14 +44,15 @@ SPILLING = ("shadow_edge_count/resolve", "shadow_edge_count/debug")
 SUBGROUP = "subgroup"  # the size that the engine requests
 CONSTANTS = {
     # 0 subgroup size; 2 leaves without lists; 3 directional; 4 invocations of a work group; 5 casters may cut the light's disc;
-    # 6 a CPU driver
-    "shadow_edge_count": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,)},
-    "shadow_edge_count/debug": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,)},
-    "shadow_edge_count/resolve_smooth": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (16,), 5: (0, 1), 6: (0,)},
-    "shadow_edge_count/resolve_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (256,), 5: (0, 1), 6: (0,)},
-    "shadow_edge_count/resolve_smooth_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,)},
-    "shadow_edge_count/resolve_unfinished": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1), 6: (0,)},
-    "shadow_edge_count/resolve_unfinished_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1), 6: (0,)},
+    # 6 a CPU driver; 7 a time budget
+    "shadow_edge_count": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,), 7: (1,)},
+    "shadow_edge_count/debug": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,), 7: (1,)},
+    "shadow_edge_count/resolve_smooth": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (16,), 5: (0, 1), 6: (0,), 7: (1,)},
+    "shadow_edge_count/resolve_coarse": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (16,), 5: (0, 1), 6: (0,), 7: (1,)},
+    "shadow_edge_count/resolve_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (256,), 5: (0, 1), 6: (0,), 7: (1,)},
+    "shadow_edge_count/resolve_smooth_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,), 7: (1,)},
+    "shadow_edge_count/resolve_unfinished": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1), 6: (0,), 7: (1,)},
+    "shadow_edge_count/resolve_unfinished_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1), 6: (0,), 7: (1,)},
     "shadow_map/resolve": {0: (0, 3)},  # width of the filter
     # 1 inner fins; 2 layers; 3 curve; 4 visibility begins at 0
     "shadow_penumbra_fins": {1: (0, 1), 2: (3,), 3: (0,), 4: (0, 1)},
@@ -62,6 +63,7 @@ CONSTANTS = {
 IMPOSSIBLE = (
     ("shadow_edge_count/", {3: 1, 5: 1}),
     ("shadow_edge_count/resolve_smooth", {2: 1}),
+    ("shadow_edge_count/resolve_coarse", {2: 1}),
     ("shadow_edge_count/resolve_unfinished", {2: 0}),
 )
 # Columns of the table, and the names of RADV's statistics.

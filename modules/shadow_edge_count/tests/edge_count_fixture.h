@@ -5,6 +5,7 @@
 #include "modules/shadow_edge_count/tests/count_scene.h"
 #include "modules/shadows/camera_view.h"
 #include "modules/shadows/light_properties.h"
+#include "modules/shadows/shadow_registry.h"
 #include "modules/shadows/tests/mask_fixture.h"
 
 #include <doctest/doctest.h>
@@ -15,6 +16,26 @@
 // precision, and the traced reference.
 
 namespace gnomon {
+
+/// Replaces the technique edge_count by a derived class while it exists.
+template <typename Technique> class ReplacedTechnique {
+public:
+	ReplacedTechnique() {
+		ShadowTechniqueInfo info = original;
+		info.make = [] { return std::make_unique<Technique>(); };
+		replace(info);
+	}
+	~ReplacedTechnique() { replace(original); }
+	ReplacedTechnique(const ReplacedTechnique &) = delete;
+	ReplacedTechnique &operator=(const ReplacedTechnique &) = delete;
+
+private:
+	static void replace(const ShadowTechniqueInfo &p_info) {
+		ShadowRegistry::remove("edge_count");
+		ShadowRegistry::add(p_info);
+	}
+	ShadowTechniqueInfo original = ShadowRegistry::get("edge_count");
+};
 
 /// Options of a frame, apart from its scene.
 struct FrameOptions {

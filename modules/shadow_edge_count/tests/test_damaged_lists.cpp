@@ -3,7 +3,6 @@
 
 #include "modules/core/log.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
-#include "modules/shadows/shadow_registry.h"
 
 #include <doctest/doctest.h>
 
@@ -39,21 +38,6 @@ public:
 	static inline RenderingDevice *device = nullptr;
 };
 
-/// Replaces the technique edge_count while it exists.
-struct DamagedTechnique {
-	ShadowTechniqueInfo original = ShadowRegistry::get("edge_count");
-	DamagedTechnique() {
-		ShadowTechniqueInfo info = original;
-		info.make = [] { return std::make_unique<DamagedEdgeCount>(); };
-		replace(info);
-	}
-	~DamagedTechnique() { replace(original); }
-	static void replace(const ShadowTechniqueInfo &p_info) {
-		ShadowRegistry::remove("edge_count");
-		ShadowRegistry::add(p_info);
-	}
-};
-
 /// The lines that log_fault logs.
 struct CaughtFaults {
 	std::vector<std::string> lines;
@@ -75,7 +59,7 @@ struct CaughtFaults {
 
 TEST_CASE("[GPU][EdgeCount] lists with wrong counts or entries cost an image and one warning, not "
 		  "the device") {
-	const DamagedTechnique technique;
+	const ReplacedTechnique<DamagedEdgeCount> technique;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		for (const auto &[next_damage, what] : { std::pair(Damage::NONE, ""),
 					 std::pair(Damage::COUNTS_BEYOND, "a list of faces or edges"),

@@ -69,3 +69,22 @@ func test_packed_scenes_store_all_properties_that_were_set() -> void:
 	check(again.pcss_map_size == 512, "what was set for another technique")
 	shadow.free()
 	again.free()
+
+
+## The device times the passes of a light with a time budget.
+func test_a_time_budget_limits_what_is_counted() -> void:
+	var scene := add_study("spot", "torus")
+	var torus: TorusMesh = scene.caster.mesh
+	torus.rings = 256
+	torus.ring_segments = 128
+	scene.light.light_size = 0.8
+	var counted := await read_settled(scene)
+	scene.shadow.set("edge_count_time_budget", 0.1)
+	await draw_frames(8)
+	var filtered := await read(scene)
+	check(count_different(counted, filtered, 0.01) > 100, "leaves with many edges are filtered")
+	check(count_different(counted, filtered, 0.3) < 400, "the filtered mask is near the counted one")
+	scene.shadow.set("edge_count_time_budget", 1000.0)
+	await draw_frames(8)
+	check(count_different(counted, await read(scene)) == 0, "with time for everything, everything is counted")
+	remove(scene)

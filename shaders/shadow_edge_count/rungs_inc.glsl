@@ -1,0 +1,31 @@
+// The rungs of leaves of a light with a time budget, see EDGE_COUNT_RUNG_FULL.
+#ifndef RUNGS_INC_GLSL
+#define RUNGS_INC_GLSL
+
+#include "shadow_edge_count/shadow_edge_count_shared.h"
+
+const uint COST_CLASSES = uint(EDGE_COUNT_COST_CLASSES);
+const uint LOWERED_CLASSES = COST_CLASSES - uint(EDGE_COUNT_FIRST_LOWERED_CLASS);
+const uint LADDER_END = uint(EDGE_COUNT_RUNG_FILTERED) * LOWERED_CLASSES; // the highest position
+
+/// The rung of leaves of a class. p_ladder: its position. At 0 all leaves are on the first rung; each step lowers one
+/// class by one rung, the most expensive class first, and when all are lower begins again with that.
+uint find_rung(uint p_class, uint p_ladder) {
+	const bool is_lowered = p_class >= uint(EDGE_COUNT_FIRST_LOWERED_CLASS);
+	const uint lowered_class = is_lowered ? p_class - uint(EDGE_COUNT_FIRST_LOWERED_CLASS) : 0u;
+	const uint rung =
+			is_lowered ? min((p_ladder + lowered_class) / LOWERED_CLASSES, uint(EDGE_COUNT_RUNG_FILTERED)) : 0u;
+	return p_class == uint(EDGE_COUNT_COST_EXTREME) && rung > 0u ? uint(EDGE_COUNT_RUNG_FILTERED) : rung;
+}
+
+/// p_receiver_count: that are counted.
+uint find_leaf_cost(uint p_receiver_count, uint p_edge_count) {
+	const uint receivers = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
+	return (p_receiver_count * (p_edge_count + uint(EDGE_COUNT_COST_OF_RECEIVER)) + receivers - 1u) / receivers;
+}
+
+uint find_cost_class(uint p_cost) {
+	return min(uint(max(findMSB(p_cost), 0)), uint(EDGE_COUNT_COST_EXTREME) - 1u);
+}
+
+#endif
