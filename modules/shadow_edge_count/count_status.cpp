@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 /// By bit of a fault: kinds of leaves that are resolved, then EDGE_COUNT_PASS_LIST_LEAVES.
-const char *const PASS_NAMES[] = { "resolve dark", "resolve plain", "resolve",
+const char *const PASS_NAMES[] = { "resolve dark", "count solids", "resolve",
 	"resolve without lists", "filter", "resolve smooth", "list leaves" };
 
 struct FaultKind {

@@ -19,12 +19,8 @@ constexpr uint32_t MIN_COST = 2000; // less tells the rate of a few leaves, not 
 
 /// Whether the pass takes time in proportion to the cost of leaves.
 bool counts_edges(const std::string &p_pass) {
-	for (const char *other : { "resolve dark", "resolve plain" }) {
-		if (p_pass.ends_with(other)) {
-			return false;
-		}
-	}
-	return p_pass.find(": resolve") != std::string::npos || p_pass.ends_with(": filter");
+	return (p_pass.find(": resolve") != std::string::npos && !p_pass.ends_with("resolve dark")) ||
+			p_pass.ends_with(": count solids") || p_pass.ends_with(": filter");
 }
 
 void follow(double p_new, bool p_is_first, double &r_mean) {

@@ -197,6 +197,26 @@ void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 	});
 }
 
+/// Adds a pass that counts solids: of leaves without edges, and on GPUs of all, see
+/// count_output_inc.glsl.
+void add_solids_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
+		const CountLeaves &p_leaves, RGTexture p_mask) {
+	const std::string shader =
+			choose_fetching_shader(p_passes.inputs.device, "shadow_edge_count/count_solids.comp");
+	std::vector<KindPass> kinds = { { "count solids", shader, EDGE_COUNT_LEAVES_PLAIN } };
+	if (!p_passes.inputs.device.get_features().runs_on_cpu) {
+		for (const uint32_t kind : { EDGE_COUNT_LEAVES_SMOOTH, EDGE_COUNT_LEAVES_LISTED,
+					 EDGE_COUNT_LEAVES_UNLISTED }) {
+			kinds.push_back(
+					{ "count solids", shader, kind, ~(1u << EDGE_COUNT_RUNG_FILTERED) });
+		}
+	}
+	std::vector<PassBinding> bindings = make_solid_bindings(p_passes, p_leaves);
+	bindings.push_back(
+			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
+	add_kind_passes(r_graph, p_passes, p_leaves, kinds, std::move(bindings));
+}
+
 /// Adds the rounds that count what subgroups without iterations left have not counted.
 void add_rounds(RenderGraph &r_graph, const CountLeafPasses &p_passes, const CountLeaves &p_leaves,
 		RGTexture p_mask) {
@@ -403,11 +423,7 @@ RGTexture add_count_passes(
 	};
 	add_pass({ "resolve dark", "shadow_edge_count/resolve_dark.comp", EDGE_COUNT_LEAVES_DARK },
 			make_kind_bindings(p_leaves));
-	add_pass({ "resolve plain",
-					 choose_fetching_shader(
-							 p_passes.inputs.device, "shadow_edge_count/resolve_plain.comp"),
-					 EDGE_COUNT_LEAVES_PLAIN },
-			make_solid_bindings(p_passes, p_leaves));
+	add_solids_pass(r_graph, p_passes, p_leaves, mask);
 	for (const CountingPass &pass : list_counting_passes(p_passes.settings)) {
 		std::vector<PassBinding> bindings = make_count_bindings(
 				p_passes, p_leaves, pass.has_few_points ? p_passes.few_masks : p_passes.masks);

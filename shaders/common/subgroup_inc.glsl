@@ -44,6 +44,19 @@ SUBGROUP_REDUCTION(subgroup_max, vec2, max, subgroupMax)
 SUBGROUP_REDUCTION(subgroup_max, uint, max, subgroupMax)
 SUBGROUP_REDUCTION(subgroup_or, uint, combine_bits, subgroupOr)
 
+/// p_value, which all invocations have, in scalar registers. The compilers of GPUs without scalar arithmetic of floats keep
+/// what they compute in vector registers, unless it is broadcast. The integer operation, which changes nothing, is for the
+/// LLVM of Mesa 22.3: it ends the program ("Cannot select") at the broadcast of what was a float just before.
+#define SUBGROUP_UNIFORM(p_type) \
+	p_type subgroup_uniform(p_type p_value) { \
+		const uint zero = gl_NumWorkGroups.x >> 31; \
+		return USES_BUTTERFLY ? p_value : uintBitsToFloat(subgroupBroadcastFirst(floatBitsToUint(p_value) | zero)); \
+	}
+SUBGROUP_UNIFORM(float)
+SUBGROUP_UNIFORM(vec2)
+SUBGROUP_UNIFORM(vec3)
+SUBGROUP_UNIFORM(vec4)
+
 /// Bit i is set when p_value is true in invocation i.
 uvec4 subgroup_ballot(bool p_value) {
 	if (USES_BUTTERFLY) {

@@ -33,4 +33,24 @@ int sum_crossings(CountCrossings p_found) {
 	return p_found.double_sided + max(p_found.back_facing, p_found.light_facing);
 }
 
+/// What counting edges needs to know of them.
+struct CountSolids {
+	int count; // see sum_crossings
+	bool is_light_inside; // no fewer faces face the receiver than the light
+};
+
+CountSolids make_count_solids(CountCrossings p_found) {
+	return CountSolids(sum_crossings(p_found), p_found.back_facing >= p_found.light_facing);
+}
+
+/// In one number that a half has exactly. The counters of points have no room for more solids.
+float pack_solids(CountSolids p_solids) {
+	return float(2 * clamp(p_solids.count, -900, 900) + (p_solids.is_light_inside ? 1 : 0));
+}
+
+CountSolids unpack_solids(float p_packed) {
+	const int packed = int(p_packed);
+	return CountSolids(packed >> 1, (packed & 1) != 0);
+}
+
 #endif

@@ -2,10 +2,8 @@
 #ifndef COUNT_MASK_INC_GLSL
 #define COUNT_MASK_INC_GLSL
 
-#include "shadow_edge_count/count_resolve_inc.glsl"
+#include "shadow_edge_count/count_output_inc.glsl"
 #include "shadow_edge_count/count_unfinished_inc.glsl"
-
-layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
 	load_count_constants();
@@ -16,8 +14,8 @@ void main() {
 		return; // another pass resolves the leaf
 	}
 	const CountSubject subject = load_group_subject(leaf, is_valid);
-	const CountPixel pixel = count_pixel(subject);
-	if (pixel.is_receiver) {
+	const CountPixel pixel = count_pixel(subject, find_solids(subject));
+	if (pixel.is_receiver && !pixel.is_unfinished) {
 		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));
 	}
 	add_unfinished(subject.leaf_index, pixel.is_unfinished);

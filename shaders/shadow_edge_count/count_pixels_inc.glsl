@@ -24,6 +24,24 @@ uvec2 find_pixel_in_block(uint p_index) {
 	return uvec2(x, y);
 }
 
+/// The index of a pixel for find_pixel_in_block.
+uint find_pixel_index(uvec2 p_pixel) {
+	return (p_pixel.x & 1u) | (p_pixel.y & 1u) << 1 | (p_pixel.x & 2u) << 1 | (p_pixel.y & 2u) << 2 |
+			(p_pixel.x & 4u) << 2 | (p_pixel.y & 4u) << 3;
+}
+
+const uint SMOOTH_SIDE = 4u; // number of the rows and columns of a smooth leaf that are counted
+
+/// These rows and columns: 0, 2, 5 and 7. They are symmetric about the middle and include the outermost ones, so that
+/// nothing is extrapolated.
+uint find_smooth_line(uint p_index) {
+	return 2u * p_index + (p_index > 1u ? 1u : 0u);
+}
+
+uvec2 find_smooth_pixel(uint p_index) {
+	return uvec2(find_smooth_line(p_index % SMOOTH_SIDE), find_smooth_line(p_index / SMOOTH_SIDE));
+}
+
 /// Index of the set bit that has p_rank set bits below it. 0 if there are not so many.
 uint find_set_bit(uvec2 p_bits, uint p_rank) {
 	const uint low_count = uint(bitCount(p_bits.x));

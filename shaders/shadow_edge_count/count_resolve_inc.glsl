@@ -198,17 +198,16 @@ void count_slice(uint p_count, CountSubject p_subject, inout CountState r_state,
 	}
 }
 
-/// Counts the solids before the light's centre, and the lines along which faces cut the disc. p_is_counted: false for
-/// receivers whose count is not needed.
-CountState count_at_center(CountSubject p_subject, bool p_is_counted) {
+/// The state before any edge is counted: the solids before the light's centre, and the lines along which faces cut the
+/// disc. p_is_counted: false for receivers whose count is not needed.
+CountState start_count(CountSubject p_subject, CountSolids p_solids, bool p_is_counted) {
 	const CountReceiver receiver = p_subject.receiver;
-	const CountCrossings crossings = count_subject_crossings(p_subject);
-	CountState state = make_count_state(sum_crossings(crossings));
+	CountState state = make_count_state(p_solids.count);
 	const uint cut_face_count = p_subject.is_receiver && p_is_counted ? find_cut_face_count() : 0u;
 	for (uint i = 0u; i < cut_face_count; ++i) {
 		const uint face = load_cut_face(i);
-		const CountSectors sectors = find_cut_sectors(receiver, load_count_face(face), load_count_plane(face),
-				crossings.back_facing >= crossings.light_facing);
+		const CountSectors sectors =
+				find_cut_sectors(receiver, load_count_face(face), load_count_plane(face), p_solids.is_light_inside);
 		if (IS_CPU) {
 			count_sectors(sectors, state);
 		} else {
@@ -233,9 +232,10 @@ CountProgress start_progress(CountSubject p_subject) {
 /// the receiver counted.
 void count_edges(CountSubject p_subject, inout CountState r_state, inout CountProgress r_progress,
 		inout uint r_edge_count) {
-	const CountBox box = make_count_box(light, light.disc_radius, make_count_frame(p_subject.leaf.axis_distance.xyz),
+	const CountBox box = make_uniform_box(make_count_box(light, light.disc_radius,
+			make_count_frame(p_subject.leaf.axis_distance.xyz),
 			find_receiver_bounds(p_subject.warped, p_subject.is_receiver), p_subject.leaf.axis_distance.w,
-			is_wide_leaf(p_subject.leaf));
+			is_wide_leaf(p_subject.leaf)));
 	const bool is_any = subgroup_any(r_progress.waits);
 	const CountLeafResult result = p_subject.result;
 	const uint first_word = result.first_word + result.silhouette_count + result.face_count;
@@ -269,8 +269,8 @@ CountPixel make_count_pixel(CountSubject p_subject, CountState p_state, CountPro
 }
 
 /// Each invocation counts the edges of one receiver and computes its visibility.
-CountPixel count_pixel(CountSubject p_subject) {
-	CountState state = count_at_center(p_subject, true);
+CountPixel count_pixel(CountSubject p_subject, CountSolids p_solids) {
+	CountState state = start_count(p_subject, p_solids, true);
 	CountProgress progress = start_progress(p_subject);
 	uint edge_count = 0u;
 	count_edges(p_subject, state, progress, edge_count);

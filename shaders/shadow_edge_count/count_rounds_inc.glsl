@@ -5,10 +5,9 @@
 #ifndef COUNT_ROUNDS_INC_GLSL
 #define COUNT_ROUNDS_INC_GLSL
 
-#include "shadow_edge_count/count_resolve_inc.glsl"
+#include "shadow_edge_count/count_output_inc.glsl"
 #include "shadow_edge_count/count_unfinished_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 layout(std430, set = 0, binding = COUNT_BINDING_UNFINISHED_STATES) buffer States {
 	uint states[]; // per slot, word (EDGE_COUNT_STATE_WORDS) and invocation
 };
@@ -128,7 +127,7 @@ bool count_slot(uint p_slot, uint p_item) {
 	const uint subgroup = item & (1u << EDGE_COUNT_SUBGROUP_BITS) - 1u;
 	const CountSubject subject = load_ranked_subject(limit_leaf(item >> EDGE_COUNT_SUBGROUP_BITS),
 			(subgroup * SUBGROUP_SIZE + gl_SubgroupInvocationID) / LANES_PER_RECEIVER, true);
-	CountState state = count_at_center(subject, is_new);
+	CountState state = start_count(subject, find_solids(subject), is_new);
 	CountProgress progress = start_progress(subject);
 	if (!is_new) {
 		state = load_count_state(p_slot);

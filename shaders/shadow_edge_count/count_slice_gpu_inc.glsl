@@ -86,39 +86,54 @@ void count_lane_sectors(CountSectors p_sectors, inout CountState r_state) {
 	count_sample_set(p_sectors, is_odd ? first.zw : first.xy, is_odd ? second.zw : second.xy, lane, r_state.counters0);
 }
 
-/// The sectors that the lane whose number differs by the bits p_other has found, without their area.
+#if COUNT_SAMPLE_SET_COUNT == 4
+/// The sectors that two lanes have found as their first ones, without their area: those whose numbers differ by the bits
+/// p_other and p_other + 1.
 CountSectors load_lane_sectors(CountSectors p_sectors, uint p_other) {
-	const uvec2 bits = p_sectors.flip & 1u | p_sectors.once & 2u | p_sectors.twice & 4u;
+	const uint own_bits = (p_sectors.flip.x & 1u) | (p_sectors.once.x & 2u) | (p_sectors.twice.x & 4u);
 	CountSectors sectors;
 	sectors.area = vec2(0.0);
-	sectors.mask_index = subgroupShuffleXor(p_sectors.mask_index, p_other);
-	sectors.from_angle = subgroupShuffleXor(p_sectors.from_angle, p_other);
-	sectors.to_angle = subgroupShuffleXor(p_sectors.to_angle, p_other);
-	const uint packed = subgroupShuffleXor(bits.x | bits.y << 3, p_other);
-	const uvec2 shared_bits = uvec2(packed, packed >> 3);
-	sectors.flip = make_bit_masks(notEqual(shared_bits & 1u, uvec2(0u)));
-	sectors.once = make_bit_masks(notEqual(shared_bits & 2u, uvec2(0u)));
-	sectors.twice = make_bit_masks(notEqual(shared_bits & 4u, uvec2(0u)));
+	uvec2 bits;
+	for (uint i = 0u; i < 2u; ++i) {
+		const uint other = p_other + i;
+		sectors.mask_index[i] = subgroupShuffleXor(p_sectors.mask_index.x, other);
+		sectors.from_angle[i] = subgroupShuffleXor(p_sectors.from_angle.x, other);
+		sectors.to_angle[i] = subgroupShuffleXor(p_sectors.to_angle.x, other);
+		bits[i] = subgroupShuffleXor(own_bits, other);
+	}
+	sectors.flip = make_bit_masks(notEqual(bits & 1u, uvec2(0u)));
+	sectors.once = make_bit_masks(notEqual(bits & 2u, uvec2(0u)));
+	sectors.twice = make_bit_masks(notEqual(bits & 4u, uvec2(0u)));
 	return sectors;
 }
+#endif
 
 void count_slice_on_gpu(uint p_count, CountSubject p_subject, inout CountState r_state, inout uint r_edge_count) {
 	const OwnEdges own = find_own_edges(p_count, p_subject);
 	const uint count = uint(bitCount(own.all.x) + bitCount(own.all.y));
 	const uint max_count = subgroup_max(count);
 	r_edge_count += count;
-	// Each lane finds the sectors of two edges at a time.
-	for (uint first = 0u; first < max_count; first += 2u * LANES_PER_RECEIVER) {
-		const uint rank = first + 2u * find_lane();
-		const OwnEdge edge0 = load_own_edge(own, count, rank);
-		const OwnEdge edge1 = load_own_edge(own, count, rank + 1u);
-		const CountSectors sectors = find_edge_sectors(
-				p_subject.receiver, edge0.a, edge0.b, edge1.a, edge1.b, ivec2(edge0.weight, edge1.weight));
+#if COUNT_SAMPLE_SET_COUNT == 4
+	// Each lane finds the sectors of one edge at a time: two would take more registers. Lanes count two at a time.
+	for (uint first = 0u; first < max_count; first += LANES_PER_RECEIVER) {
+		const OwnEdge edge = load_own_edge(own, count, first + find_lane());
+		const CountSectors sectors =
+				find_edge_sectors(p_subject.receiver, edge.a, edge.b, edge.a, edge.b, ivec2(edge.weight, 0));
 		r_state.area += round_area(sectors);
-		for (uint other = 0u; other < LANES_PER_RECEIVER; ++other) {
+		for (uint other = 0u; other < LANES_PER_RECEIVER; other += 2u) {
 			count_lane_sectors(load_lane_sectors(sectors, other), r_state);
 		}
 	}
+#else
+	for (uint first = 0u; first < max_count; first += 2u) {
+		const OwnEdge edge0 = load_own_edge(own, count, first);
+		const OwnEdge edge1 = load_own_edge(own, count, first + 1u);
+		const CountSectors sectors = find_edge_sectors(
+				p_subject.receiver, edge0.a, edge0.b, edge1.a, edge1.b, ivec2(edge0.weight, edge1.weight));
+		r_state.area += round_area(sectors);
+		count_lane_sectors(sectors, r_state);
+	}
+#endif
 	iteration_count += p_count;
 }
 

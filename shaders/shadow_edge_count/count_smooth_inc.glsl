@@ -9,26 +9,14 @@
 #ifndef COUNT_SMOOTH_INC_GLSL
 #define COUNT_SMOOTH_INC_GLSL
 
-#include "shadow_edge_count/count_resolve_inc.glsl"
+#include "shadow_edge_count/count_output_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
-
-const uint SIDE = 4u; // number of the block's rows, and of its columns, that are counted
+const uint SIDE = SMOOTH_SIDE;
 const int MAX_DEGREE = 3;
 const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) / gl_WorkGroupSize.x;
 
 shared float counted[SIDE * SIDE]; // visibility
 shared float coefficients[SIDE * SIDE]; // those of a degree above MAX_DEGREE are not used
-
-/// Counted rows and columns: 0, 2, 5 and 7. They are symmetric about the middle and include the outermost ones, so that
-/// nothing is extrapolated.
-uint find_counted_line(uint p_index) {
-	return 2u * p_index + (p_index > 1u ? 1u : 0u);
-}
-
-uvec2 find_counted_pixel(uint p_index) {
-	return uvec2(find_counted_line(p_index % SIDE), find_counted_line(p_index / SIDE));
-}
 
 /// Polynomials of degree 0 to 3 at a row or column p_line of the block, orthonormal over the four counted ones. Their
 /// variable u is -1 at the first line and 1 at the last; the counted lines have u = +-1 and +-NEAR.
@@ -49,7 +37,7 @@ vec4 find_basis(uint p_line) {
 float find_coefficient(uint p_index) {
 	float sum = 0.0;
 	for (uint i = 0u; i < SIDE * SIDE; ++i) {
-		const uvec2 pixel = find_counted_pixel(i);
+		const uvec2 pixel = find_smooth_pixel(i);
 		sum += counted[i] * find_basis(pixel.x)[p_index % SIDE] * find_basis(pixel.y)[p_index / SIDE];
 	}
 	return sum;
@@ -68,12 +56,6 @@ float find_fitted(uvec2 p_pixel) {
 	return clamp(sum, 0.0, 1.0);
 }
 
-/// The index of a pixel for find_pixel_in_block.
-uint find_pixel_index(uvec2 p_pixel) {
-	return (p_pixel.x & 1u) | (p_pixel.y & 1u) << 1 | (p_pixel.x & 2u) << 1 | (p_pixel.y & 2u) << 2 |
-			(p_pixel.x & 4u) << 2 | (p_pixel.y & 4u) << 3;
-}
-
 void main() {
 	load_count_constants();
 	const uint invocation = gl_LocalInvocationIndex;
@@ -83,8 +65,8 @@ void main() {
 		return; // another pass resolves the leaf
 	}
 	const uint item = invocation / LANES_PER_RECEIVER;
-	const CountSubject subject = load_subject(leaf, find_pixel_index(find_counted_pixel(item)), is_valid);
-	counted[item] = count_pixel(subject).visibility; // all lanes of a receiver have the same
+	const CountSubject subject = load_subject(leaf, find_pixel_index(find_smooth_pixel(item)), is_valid);
+	counted[item] = count_pixel(subject, find_solids(subject)).visibility; // all lanes of a receiver have the same
 	barrier();
 	coefficients[item] = find_coefficient(item);
 	barrier();

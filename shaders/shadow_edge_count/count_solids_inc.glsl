@@ -1,77 +1,10 @@
-// The receivers of a leaf, and their numbers of faces on the way to the light's centre.
+// The numbers of faces on the way from a leaf's receivers to the light's centre, found from those of its anchor.
 #ifndef COUNT_SOLIDS_INC_GLSL
 #define COUNT_SOLIDS_INC_GLSL
 
-#include "shadow_edge_count/count_classify_inc.glsl"
-#include "shadow_edge_count/count_status_inc.glsl"
+#include "shadow_edge_count/count_subject_inc.glsl"
 #include "shadow_edge_count/count_sweep_inc.glsl"
-#include "shadow_edge_count/resolve_leaf_inc.glsl"
-
-FETCHED_UINTS(COUNT_BINDING_LISTS, lists_buffer);
-layout(std430, set = 0, binding = COUNT_BINDING_RESULTS) readonly buffer Results {
-	CountLeafResult results[];
-};
-layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
-	uint status[]; // EDGE_COUNT_STATUS_*
-};
-
-layout(constant_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
-/// Active invocations of a subgroup: a work group may be smaller than the device's subgroups.
-const uint SUBGROUP_SIZE = FULL_SUBGROUP_SIZE < gl_WorkGroupSize.x ? FULL_SUBGROUP_SIZE : gl_WorkGroupSize.x;
-#include "shadow_edge_count/plane_fit_inc.glsl"
-
-/// A leaf, and the receiver of it that an invocation processes.
-struct CountSubject {
-	CountLeaf leaf;
-	CountLeafResult result;
-	uint leaf_index;
-	ivec2 pixel;
-	bool is_receiver; // false: the leaf has fewer
-	vec3 warped; // in the leaf's frame; meaningless if the leaf is wide
-	CountReceiver receiver;
-};
-
-/// p_pixel: index of the pixel in the block, see find_pixel_in_block.
-CountSubject load_subject(uint p_leaf, uint p_pixel, bool p_is_receiver) {
-	CountSubject subject;
-	subject.leaf = leaves[p_leaf];
-	subject.result = results[p_leaf];
-	subject.leaf_index = p_leaf;
-	subject.pixel = find_image_pixel(subject.leaf, p_pixel);
-	subject.is_receiver = p_is_receiver;
-	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0.0);
-	if (p_is_receiver) {
-		point = load_count_point(subject.pixel);
-	}
-	subject.warped = warp_to_frame(make_count_frame(subject.leaf.axis_distance.xyz), light.depth_far_m, point.position);
-	subject.receiver = make_count_receiver(light, point.position, subject.leaf.axis_distance.w);
-	// Edges of the receiver's own surface are about as far below it as it was moved.
-	subject.receiver.min_d *= point.offset_fraction;
-	return subject;
-}
-
-/// p_rank: of the receiver, in the leaf's order of pixels.
-CountSubject load_ranked_subject(uint p_leaf, uint p_rank, bool p_is_valid) {
-	const CountLeaf leaf = leaves[p_leaf];
-	return load_subject(
-			p_leaf, find_set_bit(leaf.pixels_flags.xy, p_rank), p_is_valid && p_rank < count_leaf_pixels(leaf));
-}
-
-/// The receiver of an invocation of a pass with one work group per leaf.
-CountSubject load_group_subject(uint p_leaf, bool p_is_valid) {
-	return load_ranked_subject(p_leaf, gl_LocalInvocationIndex / LANES_PER_RECEIVER, p_is_valid);
-}
-
-/// The bounds of the receivers of a subgroup for which p_is_selected is true.
-CountBounds find_receiver_bounds(vec3 p_warped, bool p_is_selected) {
-	const vec3 mean = find_mean_receiver(p_is_selected ? vec4(p_warped, 1.0) : vec4(0.0));
-	PlaneMoments moments = PlaneMoments(vec3(0.0), vec2(0.0));
-	add_to_moments(p_warped - mean, p_is_selected, moments);
-	CountBounds bounds = make_count_bounds();
-	bounds.slope = find_fitted_slope(moments);
-	add_to_bounds(p_warped, p_is_selected, bounds);
-	return find_subgroup_bounds(bounds);
-}
+#include "shadow_edge_count/uniform_box_inc.glsl"
 
 /// A word of the leaf's lists. p_index: from the leaf's first word on.
 uint load_list_word(CountSubject p_subject, uint p_index) {
@@ -144,8 +77,6 @@ void add_face_changes(
 	note_fault(first < count, EDGE_COUNT_FAULT_LOOP);
 }
 
-uint ray_count = 0u; // receivers of the invocation that needed their own ray
-
 /// The faces on a receiver's way to the light's centre. All invocations must be active.
 CountCrossings count_subject_crossings(CountSubject p_subject) {
 	const vec3 anchor = p_subject.leaf.anchor_block.xyz;
@@ -154,8 +85,8 @@ CountCrossings count_subject_crossings(CountSubject p_subject) {
 	const CountFrame frame = make_count_frame(p_subject.leaf.axis_distance.xyz);
 	CountBounds bounds = find_receiver_bounds(p_subject.warped, p_subject.is_receiver);
 	add_to_bounds(warp_to_frame(frame, light.depth_far_m, anchor), true, bounds);
-	const CountBox hull = make_count_box(
-			light, 0.0, frame, bounds, p_subject.leaf.axis_distance.w, is_wide_leaf(p_subject.leaf));
+	const CountBox hull = make_uniform_box(make_count_box(
+			light, 0.0, frame, bounds, p_subject.leaf.axis_distance.w, is_wide_leaf(p_subject.leaf)));
 	const Sweep sweep = make_sweep(anchor, position);
 	ivec3 changes = ivec3(0);
 	bool is_undecided = false;
@@ -169,18 +100,6 @@ CountCrossings count_subject_crossings(CountSubject p_subject) {
 			(is_anchor ? ivec3(0) : changes);
 	return CountCrossings(needs_ray ? along_ray.back_facing : found.x, needs_ray ? along_ray.light_facing : found.y,
 			needs_ray ? along_ray.double_sided : found.z);
-}
-
-/// Writes the faults and the number of rays of the subgroup. One invocation does: drivers insert subgroup operations
-/// around other atomics, and would do so in divergent flow.
-void report_subgroup_status() {
-	const uint faults = subgroup_or(count_faults);
-	const uint rays = subgroup_add(ray_count);
-	const bool is_elected = subgroupElect();
-	if ((faults | rays) != 0u && is_elected) {
-		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], faults << push.kind);
-		atomicAdd(status[EDGE_COUNT_STATUS_RAYS], rays);
-	}
 }
 
 #endif

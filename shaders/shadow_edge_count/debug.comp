@@ -16,7 +16,8 @@ void main() {
 	load_count_constants();
 	bool is_valid;
 	const uint leaf = find_group_leaf(is_valid);
-	const CountPixel pixel = count_pixel(load_group_subject(leaf, is_valid));
+	const CountSubject subject = load_group_subject(leaf, is_valid);
+	const CountPixel pixel = count_pixel(subject, make_count_solids(count_subject_crossings(subject)));
 	if (!pixel.is_receiver) {
 		return;
 	}

@@ -4,6 +4,7 @@
 
 #include "shadow_edge_count/count_sweep_inc.glsl"
 #include "shadow_edge_count/leaf_inc.glsl"
+#include "shadow_edge_count/uniform_box_inc.glsl"
 
 // The leaf, set by prepare_leaf_tests.
 vec3 anchor;
@@ -19,8 +20,8 @@ void prepare_leaf_tests(CountLeaf p_leaf) {
 	const CountBounds bounds = unpack_count_bounds(p_leaf);
 	const float distance_m = p_leaf.axis_distance.w;
 	anchor = p_leaf.anchor_block.xyz;
-	box = make_count_box(light, light.disc_radius, frame, bounds, distance_m, is_wide_leaf(p_leaf));
-	hull_box = make_count_box(light, 0.0, frame, bounds, distance_m, is_wide_leaf(p_leaf));
+	box = make_uniform_box(make_count_box(light, light.disc_radius, frame, bounds, distance_m, is_wide_leaf(p_leaf)));
+	hull_box = make_uniform_box(make_count_box(light, 0.0, frame, bounds, distance_m, is_wide_leaf(p_leaf)));
 	hull_minimum = p_leaf.minimum_w.xyz;
 	hull_maximum = p_leaf.maximum_w.xyz;
 	const vec3 reach = IS_DIRECTIONAL ? vec3(COUNT_FAR) : vec3(light.disc_radius);

@@ -56,14 +56,15 @@ uint open_count;
 const uint MAX_CLUSTERS = (IS_CPU ? 32u : 8u) + MAX_PARENTS * WIDTH;
 shared uint clusters[MAX_CLUSTERS];
 uint cluster_count;
-// Edges within the reach of the leaf, which are to be examined.
-shared uint reached_edges[MAX_CLUSTERS * CLUSTER_SIZE];
+// Edges within the reach of the leaf, which are to be examined. On a CPU all clusters are tested first.
+const uint MAX_REACHED = IS_CPU ? MAX_CLUSTERS * CLUSTER_SIZE : 2u * GROUP_SIZE;
+shared uint reached_edges[MAX_REACHED];
 uint reached_count;
 // The leaf's lists; counts include what does not fit. A list of entries that is longer is written in a second walk. On a
-// GPU, all shared memory of a work group of 32 takes 8 KiB, so that AMD's compute units have room for four per SIMD unit.
-const uint MAX_SHARED_ENTRIES = IS_CPU ? 1024u : 512u;
-const uint MAX_SILHOUETTES = IS_CPU ? uint(EDGE_COUNT_MAX_SILHOUETTES) : 320u;
-const uint MAX_LOCAL_FACES = IS_CPU ? uint(EDGE_COUNT_MAX_LOCAL_FACES) : 256u;
+// GPU, all shared memory of a work group of 32 takes 5 KiB, so that AMD's compute units have room for six per SIMD unit.
+const uint MAX_SHARED_ENTRIES = IS_CPU ? 1024u : 416u;
+const uint MAX_SILHOUETTES = IS_CPU ? uint(EDGE_COUNT_MAX_SILHOUETTES) : 256u;
+const uint MAX_LOCAL_FACES = IS_CPU ? uint(EDGE_COUNT_MAX_LOCAL_FACES) : 192u;
 shared uint entries[MAX_SHARED_ENTRIES];
 shared uint silhouettes[MAX_SILHOUETTES];
 shared uint local_faces[MAX_LOCAL_FACES];
@@ -175,7 +176,22 @@ void test_edge(uint p_index, bool p_is_valid) {
 	const CountEdgeRecord edge = load_count_edge(p_index);
 	const bool is_reached =
 			p_is_valid && is_edge_in_reach(box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
-	APPEND(reached_edges, p_index, is_reached, MAX_CLUSTERS * CLUSTER_SIZE, reached_count)
+	APPEND(reached_edges, p_index, is_reached, MAX_REACHED, reached_count)
+}
+
+void examine_reached_edges() {
+	sync_subgroup_memory();
+	uint first = 0u;
+	do {
+		const uint item = first + gl_SubgroupInvocationID;
+		const bool is_valid = item < reached_count;
+		examine_edge(is_valid ? reached_edges[item] : 0u, is_valid);
+		first += GROUP_SIZE;
+		++iteration_count;
+	} while (first < reached_count);
+	note_fault(first < reached_count, EDGE_COUNT_FAULT_LOOP);
+	reached_count = 0u;
+	sync_subgroup_memory();
 }
 
 /// Tests the faces or edges of all clusters.
@@ -197,6 +213,9 @@ void test_clusters(CountTree p_tree, bool p_has_faces) {
 				test_face(is_valid ? index : 0u, is_valid);
 			} else {
 				test_edge(is_valid ? index : 0u, is_valid);
+				if (!IS_CPU && reached_count > GROUP_SIZE) {
+					examine_reached_edges();
+				}
 			}
 			first += GROUP_SIZE;
 			++iteration_count;
@@ -205,20 +224,6 @@ void test_clusters(CountTree p_tree, bool p_has_faces) {
 	} while (first < item_count);
 	note_fault(first < item_count, EDGE_COUNT_FAULT_LOOP);
 	cluster_count = 0u;
-	sync_subgroup_memory();
-}
-
-void examine_reached_edges() {
-	uint first = 0u;
-	do {
-		const uint item = first + gl_SubgroupInvocationID;
-		const bool is_valid = item < reached_count;
-		examine_edge(is_valid ? reached_edges[item] : 0u, is_valid);
-		first += GROUP_SIZE;
-		++iteration_count;
-	} while (first < reached_count);
-	note_fault(first < reached_count, EDGE_COUNT_FAULT_LOOP);
-	reached_count = 0u;
 	sync_subgroup_memory();
 }
 

@@ -5,12 +5,10 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
-#include "shadow_edge_count/count_resolve_inc.glsl"
+#include "shadow_edge_count/count_output_inc.glsl"
 
 // Resolves leaves on EDGE_COUNT_RUNG_FEW_PIXELS: one receiver of each 2 x 2 pixels is counted, with 64 points of the
 // light, and the others get a mean of the nearest counted ones.
-layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
-
 const uint SIDE = 4u; // of the block, in quads of 2 x 2 pixels
 const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) / gl_WorkGroupSize.x;
 
@@ -45,7 +43,7 @@ void main() {
 	const uint own_bits = (quad < 8u ? pixels.x : pixels.y) >> (4u * (quad % 8u)) & 15u;
 	const uint pixel = 4u * quad + uint(max(findLSB(own_bits), 0));
 	const CountSubject subject = load_subject(leaf, pixel, own_bits != 0u);
-	const float visibility = count_pixel(subject).visibility;
+	const float visibility = count_pixel(subject, find_solids(subject)).visibility;
 	const uvec2 position = find_pixel_in_block(4u * quad) / 2u;
 	counted[position.y * SIDE + position.x] = own_bits != 0u ? vec2(visibility, 1.0) : vec2(0.0);
 	barrier();
