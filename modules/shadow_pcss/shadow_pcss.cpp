@@ -1,6 +1,7 @@
 #include "modules/shadow_pcss/shadow_pcss.h"
 
 #include "modules/core/text.h"
+#include "modules/shadow_pcss/cascades.h"
 #include "modules/shadows/mask.h"
 #include "modules/shadows/nearest_caster.h"
 
@@ -14,6 +15,20 @@ void ShadowPcss::get_light_properties(PropertyList &r_list) const {
 			"time.",
 			"", "PCSS" });
 	add_size_property(r_list, "PCSS");
+	r_list.add({ "pcss_cascades", PropertyType::INT, int64_t(1), "1,4,1",
+			"Maps of a directional light, nested around what the camera sees up to a distance each. "
+			"More have finer edges near the camera in large worlds, and cost time and memory.",
+			"", "PCSS" });
+}
+
+void ShadowPcss::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
+		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
+	DepthMapTechnique::get_light_views(p_light, p_scene, p_properties, r_views);
+	const auto count = static_cast<uint32_t>(std::get<int64_t>(p_properties.at("pcss_cascades")));
+	if (p_light.type == LightType::DIRECTIONAL && count > 1) {
+		r_views = split_into_cascades(
+				r_views.front(), p_scene, count, get_border_px(p_properties));
+	}
 }
 
 ShadowLimits ShadowPcss::get_limits(const PropertyValues & /*p_properties*/) const {

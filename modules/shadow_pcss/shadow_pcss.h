@@ -15,6 +15,8 @@ public:
 					CachedViews::FilterReach::ADJACENT_VIEWS) {}
 	ShadowLimits get_limits(const PropertyValues &p_properties) const override;
 	void get_light_properties(PropertyList &r_list) const override;
+	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
+			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
 	void get_quality_settings(
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;
 

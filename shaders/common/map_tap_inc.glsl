@@ -27,7 +27,7 @@ float lookup_w(
 	float w = is_drawn ? stored / p_view.depth_scale : 0.0;
 	// Beyond the side of one of six views, the adjacent view is read. This is a loop instead of a branch because
 	// software drivers (llvmpipe) execute both sides of a branch, but skip a loop that no invocation enters.
-	[[dont_unroll]] for (bool is_needed = !is_inside && light_views.view_count > 1u; is_needed;
+	[[dont_unroll]] for (bool is_needed = !is_inside && light_views.view_count > 1u && p_view.is_orthographic == 0u; is_needed;
 			is_needed = false) {
 		const vec3 direction =
 				transpose(mat3(p_view.view_from_camera_relative)) * vec3(p_xy, 1.0);

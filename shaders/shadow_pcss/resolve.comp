@@ -11,6 +11,20 @@ layout(push_constant) uniform Push {
 	ShadowPcssPush push;
 };
 
+/// The receiver's view, of the nested ones of a directional light: the first that contains it and the texels that its
+/// filter may read, else the last.
+uint find_cascade(ReceiverPixel p_receiver) {
+	uint view = 0u;
+	for (bool is_contained = false; !is_contained && view + 1u < light_views.view_count;) {
+		const LightViewConstants cascade = light_views.views[view];
+		const MapPoint point = project_to_map(cascade, p_receiver.position, p_receiver.normal);
+		const vec2 reach = push.light_radius * max(push.nearest_w[view] - point.w, 0.0) + 2.0 * texel_extent(cascade);
+		is_contained = all(lessThanEqual(abs(point.xy) + reach, cascade.half_extent));
+		view += is_contained ? 0u : 1u;
+	}
+	return view;
+}
+
 // Percentage-closer soft shadows, one pixel per invocation.
 void main() {
 	const ivec2 pixel = find_pixel();
@@ -19,8 +33,10 @@ void main() {
 	}
 	float visibility = 0.0;
 	if (is_receiver_pixel(pixel)) {
-		uint view;
-		const MapPoint point = load_map_point(pixel, view);
+		const ReceiverPixel receiver = load_receiver(pixel);
+		const uint view = light_views.views[0].is_orthographic != 0u ? find_cascade(receiver)
+																	 : find_view(light_views, receiver.position);
+		const MapPoint point = project_to_map(light_views.views[view], receiver.position, receiver.normal);
 		visibility = is_behind_view(light_views.views[view], point)
 				? 1.0
 				: pcss(map_texture, push.empty_views, light_views.views[view], point,
