@@ -65,6 +65,7 @@ public:
 			snapshot(r_snapshot), is_posed(p_is_posed) {}
 
 	void read(const Node3D &p_root) {
+		snapshot.instances.reserve(count_nodes(p_root)); // most nodes of large scenes are meshes
 		read_node(p_root, glm::dmat4(1.0));
 		for (const auto &[node, world_from_node] : deformable) { // now that all joints are known
 			read_deformable(*node, world_from_node);
@@ -78,6 +79,14 @@ private:
 	bool is_animated = false;
 	std::vector<std::pair<const MeshInstance3D *, glm::dmat4>> deformable; // and world_from_node
 	WorldTransforms world_from_nodes;
+
+	static size_t count_nodes(const Node3D &p_node) {
+		size_t count = 1;
+		for (const std::unique_ptr<Node3D> &child : p_node.children) {
+			count += count_nodes(*child);
+		}
+		return count;
+	}
 
 	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
 		is_animated = is_animated || p_node.posed_parent_from_node;

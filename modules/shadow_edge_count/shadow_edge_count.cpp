@@ -27,6 +27,23 @@ void check_device(const ShadowTechnique::Inputs &p_inputs) {
 	}
 }
 
+/// Equal for equal results of build_count_casters.
+uint64_t compute_casters_hash(
+		const ShadowTechnique::Inputs &p_inputs, const CountSettings &p_settings) {
+	uint64_t hash = compute_value_hash(p_settings.disc_radius, /*p_seed=*/2);
+	hash = p_inputs.light.compute_hash(hash);
+	hash = compute_value_hash(p_inputs.light.penumbra_outer_width_m, hash);
+	hash = compute_value_hash(p_inputs.light.penumbra_inner_width_m, hash);
+	for (size_t view = 0; view < p_inputs.views.size(); ++view) {
+		hash = compute_value_hash(p_inputs.casters[view].content_hash, hash);
+		hash = compute_value_hash(p_inputs.views[view].view_from_world, hash);
+	}
+	const Bounds bounds = p_inputs.scene.compute_bounds();
+	hash = compute_value_hash(bounds.minimum, hash);
+	hash = compute_value_hash(bounds.maximum, hash);
+	return compute_value_hash(p_inputs.scene.scene_size_m, hash);
+}
+
 } // namespace
 
 void ShadowEdgeCount::get_light_properties(PropertyList &r_list) const {
@@ -67,7 +84,15 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	frame_depth_map = {};
 	are_casters_found = false;
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
-	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius, order);
+	// In a large world, what did not change is not looked through again.
+	const uint64_t casters_hash = compute_casters_hash(p_inputs, settings);
+	const bool is_same = p_inputs.may_skip && p_inputs.may_reuse &&
+			!cached.casters.casters.empty() && cached.casters_hash == casters_hash;
+	CountCasters built;
+	if (!is_same) {
+		built = build_count_casters(p_inputs, settings.disc_radius, order);
+	}
+	CountCasters &casters = is_same ? cached.casters : built;
 	may_filter = settings.has_time_budget() ||
 			(settings.has_budget() &&
 					(casters.edge_count > settings.budget || !p_inputs.may_skip));
@@ -88,11 +113,14 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	check_device(p_inputs);
 	const bool has_content =
 			buffers.prepare(p_inputs.device, p_inputs.light.name, choose_capacities(casters)) &&
-			cached.disc_radius == settings.disc_radius && cached.casters.has_layout_of(casters) &&
+			cached.disc_radius == settings.disc_radius &&
+			(is_same || cached.casters.has_layout_of(casters)) &&
 			(!may_filter || cached.has_depth_map);
 	if (has_content && p_inputs.may_skip && p_inputs.may_reuse &&
 			cached.first_view == p_inputs.views[0]) {
 		compare_casters(cached.casters, casters);
+	} else if (is_same) {
+		casters.set_all_moved();
 	}
 	views.plan(p_inputs, r_plan, has_content);
 	cached.disc_radius = settings.disc_radius;
@@ -103,7 +131,10 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	if (!views.get_needed_views().empty()) {
 		p_inputs.meshes.get_shared<CountMeshPools>().upload();
 		cached.first_view = p_inputs.views[0];
-		cached.casters = std::move(casters);
+		if (!is_same) {
+			cached.casters = std::move(built);
+			cached.casters_hash = casters_hash;
+		}
 		plan_casters(r_plan);
 	}
 	plan_filter(r_plan);

@@ -50,6 +50,7 @@ private:
 		LightView first_view; // its axes are those of light space
 		double disc_radius = -1;
 		CountCasters casters;
+		uint64_t casters_hash = 0; // of what they were built from
 		bool has_depth_map = false;
 	};
 

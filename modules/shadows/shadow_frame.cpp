@@ -33,6 +33,7 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const CasterFlags &p_casts
 		casters.instances.push_back(index);
 		hash = instance.compute_hash(hash);
 		hash = compute_value_hash(instance.caster_mesh->id, hash);
+		hash = compute_value_hash(instance.caster_levels != nullptr, hash);
 	}
 	casters.content_hash = hash;
 	return casters;
