@@ -72,6 +72,10 @@ void CountStatus::get_counters(std::vector<WorkCounter> &r_counters) const {
 		r_counters.push_back({ "listed_edges", (*latest->words)[EDGE_COUNT_STATUS_LISTED_EDGES] });
 		r_counters.push_back({ "longest_list", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_LIST] });
 		r_counters.push_back({ "rays", (*latest->words)[EDGE_COUNT_STATUS_RAYS] });
+		r_counters.push_back({ "leaves", (*latest->words)[EDGE_COUNT_STATUS_LEAVES] });
+		r_counters.push_back({ "longest_walk", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_WALK] });
+		r_counters.push_back(
+				{ "longest_count", (*latest->words)[EDGE_COUNT_STATUS_LONGEST_COUNT] });
 	}
 	if (const std::optional<CountRungs> rungs = get_rungs()) {
 		r_counters.push_back({ "cost", rungs->cost });

@@ -23,7 +23,6 @@ uvec4 load_count_masks(uint p_index, uint p_pair) {
 // iteration_count reaches iteration_limit. What it has not counted then, a pass of resolve_unfinished.comp counts.
 const uint NO_ITERATION_LIMIT = 0xffffffffu;
 uint iteration_limit = NO_ITERATION_LIMIT;
-uint iteration_count = 0u; // of loops over edges; an upper bound
 
 bool has_iterations_left() {
 	return iteration_count < iteration_limit;

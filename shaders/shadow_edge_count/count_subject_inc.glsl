@@ -74,13 +74,20 @@ CountBounds find_receiver_bounds(vec3 p_warped, bool p_is_selected) {
 }
 
 uint ray_count = 0u; // receivers of the invocation that needed their own ray
+uint iteration_count = 0u; // of loops over edges; an upper bound
 
 /// Writes the faults and the number of rays of the subgroup. One invocation does: drivers insert subgroup operations
 /// around other atomics, and would do so in divergent flow.
 void report_subgroup_status() {
 	const uint faults = subgroup_or(count_faults);
 	const uint rays = subgroup_add(ray_count);
+	const uint iterations = subgroup_max(iteration_count);
+	// It only grows, so a value that was read before spares most of the atomic operations.
+	const uint longest = subgroupBroadcastFirst(status[EDGE_COUNT_STATUS_LONGEST_COUNT]);
 	const bool is_elected = subgroupElect();
+	if (iterations > longest && is_elected) {
+		atomicMax(status[EDGE_COUNT_STATUS_LONGEST_COUNT], iterations);
+	}
 	if ((faults | rays) != 0u && is_elected) {
 		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], faults << push.kind);
 		atomicAdd(status[EDGE_COUNT_STATUS_RAYS], rays);

@@ -301,7 +301,10 @@ CountCrossings sum_subgroup_crossings(CountCrossings p_own) {
 /// Adds the leaf's counts and faults to the status buffer.
 void write_status(bool p_is_elected) {
 	const uint faults = subgroup_or(count_faults);
-	if (p_is_elected && (entry_count | faults) != 0u) {
+	const uint iterations = subgroup_max(iteration_count);
+	if (p_is_elected && iterations > 0u) {
+		atomicAdd(status[EDGE_COUNT_STATUS_LEAVES], 1u);
+		atomicMax(status[EDGE_COUNT_STATUS_LONGEST_WALK], iterations);
 		atomicAdd(status[EDGE_COUNT_STATUS_LISTED_EDGES], entry_count);
 		atomicMax(status[EDGE_COUNT_STATUS_LONGEST_LIST], entry_count);
 		atomicOr(status[EDGE_COUNT_STATUS_FAULTS], faults << EDGE_COUNT_PASS_LIST_LEAVES);

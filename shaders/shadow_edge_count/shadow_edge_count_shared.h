@@ -308,8 +308,11 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_STATUS_LISTED_EDGES 1 // entries of all lists
 #define EDGE_COUNT_STATUS_LONGEST_LIST 2 // entries of a leaf's list
 #define EDGE_COUNT_STATUS_RAYS 3 // receivers whose solids were counted along their own ray
-#define EDGE_COUNT_STATUS_COST 4 // with a time budget: cost of all leaves on their rungs
-#define EDGE_COUNT_STATUS_RUNGS 5 // with a time budget: number of leaves on each rung
+#define EDGE_COUNT_STATUS_LEAVES 4 // all leaves
+#define EDGE_COUNT_STATUS_LONGEST_WALK 5 // iterations of a subgroup that lists a leaf
+#define EDGE_COUNT_STATUS_LONGEST_COUNT 6 // of one that counts edges, in a dispatch
+#define EDGE_COUNT_STATUS_COST 7 // with a time budget: cost of all leaves on their rungs
+#define EDGE_COUNT_STATUS_RUNGS 8 // with a time budget: number of leaves on each rung
 #define EDGE_COUNT_STATUS_WORDS (EDGE_COUNT_STATUS_RUNGS + EDGE_COUNT_RUNG_COUNT)
 #define EDGE_COUNT_PASS_LIST_LEAVES 6
 #define EDGE_COUNT_PASS_BITS 8
