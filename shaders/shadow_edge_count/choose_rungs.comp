@@ -26,7 +26,7 @@ float find_cost(uint p_ladder, out uvec4 r_leaves) {
 	float sum = 0.0;
 	r_leaves = uvec4(0u);
 	for (uint i = 0u; i < COST_CLASSES; ++i) {
-		const uint rung = find_rung(i, p_ladder);
+		const uint rung = find_rung(i, p_ladder, push.first_rung);
 		const uint leaf_count = counts[uint(EDGE_COUNT_COUNT_COST_LEAVES) + i];
 		const vec4 shares = vec4(1.0, push.few_points_share, push.few_points_share * FEW_PIXELS_SHARE, 0.0);
 		sum += float(counts[uint(EDGE_COUNT_COUNT_COSTS) + i]) * shares[rung];
@@ -59,7 +59,7 @@ void main() {
 		leaf_counts = next_counts;
 	}
 	last_ladder = ladder;
-	counts[EDGE_COUNT_COUNT_LADDER] = ladder;
+	counts[EDGE_COUNT_COUNT_LADDER] = ladder | push.first_rung << EDGE_COUNT_FIRST_RUNG_SHIFT;
 	status[EDGE_COUNT_STATUS_COST] = uint(min(cost, 4e9));
 	for (uint i = 0u; i < uint(EDGE_COUNT_RUNG_COUNT); ++i) {
 		status[EDGE_COUNT_STATUS_RUNGS + i] = leaf_counts[i];

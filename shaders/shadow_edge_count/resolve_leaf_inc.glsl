@@ -33,7 +33,11 @@ uint limit_leaf(uint p_leaf) {
 
 /// Whether the pass resolves a leaf with this word in the list of its kind.
 bool is_on_rung(uint p_word) {
-	const uint rung = HAS_RUNGS ? find_rung(p_word >> EDGE_COUNT_KIND_LEAF_BITS, counts[EDGE_COUNT_COUNT_LADDER]) : 0u;
+	const uint ladder = counts[EDGE_COUNT_COUNT_LADDER];
+	const uint rung = HAS_RUNGS
+			? find_rung(p_word >> EDGE_COUNT_KIND_LEAF_BITS, ladder & (1u << EDGE_COUNT_FIRST_RUNG_SHIFT) - 1u,
+					  ladder >> EDGE_COUNT_FIRST_RUNG_SHIFT)
+			: 0u;
 	return (push.rungs >> rung & 1u) != 0u;
 }
 

@@ -340,7 +340,9 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_COUNT_ALL EDGE_COUNT_LEAF_KINDS
 #define EDGE_COUNT_COUNT_MORE (EDGE_COUNT_LEAF_KINDS + 1)
 #define EDGE_COUNT_COUNT_LIST_WORDS (EDGE_COUNT_LEAF_KINDS + 2)
-// With a time budget, for each class: the sum of its leaves' costs, and their number. Then the position of the ladder.
+// With a time budget, for each class: the sum of its leaves' costs, and their number. Then the position of the ladder, and
+// above it CountRungsPush::first_rung.
+#define EDGE_COUNT_FIRST_RUNG_SHIFT 16
 #define EDGE_COUNT_COUNT_COSTS (EDGE_COUNT_LEAF_KINDS + 3)
 #define EDGE_COUNT_COUNT_COST_LEAVES (EDGE_COUNT_COUNT_COSTS + EDGE_COUNT_COST_CLASSES)
 #define EDGE_COUNT_COUNT_LADDER (EDGE_COUNT_COUNT_COST_LEAVES + EDGE_COUNT_COST_CLASSES)

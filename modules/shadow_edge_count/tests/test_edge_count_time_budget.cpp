@@ -111,6 +111,30 @@ TEST_CASE("[GPU][EdgeCount] with less time more leaves have fewer points, fewer 
 	}
 }
 
+TEST_CASE("[GPU][EdgeCount] with time for everything, leaves without lists are counted too") {
+	const ReplacedTechnique<LimitedEdgeCount> technique;
+	for (const char *quality : { "64", "256" }) {
+		CAPTURE(std::string(quality));
+		MaskFixture fixture;
+		SmallScene scene(LightType::OMNI); // lists have no room for all its edges
+		add_mesh(scene.scene, "Globe", make_count_sphere(0.5, 96), { -0.3, 1.2, 0.3 });
+		scene.light->properties["light_size"] = 1.5;
+		scene.light->properties["edge_count_quality"] = std::string(quality);
+		const FrameOptions options = { .size_px = glm::uvec2(32) };
+		const MaskResult expected = render_frame(fixture, scene, options);
+		LimitedEdgeCount::limit = EDGE_COUNT_NO_COST_LIMIT;
+		scene.light->properties["edge_count_time_budget"] = 1000.0;
+		CHECK(render_frame(fixture, scene, options).visibility == expected.visibility);
+		LimitedEdgeCount::limit = 0; // and with none, they are filtered
+		render_frame(fixture, scene, options);
+		const MaskResult filtered = render_frame(fixture, scene, options);
+		const std::vector<int> rungs = find_rungs(filtered);
+		REQUIRE(rungs.size() == 4);
+		CHECK(rungs[3] > 0);
+		CHECK(compare_masks(filtered.visibility, expected).mean < 0.2);
+	}
+}
+
 TEST_CASE("[GPU][EdgeCount] a light with 64 points has no rung of fewer points") {
 	const ReplacedTechnique<LimitedEdgeCount> technique;
 	MaskFixture fixture;
