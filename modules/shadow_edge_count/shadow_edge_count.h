@@ -7,6 +7,31 @@
 #include <optional>
 #include <vector>
 
+// A light's frame, pass by pass, with the buffers that each writes. n faces and e edges of the light's
+// casters, l leaves: 1.5 for each 8 x 8 pixels. Numbers are bytes.
+//
+//     meshes of all lights: faces 32, edges 16, vertices 16        casters of the light: 112 each
+//                         |                                              |
+//  1 caster faces ----> planes 16 n, faces 48 n <------------------------+
+//  2 mark edges ------> words: a bit an edge; blocks: 4 for 2,048 edges
+//  3 list edges ------> edges 32 e
+//  4 bound clusters --> nodes: 32 for 14 faces or edges, the two trees
+//  5 list cut faces --> cut faces 4 n, if a caster comes within R of the light's centre
+//                         |  (1, 2 for casters that moved; 3 to 5 if any did)
+//  6 clear leaves ----> counts, arguments, status, counts of rounds
+//  7 find leaves -----> leaves 112 l
+//  8 list leaves -----> results 32 l; lists: 4 an entry, 23 MB at most; leaves by kind 24 l
+//  9 choose rungs ----> ladder 4, with a time budget
+// 10 resolve dark, count solids, resolve smooth, resolve, resolve without lists --> mask 2 a pixel
+// 11 resolve unfinished -> states 2.5 MB at most, slots; then the mask
+// 12 filter ----------> mask; reads the depth maps, with a budget
+// 13 read status
+//
+// 1 to 5 are in find_passes.h and count_casters.h, 6 to 12 in leaf_passes.h and count_rounds.h. Based
+// on: Laine et al. 2005 (soft shadow volumes: silhouettes and one reference ray), Johnson et al. 2009
+// (lists for receivers), Aila and Laine 2009 (walks through trees), Olsson et al. 2012 (clusters of
+// pixels); doc/techniques/edge_count.md has the sources in full.
+
 namespace gnomon {
 
 /// Soft shadows by counting: the exact number of solids between a receiver and the light's centre,
