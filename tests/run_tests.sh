@@ -260,7 +260,7 @@ part_embed() {
     run_part embed python3 tests/run_unittest.py tests/embed/test_embed.py
 }
 part_drivers() {
-    run_part drivers python3 tests/run_unittest.py tests/demo/test_counted_work.py tests/drivers/test_spirv.py tests/drivers/test_amd.py \
+    run_part drivers python3 tests/run_unittest.py tests/benchmark/test_counted_work.py tests/drivers/test_spirv.py tests/drivers/test_amd.py \
         tests/drivers/test_llvmpipe.py tests/drivers/test_swiftshader.py
 }
 part_command_line() {

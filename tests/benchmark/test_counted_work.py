@@ -1,4 +1,4 @@
-"""Work of the default technique that does not depend on the machine, as its shaders count it: enough invocations for a GPU, and
+"""Work of edge_count that does not depend on the machine, as its shaders count it: enough invocations for a GPU, and
 none with a long chain of steps."""
 
 import json
@@ -18,7 +18,7 @@ def count_work(scene):
         times = os.path.join(folder, "times.json")
         subprocess.run(
             [os.path.join(ROOT, "bin", "gnomon"), "visibility", os.path.join(ROOT, "demo_project", "scenes", scene + ".gltf"),
-             "--size", "1920x1080", "--out", os.path.join(folder, "mask.exr"), "--time", times],
+             "--technique", "edge_count", "--size", "1920x1080", "--out", os.path.join(folder, "mask.exr"), "--time", times],
             check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         with open(times, encoding="utf-8") as file:
