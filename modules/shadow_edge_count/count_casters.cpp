@@ -145,12 +145,6 @@ bool CountCasters::has_layout_of(const CountCasters &p_other) const {
 			});
 }
 
-void CountCasters::set_all_moved() {
-	for (CountCaster &caster : casters) {
-		caster.is_moved = true;
-	}
-}
-
 CountCasters build_count_casters(
 		const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, CasterOrder &r_order) {
 	const LightView &first = p_inputs.views.front();

@@ -44,7 +44,6 @@ struct CountCasters {
 	/// True if both have the same meshes and flags in the same order, so that face indices stay
 	/// valid.
 	bool has_layout_of(const CountCasters &p_other) const;
-	void set_all_moved();
 };
 
 /// Collects the casters of all views, in the order of r_order, and uploads their meshes where

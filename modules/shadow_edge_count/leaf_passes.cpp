@@ -105,11 +105,12 @@ void dispatch_chunks(PassContext &p_context, shader::CountLeafPush p_push, uint3
 struct KindPass {
 	std::string name;
 	std::string shader;
-	uint32_t kind = 0;		  // EDGE_COUNT_LEAVES_*
+	uint32_t kind = 0;	  // EDGE_COUNT_LEAVES_*
 	uint32_t rungs = ~0u; // bit i: those on rung i
 	// If edges are counted: how many of a leaf's 64 receivers are, and with how many sets of points.
 	uint32_t receiver_count = BLOCK_PIXELS;
 	uint32_t sample_set_count = 1;
+	float nearest_w = 0; // of the filter, see CountLeafPush
 };
 
 /// A pass that counts edges.
@@ -178,7 +179,7 @@ void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 								  { kind.shader, kind.shader, std::move(constants) }),
 				{ .kind = kind.kind,
 						.first_leaf = kind.kind * p_leaves.leaf_capacity,
-						.nearest_w = p_passes.depth_map ? compute_nearest_w(inputs) : 0.0f,
+						.nearest_w = kind.nearest_w,
 						.rungs = kind.rungs } });
 	}
 	PassBuilder pass = r_graph.add_pass(p_kinds.front().name);
@@ -244,8 +245,13 @@ void add_filter_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
 	std::vector<KindPass> kinds;
+	const float nearest_w = compute_nearest_w(p_passes.inputs);
 	const auto add_kind = [&](uint32_t p_kind, uint32_t p_rungs) {
-		kinds.push_back({ "filter", "shadow_edge_count/filter_leaves.comp", p_kind, p_rungs });
+		kinds.push_back({ .name = "filter",
+				.shader = "shadow_edge_count/filter_leaves.comp",
+				.kind = p_kind,
+				.rungs = p_rungs,
+				.nearest_w = nearest_w });
 	};
 	if (p_passes.settings.has_budget()) {
 		add_kind(EDGE_COUNT_LEAVES_FILTERED, ~0u);

@@ -86,13 +86,13 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	// In a large world, what did not change is not looked through again.
 	const uint64_t casters_hash = compute_casters_hash(p_inputs, settings);
-	const bool is_same = p_inputs.may_skip && p_inputs.may_reuse &&
+	bool is_same = p_inputs.may_skip && p_inputs.may_reuse &&
 			!cached.casters.casters.empty() && cached.casters_hash == casters_hash;
 	CountCasters built;
 	if (!is_same) {
 		built = build_count_casters(p_inputs, settings.disc_radius, order);
 	}
-	CountCasters &casters = is_same ? cached.casters : built;
+	const CountCasters &casters = is_same ? cached.casters : built;
 	may_filter = settings.has_time_budget() ||
 			(settings.has_budget() &&
 					(casters.edge_count > settings.budget || !p_inputs.may_skip));
@@ -116,11 +116,13 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 			cached.disc_radius == settings.disc_radius &&
 			(is_same || cached.casters.has_layout_of(casters)) &&
 			(!may_filter || cached.has_depth_map);
-	if (has_content && p_inputs.may_skip && p_inputs.may_reuse &&
+	if (is_same && !has_content) { // meshes that were not read for some frames may be gone
+		built = build_count_casters(p_inputs, settings.disc_radius, order);
+		is_same = false;
+	}
+	if (!is_same && has_content && p_inputs.may_skip && p_inputs.may_reuse &&
 			cached.first_view == p_inputs.views[0]) {
-		compare_casters(cached.casters, casters);
-	} else if (is_same) {
-		casters.set_all_moved();
+		compare_casters(cached.casters, built);
 	}
 	views.plan(p_inputs, r_plan, has_content);
 	cached.disc_radius = settings.disc_radius;

@@ -42,6 +42,13 @@ FrustumSphere find_frustum_sphere(const CameraSnapshot &p_camera, double p_dista
 
 } // namespace
 
+bool is_finer(const LightView &p_view, const LightView &p_other) {
+	const auto find_extent = [](const LightView &p_any) {
+		return std::max(p_any.half_extent.x, p_any.half_extent.y);
+	};
+	return find_extent(p_view) < find_extent(p_other);
+}
+
 std::vector<LightView> split_into_cascades(const LightView &p_whole, const LightScene &p_scene,
 		uint32_t p_count, uint32_t p_border_px) {
 	const CameraSnapshot &camera = p_scene.scene.camera;
@@ -57,11 +64,11 @@ std::vector<LightView> split_into_cascades(const LightView &p_whole, const Light
 		const FrustumSphere sphere = find_frustum_sphere(camera, distance_m);
 		const double size_px = double(p_whole.size_px.x);
 		const double half_m = sphere.radius_m * size_px / (size_px - 2.0 * p_border_px);
-		if (half_m >= std::min(p_whole.half_extent.x, p_whole.half_extent.y)) {
-			break; // it would not be finer than the last view
-		}
 		LightView view = p_whole;
 		view.half_extent = glm::vec2(float(half_m));
+		if (!is_finer(view, p_whole)) {
+			break;
+		}
 		// In multiples of a texel from the world's origin, which does not move with the casters.
 		const double texel_m = 2 * half_m / size_px;
 		const glm::dvec4 center(camera.position_world + sphere.center_m * forward, 0.0);

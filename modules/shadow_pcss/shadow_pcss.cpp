@@ -31,6 +31,19 @@ void ShadowPcss::get_light_views(const LightSnapshot &p_light, const LightScene 
 	}
 }
 
+void ShadowPcss::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
+	DepthMapTechnique::plan(p_inputs, r_plan);
+	if (!p_inputs.may_skip || !p_inputs.views.front().is_orthographic) {
+		return;
+	}
+	// The last view was narrowed to what the camera sees, so it may be finer than some cascades.
+	for (uint32_t view = 0; view + 1 < p_inputs.views.size(); ++view) {
+		if (!is_finer(p_inputs.views[view], p_inputs.views.back())) {
+			r_plan.skip_light_view(view, "no finer than the map of all that the camera sees");
+		}
+	}
+}
+
 ShadowLimits ShadowPcss::get_limits(const PropertyValues & /*p_properties*/) const {
 	// A nearer caster makes the blocker search wider than its shadow, see the sweep near_caster in
 	// doc/stability.md.

@@ -17,6 +17,7 @@ public:
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
+	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
 	void get_quality_settings(
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;
 

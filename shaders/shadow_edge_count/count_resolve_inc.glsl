@@ -89,7 +89,6 @@ bool has_choice_room(CountChoice p_choice, uint p_more) {
 }
 
 /// Collects edges from the leaf's list, from p_first on. Ends when the slice may be full, or no iterations are left.
-/// Each step moves the cursor forward in a tree whose size is limited, whatever its nodes have, so the loop ends.
 /// p_first_word: of the list. p_end: its number of entries.
 CountChoice choose_from_list(uint p_first, uint p_first_word, uint p_end, CountBox p_box) {
 	CountChoice choice = CountChoice(p_first, 0u);

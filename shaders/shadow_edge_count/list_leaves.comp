@@ -179,17 +179,20 @@ void test_edge(uint p_index, bool p_is_valid) {
 	APPEND(reached_edges, p_index, is_reached, MAX_REACHED, reached_count)
 }
 
+/// Examines and removes all reached edges.
 void examine_reached_edges() {
 	sync_subgroup_memory();
+	const uint count = min(reached_count, MAX_REACHED);
+	note_fault(reached_count > MAX_REACHED, EDGE_COUNT_FAULT_LIST);
 	uint first = 0u;
 	do {
 		const uint item = first + gl_SubgroupInvocationID;
-		const bool is_valid = item < reached_count;
+		const bool is_valid = item < count;
 		examine_edge(is_valid ? reached_edges[item] : 0u, is_valid);
 		first += GROUP_SIZE;
 		++iteration_count;
-	} while (first < reached_count);
-	note_fault(first < reached_count, EDGE_COUNT_FAULT_LOOP);
+	} while (first < count);
+	note_fault(first < count, EDGE_COUNT_FAULT_LOOP);
 	reached_count = 0u;
 	sync_subgroup_memory();
 }

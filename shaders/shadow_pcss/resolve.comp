@@ -11,18 +11,23 @@ layout(push_constant) uniform Push {
 	ShadowPcssPush push;
 };
 
-/// The receiver's view, of the nested ones of a directional light: the first that contains it and the texels that its
-/// filter may read, else the last.
+float find_extent(LightViewConstants p_view) {
+	return max(p_view.half_extent.x, p_view.half_extent.y);
+}
+
+/// The receiver's view, of the nested ones of a directional light: the finest that contains it and the texels that its
+/// filter may read, else the last. Views that are not finer than the last are not drawn.
 uint find_cascade(ReceiverPixel p_receiver) {
-	uint view = 0u;
-	for (bool is_contained = false; !is_contained && view + 1u < light_views.view_count;) {
+	const uint last = min(light_views.view_count, uint(MAX_LIGHT_VIEWS)) - 1u;
+	uint chosen = last;
+	for (uint view = 0u; view < last; ++view) {
 		const LightViewConstants cascade = light_views.views[view];
 		const MapPoint point = project_to_map(cascade, p_receiver.position, p_receiver.normal);
 		const vec2 reach = push.light_radius * max(push.nearest_w[view] - point.w, 0.0) + 2.0 * texel_extent(cascade);
-		is_contained = all(lessThanEqual(abs(point.xy) + reach, cascade.half_extent));
-		view += is_contained ? 0u : 1u;
+		const bool is_contained = all(lessThanEqual(abs(point.xy) + reach, cascade.half_extent));
+		chosen = is_contained && find_extent(cascade) < find_extent(light_views.views[chosen]) ? view : chosen;
 	}
-	return view;
+	return chosen;
 }
 
 // Percentage-closer soft shadows, one pixel per invocation.

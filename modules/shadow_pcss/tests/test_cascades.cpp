@@ -11,12 +11,18 @@ using namespace gnomon;
 
 namespace {
 
-/// A small scene, and a caster far away from it: one map of all casters is coarse.
-SmallScene make_wide_scene() {
+/// A small scene on a wide plain that casts nothing. p_has_tower: and a caster far away, so that one
+/// map of all casters is coarse. The camera does not see the tower or its shadow.
+SmallScene make_wide_scene(bool p_has_tower = true) {
 	SmallScene scene(LightType::DIRECTIONAL);
 	scene.light->properties["light_angular_distance"] = 0.5;
-	scene.light->properties["pcss_map_size"] = int64_t(256);
-	add_mesh(scene.scene, "Tower", make_box_mesh("tower", glm::vec3(1, 20, 1)), { 150, 5, -400 });
+	add_mesh(scene.scene, "Plain", make_box_mesh("plain", glm::vec3(500, 0.1, 500)),
+			{ 0, -0.6, 0 })
+			.casts_shadow = false;
+	if (p_has_tower) {
+		add_mesh(scene.scene, "Tower", make_box_mesh("tower", glm::vec3(1, 20, 1)),
+				{ 150, 5, -400 });
+	}
 	return scene;
 }
 
@@ -72,24 +78,41 @@ TEST_CASE("[Pcss] cascades keep their size while the camera moves and turns, and
 	}
 }
 
-TEST_CASE("[GPU][Pcss] with cascades a coarse map gives nearly the mask of a fine one") {
+TEST_CASE("[GPU][Pcss] with cascades, shadows near the camera are not coarse where it sees far") {
 	MaskFixture fixture;
-	SmallScene scene = make_wide_scene();
-	const auto render = [&](int64_t p_map_size, int64_t p_cascades) {
-		scene.light->properties["pcss_map_size"] = p_map_size;
-		scene.light->properties["pcss_cascades"] = p_cascades;
-		const MaskResult mask = fixture.render_mask(scene, "pcss", glm::uvec2(128));
+	const auto render = [&](SmallScene &r_scene, int64_t p_map_size, int64_t p_cascades) {
+		r_scene.light->properties["pcss_map_size"] = p_map_size;
+		r_scene.light->properties["pcss_cascades"] = p_cascades;
+		const MaskResult mask = fixture.render_mask(r_scene, "pcss", glm::uvec2(128));
 		CHECK(is_valid_mask(mask));
 		return mask;
 	};
-	const MaskResult fine = render(8192, 1);
-	const double one = compute_mask_difference(render(256, 1), fine);
-	const double four = compute_mask_difference(render(256, 4), fine);
-	CHECK(four < 0.6 * one);
+	SmallScene near = make_wide_scene(/*p_has_tower=*/false);
+	SmallScene scene = make_wide_scene();
+	for (SmallScene *each : { &near, &scene }) { // to the horizon, with the box in front
+		each->camera->parent_from_node = look_at({ -1.2, 1.8, 3.4 }, { 0, 1.2, 0 });
+	}
+	const MaskResult fine = render(near, 4096, 1); // all casters are near
+	const MaskResult cascades = render(scene, 512, 4);
+	const double one = compute_mask_difference(render(scene, 512, 1), fine);
+	const double four = compute_mask_difference(cascades, fine);
+	CHECK(one > 0.01);
+	CHECK(four < 0.3 * one);
 	// Nothing that is skipped changes the mask.
-	scene.light->properties["pcss_map_size"] = int64_t(256);
 	CHECK(fixture.render_mask(scene, "pcss", glm::uvec2(128), /*p_may_skip=*/false).visibility ==
-			render(256, 4).visibility);
+			render(scene, 512, 4).visibility);
+}
+
+TEST_CASE("[GPU][Pcss] cascades are skipped where one map of all that the camera sees is finer") {
+	MaskFixture fixture;
+	SmallScene scene = make_wide_scene(); // the camera looks down at the ground
+	scene.light->properties["pcss_map_size"] = int64_t(512);
+	const MaskResult one = fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	scene.light->properties["pcss_cascades"] = int64_t(4);
+	const MaskResult four = fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	CHECK(four.plan.to_text().find("no finer than the map of all that the camera sees") !=
+			std::string::npos);
+	CHECK(four.visibility == one.visibility);
 }
 
 TEST_CASE("[GPU][Pcss] spot and omni lights have no cascades") {
