@@ -92,12 +92,12 @@ std::vector<SpecializationConstant> make_pipeline_constants(
 /// Records the dispatches of all chunks of a kind of leaves, see CountLeafPush. Nothing separates
 /// them: each leaf is in one of them.
 void dispatch_chunks(PassContext &p_context, shader::CountLeafPush p_push, uint32_t p_chunk_count,
-		RGBuffer p_arguments) {
+		RGBuffer p_arguments, uint32_t p_argument_index) {
 	for (uint32_t chunk = 0; chunk < p_chunk_count; ++chunk) {
 		p_push.chunk = chunk;
 		p_context.commands.push_constants(p_push);
 		p_context.commands.dispatch_indirect(p_context.get(p_arguments),
-				EDGE_COUNT_ARGUMENT_WORDS * p_push.kind * sizeof(uint32_t));
+				EDGE_COUNT_ARGUMENT_WORDS * p_argument_index * sizeof(uint32_t));
 	}
 }
 
@@ -158,6 +158,17 @@ std::vector<CountingPass> list_counting_passes(const CountSettings &p_settings) 
 	return passes;
 }
 
+/// The index of the arguments of a pass's dispatches: those of one rung if it resolves no other, so
+/// that nothing runs if no leaf is on it.
+uint32_t find_argument_index(const CountLeafPasses &p_passes, const KindPass &p_kind) {
+	const auto rung = static_cast<uint32_t>(std::countr_zero(p_kind.rungs));
+	const bool is_one_rung = std::has_single_bit(p_kind.rungs) ||
+			(p_kind.kind == EDGE_COUNT_LEAVES_SMOOTH && rung == EDGE_COUNT_RUNG_FEW_POINTS);
+	return p_passes.settings.has_time_budget() && is_one_rung
+			? EDGE_COUNT_RUNG_ARGUMENTS(rung, p_kind.kind)
+			: p_kind.kind;
+}
+
 /// Adds indirect dispatches over the leaves of some kinds, with the same bindings.
 void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 		const CountLeaves &p_leaves, std::span<const KindPass> p_kinds,
@@ -165,6 +176,7 @@ void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 	struct Step {
 		PipelineRID pipeline;
 		shader::CountLeafPush push;
+		uint32_t argument_index;
 	};
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	std::vector<Step> steps;
@@ -180,7 +192,8 @@ void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 				{ .kind = kind.kind,
 						.first_leaf = kind.kind * p_leaves.leaf_capacity,
 						.nearest_w = kind.nearest_w,
-						.rungs = kind.rungs } });
+						.rungs = kind.rungs },
+				find_argument_index(p_passes, kind) });
 	}
 	PassBuilder pass = r_graph.add_pass(p_kinds.front().name);
 	if (p_passes.settings.has_time_budget()) {
@@ -193,7 +206,7 @@ void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 		for (const Step &step : steps) {
 			bind_compute(p_context, step.pipeline, bindings,
 					std::span(reinterpret_cast<const uint8_t *>(&step.push), sizeof(step.push)));
-			dispatch_chunks(p_context, step.push, chunk_count, arguments);
+			dispatch_chunks(p_context, step.push, chunk_count, arguments, step.argument_index);
 		}
 	});
 }
@@ -282,7 +295,8 @@ void add_rungs_pass(
 			p_passes.inputs.device.get_compute_pipeline({ shader, shader, /*constants=*/{} }),
 			{ PassBinding::write(RUNGS_BINDING_COUNTS, p_leaves.counts, update),
 					PassBinding::write(RUNGS_BINDING_STATUS, p_leaves.status, update),
-					PassBinding::write(RUNGS_BINDING_LADDER, p_passes.ladder, update) },
+					PassBinding::write(RUNGS_BINDING_LADDER, p_passes.ladder, update),
+					PassBinding::write(RUNGS_BINDING_ARGUMENTS, p_leaves.arguments, update) },
 			{ 1, 1, 1 }, make_push_bytes(push));
 }
 
@@ -354,7 +368,7 @@ CountLeaves add_leaf_passes(RenderGraph &r_graph, const CountLeafPasses &p_passe
 						BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::COPY_TARGET });
 	};
 	const RGBuffer all_arguments = make_arguments("arguments of all leaves", 1);
-	leaves.arguments = make_arguments("arguments of leaves by kind", EDGE_COUNT_LEAF_KINDS);
+	leaves.arguments = make_arguments("arguments of leaves by kind", EDGE_COUNT_ARGUMENT_COUNT);
 	leaves.counts =
 			r_graph.create_buffer({ "leaf counts", EDGE_COUNT_COUNT_WORDS * sizeof(uint32_t),
 					BufferUsage::STORAGE | BufferUsage::COPY_TARGET });
@@ -410,7 +424,7 @@ CountLeaves add_leaf_passes(RenderGraph &r_graph, const CountLeafPasses &p_passe
 		const shader::CountLeafPush push = {};
 		bind_compute(p_context, list_pipeline, list_bindings,
 				std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
-		dispatch_chunks(p_context, push, chunk_count, all_arguments);
+		dispatch_chunks(p_context, push, chunk_count, all_arguments, /*p_argument_index=*/0);
 	});
 	if (p_passes.settings.has_time_budget()) {
 		add_rungs_pass(r_graph, p_passes, leaves);

@@ -93,9 +93,9 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		built = build_count_casters(p_inputs, settings.disc_radius, order);
 	}
 	const CountCasters &casters = is_same ? cached.casters : built;
-	may_filter = settings.has_time_budget() ||
-			(settings.has_budget() &&
-					(casters.edge_count > settings.budget || !p_inputs.may_skip));
+	may_exceed_budget = settings.has_budget() &&
+			(casters.edge_count > settings.budget || !p_inputs.may_skip);
+	may_filter = may_exceed_budget || settings.has_time_budget();
 	// Only the filter reads views other than that of the receiver.
 	views.begin(p_inputs,
 			may_filter ? CachedViews::FilterReach::ADJACENT_VIEWS
@@ -181,11 +181,13 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 
 void ShadowEdgeCount::plan_filter(TechniquePlan &r_plan) {
 	if (!settings.has_budget()) {
-		r_plan.skip("filter", "edge_count_budget is -1: nothing has too many edges");
+		if (!settings.has_time_budget()) { // else plan_rungs reports what is filtered
+			r_plan.skip("filter", "edge_count_budget is -1: nothing has too many edges");
+		}
 		return;
 	}
 	const std::string pass = text("filter where there are more than ", settings.budget, " edges");
-	if (may_filter) {
+	if (may_exceed_budget) {
 		r_plan.run(pass);
 	} else {
 		r_plan.skip(pass, text("all casters together have ", cached.casters.edge_count));

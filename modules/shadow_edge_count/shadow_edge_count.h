@@ -104,7 +104,8 @@ private:
 	// State of this frame.
 	CountSettings settings;
 	bool has_casters = false;		// some caster has faces
-	bool may_filter = false;		// leaves may have more edges than the budget
+	bool may_exceed_budget = false; // leaves may have more edges than the budget
+	bool may_filter = false;		// and, or there may be no time for them
 	bool are_casters_found = false; // the passes of add_find_passes were added
 	RGTexture frame_depth_map;
 	RGTexture debug_image;

@@ -15,6 +15,9 @@ layout(std430, set = 0, binding = RUNGS_BINDING_STATUS) buffer Status {
 layout(std430, set = 0, binding = RUNGS_BINDING_LADDER) buffer Ladder {
 	uint last_ladder; // of the frame before
 };
+layout(std430, set = 0, binding = RUNGS_BINDING_ARGUMENTS) buffer Arguments {
+	uint arguments[]; // EDGE_COUNT_ARGUMENT_WORDS for each dispatch
+};
 layout(push_constant) uniform Push {
 	CountRungsPush push;
 };
@@ -34,6 +37,21 @@ float find_cost(uint p_ladder, out uvec4 r_leaves) {
 		r_leaves[rung] += leaf_count;
 	}
 	return sum;
+}
+
+/// Copies the arguments of each kind of leaves for each rung that has leaves.
+void write_arguments(uvec4 p_leaf_counts) {
+	const uint words = uint(EDGE_COUNT_ARGUMENT_WORDS);
+	for (uint i = 0u; i < uint(EDGE_COUNT_RUNG_COUNT * EDGE_COUNT_LEAF_KINDS); ++i) {
+		const uint rung = i / uint(EDGE_COUNT_LEAF_KINDS);
+		const uint kind = i % uint(EDGE_COUNT_LEAF_KINDS);
+		const bool has_next = kind == uint(EDGE_COUNT_LEAVES_SMOOTH) && rung == uint(EDGE_COUNT_RUNG_FEW_POINTS);
+		const uint count = p_leaf_counts[rung] + (has_next ? p_leaf_counts[EDGE_COUNT_RUNG_FEW_PIXELS] : 0u);
+		for (uint word = 0u; word < words; ++word) {
+			arguments[words * EDGE_COUNT_RUNG_ARGUMENTS(rung, kind) + word] =
+					count > 0u ? arguments[words * kind + word] : 0u;
+		}
+	}
 }
 
 void main() {
@@ -58,6 +76,7 @@ void main() {
 		cost = next_cost;
 		leaf_counts = next_counts;
 	}
+	write_arguments(leaf_counts);
 	last_ladder = ladder;
 	counts[EDGE_COUNT_COUNT_LADDER] = ladder | push.first_rung << EDGE_COUNT_FIRST_RUNG_SHIFT;
 	status[EDGE_COUNT_STATUS_COST] = uint(min(cost, 4e9));

@@ -334,6 +334,10 @@ SHARED_SIZE(CountLeafResult, 32);
 // The arguments of the indirect dispatches over leaves: one for each kind, and a buffer of its own with one for all
 // leaves. They have rows of EDGE_COUNT_GROUPS_PER_ROW work groups.
 #define EDGE_COUNT_ARGUMENT_WORDS 3
+// With a time budget, after those of all kinds: those of a kind's leaves on one rung, which are 0 if no leaf is on it. Of
+// smooth leaves, those on EDGE_COUNT_RUNG_FEW_POINTS include those on the next rung, which are counted in the same way.
+#define EDGE_COUNT_RUNG_ARGUMENTS(rung, kind) (EDGE_COUNT_LEAF_KINDS * (1 + (rung)) + (kind))
+#define EDGE_COUNT_ARGUMENT_COUNT (EDGE_COUNT_LEAF_KINDS * (1 + EDGE_COUNT_RUNG_COUNT))
 #define EDGE_COUNT_GROUPS_PER_ROW 64
 // The buffer of counts: the leaves of each kind, all leaves, leaves beyond the first of their block, and words of all
 // lists. The last two include what did not fit.
@@ -408,6 +412,7 @@ SHARED_SIZE(CountLeafPush, 32);
 #define RUNGS_BINDING_COUNTS 0
 #define RUNGS_BINDING_STATUS 1
 #define RUNGS_BINDING_LADDER 2 // one word, which stays from frame to frame
+#define RUNGS_BINDING_ARGUMENTS 3
 
 /// Push constants of choose_rungs.comp.
 struct SHARED_ALIGN CountRungsPush {

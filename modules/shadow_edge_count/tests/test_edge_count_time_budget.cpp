@@ -68,6 +68,8 @@ TEST_CASE("[GPU][EdgeCount] with time for everything the mask is that without a 
 		REQUIRE(rungs.size() == 4);
 		CHECK(rungs[0] > 20);
 		CHECK(rungs[1] + rungs[2] + rungs[3] == 0);
+		CHECK(expected.plan.to_text().find("filter: skipped") != std::string::npos);
+		CHECK(limited.plan.to_text().find("filter: skipped") == std::string::npos);
 	}
 }
 
