@@ -114,7 +114,7 @@ void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_r
 		return;
 	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_request.scene);
-	for (LightSnapshot &light : scene->lights) {
+	for (LightSnapshot &light : scene->lights.edit()) {
 		if (light.name == p_request.debug_light) {
 			light.technique_id = technique;
 		}

@@ -213,7 +213,7 @@ private:
 	void add_scene_image(const std::string &p_scene,
 			const std::shared_ptr<const SceneSnapshot> &p_snapshot, bool p_has_shadows) {
 		auto shown = std::make_shared<SceneSnapshot>(*p_snapshot);
-		for (LightSnapshot &light : shown->lights) {
+		for (LightSnapshot &light : shown->lights.edit()) {
 			light.casts_shadow = light.casts_shadow && p_has_shadows;
 		}
 		ReportSceneImage image;

@@ -7,6 +7,7 @@
 #include "modules/core/png.h"
 #include "modules/main/commands.h"
 #include "modules/main/run_part.h"
+#include "modules/scene/frame_snapshots.h"
 
 #include <CLI/CLI.hpp>
 
@@ -72,13 +73,15 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	request.reference = options.reference;
 	request.may_skip = !options.skips_nothing;
 	RenderResult result;
+	FrameSnapshots snapshots;
 	const uint32_t frame_count = std::max(options.frame_count, 1u);
 	for (uint32_t index = 0; index < frame_count; ++index) {
 		request.wants_image = index + 1 == frame_count;
 		request.wants_graph = request.wants_image && !options.dot.empty();
 		// A fixed time step, so that the images do not depend on the speed of the machine.
-		options.playback.advance(r_scene, index == 0 ? 0.0 : 1.0 / HEADLESS_FRAMES_PER_S);
-		request.scene = build_snapshot(r_scene, camera);
+		const bool has_changed =
+				options.playback.advance(r_scene, index == 0 ? 0.0 : 1.0 / HEADLESS_FRAMES_PER_S);
+		request.scene = snapshots.build(r_scene, camera, has_changed);
 		result = renderer.render(request);
 	}
 	write_outputs(result, p_size_px);
@@ -92,8 +95,11 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 		request.may_reuse = options.is_still;
 		save_file_atomically(options.time_path,
 				RunPartRegistry::find(MASKS_PART)
-						->measure_time(renderer, request, WARM_UP_FRAME_COUNT, MEASURED_FRAME_COUNT,
-								[&] { return build_snapshot(r_scene, camera); }));
+						->measure_time(
+								renderer, request, WARM_UP_FRAME_COUNT, MEASURED_FRAME_COUNT, [&] {
+									return snapshots.build(
+											r_scene, camera, /*p_has_changed=*/!options.is_still);
+								}));
 	}
 }
 

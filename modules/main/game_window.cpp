@@ -5,6 +5,7 @@
 #include "modules/main/fly_camera.h"
 #include "modules/main/overlay_text.h"
 #include "modules/main/run_part.h"
+#include "modules/scene/frame_snapshots.h"
 #include "modules/shadows/shadow_registry.h"
 
 #include <GLFW/glfw3.h>
@@ -37,6 +38,7 @@ struct GameState {
 	AnimationPlayback playback;
 	bool has_reference = false;
 	bool shows_text = true;
+	bool has_changed_scene = false; // since the last frame
 	/// Debug view that key V selects ("mask" or "error"); empty: the view of --debug-view, if any.
 	std::string shown;
 
@@ -60,6 +62,7 @@ struct GameState {
 			const PropertyValue value = get_float(list, light->properties, name) * p_factor;
 			if (check_property(*list.find(name), value).empty()) {
 				light->properties[name] = value;
+				has_changed_scene = true;
 			}
 		}
 	}
@@ -160,7 +163,8 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	// So that --capture and --dot also work if the window is closed before its first frame.
 	fly_camera.apply(camera);
 	state.playback.advance(r_scene, 0.0);
-	request.scene = build_snapshot(r_scene, camera);
+	FrameSnapshots snapshots;
+	request.scene = snapshots.build(r_scene, camera, /*p_has_changed=*/true);
 	while (window.poll()) {
 		const Clock::time_point now = Clock::now();
 		const double seconds = std::chrono::duration<double>(now - last).count();
@@ -170,13 +174,15 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		}
 		fly(fly_camera, window, seconds);
 		fly_camera.apply(camera);
-		state.playback.advance(r_scene, drawn_count == 0 ? 0.0 : seconds);
+		state.has_changed_scene |=
+				state.playback.advance(r_scene, drawn_count == 0 ? 0.0 : seconds);
 		const glm::uvec2 size_px = window.get_size_px();
 		if (size_px.x == 0 || size_px.y == 0) {
 			continue; // minimised
 		}
 		const bool is_last = p_options.frame_count > 0 && drawn_count + 1 >= p_options.frame_count;
-		request.scene = build_snapshot(r_scene, camera);
+		request.scene = snapshots.build(r_scene, camera, state.has_changed_scene);
+		state.has_changed_scene = false;
 		request.size_px = size_px;
 		request.acquire_window_image = [&] { return swapchain->acquire(size_px); };
 		request.debug_view = state.shown.empty() ? p_options.debug_view : state.shown;

@@ -80,7 +80,7 @@ TracedReference RenderedMaskSource::trace_reference(
 				" that states how many rays it takes. Declare it.");
 	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_task.scene);
-	for (LightSnapshot &light : scene->lights) {
+	for (LightSnapshot &light : scene->lights.edit()) {
 		light.properties[samples] = int64_t(p_sample_count);
 	}
 	RenderRequest request = make_request(p_task, reference.id);

@@ -5,6 +5,9 @@
 
 #include "renderer/renderer_shared.h"
 
+#include <map>
+#include <tuple>
+
 namespace gnomon {
 
 namespace {
@@ -85,35 +88,38 @@ private:
 	PipelineRID untextured[2][2]; // mirrored, double-sided
 };
 
-struct GBufferDraw {
-	const GpuMesh *mesh;
-	shader::InstancePush push;
-	PipelineRID pipeline;
-	const GpuMaterial *material = nullptr; // null: `push` describes all of it
-	std::array<VertexStream, 4> streams;
-};
-
-shader::InstancePush make_push(const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance) {
+shader::GBufferInstance make_instance_data(
+		const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance) {
 	const Material &material = *p_instance.material;
-	shader::InstancePush push = {};
-	push.camera_relative_from_node = p_scene.get_camera_relative_from_node(p_instance);
+	shader::GBufferInstance data = {};
+	data.camera_relative_from_node = p_scene.get_camera_relative_from_node(p_instance);
 	// A negative value selects Phong's model, see brdf_inc.glsl.
 	const float roughness = material.shading_model == ShadingModel::PHONG
 			? -1.0f - material.roughness
 			: material.roughness;
-	push.base_color_roughness = glm::vec4(material.base_color, roughness);
-	push.emissive_metallic = glm::vec4(material.emissive, material.metallic);
-	push.scatter = material.scatter;
-	push.scatter_distance_m = material.scatter_distance_m;
-	push.is_mirrored = p_instance.is_mirrored() ? 1u : 0u;
-	return push;
+	data.base_color_roughness = glm::vec4(material.base_color, roughness);
+	data.emissive_metallic = glm::vec4(material.emissive, material.metallic);
+	data.scatter = material.scatter;
+	data.scatter_distance_m = material.scatter_distance_m;
+	data.is_mirrored = p_instance.is_mirrored() ? 1u : 0u;
+	return data;
 }
 
+struct GBufferDraw {
+	const GpuMesh *mesh;
+	PipelineRID pipeline;
+	const GpuMaterial *material = nullptr; // null: GBufferInstance describes all of it
+	std::array<VertexStream, 4> streams;
+	uint32_t first_instance = 0;
+	uint32_t instance_count = 0;
+};
+
 void record_draw(PassContext &p_context, const GBufferDraw &p_draw, RGBuffer p_frame,
-		bool p_has_geometric_normal) {
+		RGBuffer p_instances, bool p_has_geometric_normal) {
 	CommandList &commands = p_context.commands;
 	std::vector<BufferRID> vertices = { p_draw.mesh->positions.get(), p_draw.mesh->normals.get() };
-	std::vector<Binding> bindings = { { GBUFFER_BINDING_FRAME, p_context.get(p_frame) } };
+	std::vector<Binding> bindings = { { GBUFFER_BINDING_FRAME, p_context.get(p_frame) },
+		{ GBUFFER_BINDING_INSTANCES, p_context.get(p_instances) } };
 	if (p_has_geometric_normal) { // the shader loads the corners by gl_PrimitiveID
 		bindings.emplace_back(GBUFFER_BINDING_POSITIONS, p_draw.mesh->positions.get());
 		bindings.emplace_back(GBUFFER_BINDING_INDICES, p_draw.mesh->indices.get());
@@ -133,24 +139,56 @@ void record_draw(PassContext &p_context, const GBufferDraw &p_draw, RGBuffer p_f
 	}
 	commands.bind_pipeline(p_draw.pipeline);
 	commands.bind_resources(bindings);
-	commands.push_constants(p_draw.push);
 	commands.bind_vertex_buffers(vertices);
 	commands.bind_index_buffer(p_draw.mesh->indices.get());
-	commands.draw_indexed(p_draw.mesh->index_count);
+	commands.draw_instances(p_draw.mesh->index_count, p_draw.instance_count, p_draw.first_instance);
 }
 
 } // namespace
 
+GBufferInstances collect_gbuffer_instances(std::shared_ptr<const SceneSnapshot> p_scene,
+		std::span<const VisibleReceiver> p_visible, glm::uvec2 p_size_px) {
+	// Mesh, material with textures, is mirrored, is double-sided.
+	using Key = std::tuple<const Mesh *, const Material *, bool, bool>;
+	std::map<Key, std::vector<shader::GBufferInstance>> instances;
+	GBufferInstances result;
+	std::vector<const std::vector<shader::GBufferInstance> *> of_groups;
+	const LightView camera_view = make_camera_view(p_scene->camera, p_size_px);
+	for (const VisibleReceiver &item : p_visible) {
+		const InstanceSnapshot &instance = p_scene->instances[item.instance_index];
+		if (!camera_view.may_see(instance)) {
+			continue;
+		}
+		const bool has_textures = needs_gpu_material(*instance.mesh, *instance.material);
+		const Key key = { instance.mesh.get(), has_textures ? instance.material.get() : nullptr,
+			instance.is_mirrored(), instance.material->is_double_sided };
+		const auto [place, is_new] = instances.try_emplace(key);
+		if (is_new) {
+			result.groups.push_back({ item.instance_index });
+			of_groups.push_back(&place->second);
+		}
+		place->second.push_back(make_instance_data(*p_scene, instance));
+	}
+	for (size_t index = 0; index < of_groups.size(); ++index) {
+		result.groups[index].first = static_cast<uint32_t>(result.instances.size());
+		result.groups[index].count = static_cast<uint32_t>(of_groups[index]->size());
+		result.instances.insert(
+				result.instances.end(), of_groups[index]->begin(), of_groups[index]->end());
+	}
+	result.scene = std::move(p_scene);
+	result.size_px = p_size_px;
+	return result;
+}
+
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,
-		MaterialStore &r_materials, const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
-		RGBuffer p_frame, uint32_t &r_drawn_count) {
+		MaterialStore &r_materials, const GBufferInstances &p_instances, RGBuffer p_frame) {
 	const bool has_geometric_normal = p_device.get_features().geometry_shader;
 	const auto create = [&](const char *p_name, Format p_format) {
 		const TextureUsage target = p_format == Format::D32_SFLOAT ? TextureUsage::DEPTH_ATTACHMENT
 																   : TextureUsage::COLOR_ATTACHMENT;
 		return r_graph.create_texture({ .name = p_name,
 				.format = p_format,
-				.size_px = p_size_px,
+				.size_px = p_instances.size_px,
 				.usage = target | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	};
 	GBuffer gbuffer;
@@ -165,14 +203,12 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 
 	GBufferPipelines pipelines(p_device);
 	std::vector<GBufferDraw> draws;
-	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (!camera_view.may_see(instance)) {
-			continue;
-		}
+	for (const GBufferInstances::Group &group : p_instances.groups) {
+		const InstanceSnapshot &instance = p_instances.scene->instances[group.scene_instance];
 		GBufferDraw &draw = draws.emplace_back();
 		draw.mesh = &r_meshes.get(instance.mesh);
-		draw.push = make_push(p_scene, instance);
+		draw.first_instance = group.first;
+		draw.instance_count = group.count;
 		if (needs_gpu_material(*instance.mesh, *instance.material)) {
 			draw.material = &r_materials.get(instance.material);
 			draw.streams = r_materials.get_streams(r_meshes, instance.mesh, *instance.material);
@@ -183,9 +219,15 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 					instance.is_mirrored(), instance.material->is_double_sided);
 		}
 	}
-	r_drawn_count = static_cast<uint32_t>(draws.size());
+	const shader::GBufferInstance nothing = {}; // a buffer is not empty
+	const std::span<const shader::GBufferInstance> instances = p_instances.instances.empty()
+			? std::span(&nothing, 1)
+			: std::span(p_instances.instances);
+	const RGBuffer instance_buffer = r_graph.upload("G-buffer instances", BufferUsage::STORAGE,
+			{ reinterpret_cast<const uint8_t *>(instances.data()), instances.size_bytes() });
 	PassBuilder pass = r_graph.add_pass("G-buffer");
 	pass.reads(p_frame, Access::UNIFORM_READ)
+			.reads(instance_buffer, Access::UNIFORM_READ)
 			.color(gbuffer.base_color)
 			.color(gbuffer.shading_normal)
 			.color(gbuffer.material)
@@ -194,10 +236,10 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 		pass.color(gbuffer.geometric_normal);
 	}
 	pass.depth(gbuffer.depth, LoadOp::CLEAR, 0.0f)
-			.execute([draws = std::move(draws), p_frame, has_geometric_normal](
+			.execute([draws = std::move(draws), p_frame, instance_buffer, has_geometric_normal](
 							 PassContext &p_context) {
 				for (const GBufferDraw &draw : draws) {
-					record_draw(p_context, draw, p_frame, has_geometric_normal);
+					record_draw(p_context, draw, p_frame, instance_buffer, has_geometric_normal);
 				}
 			});
 	return gbuffer;

@@ -4,6 +4,13 @@
 #include "modules/renderer/material_store.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadows/mesh_store.h"
+#include "modules/shadows/visible_receivers.h"
+
+#include "renderer/renderer_shared.h"
+
+#include <memory>
+#include <span>
+#include <vector>
 
 namespace gnomon {
 
@@ -18,9 +25,26 @@ struct GBuffer {
 	RGTexture emissive;			// RGBA16_SFLOAT, cd/m^2
 };
 
-/// Draws the instances that may be in the camera's view. r_drawn_count: their number.
+/// The instances of a snapshot that the camera may see. Those with one mesh, and one material if it
+/// has textures, are a group, which is one draw.
+struct GBufferInstances {
+	struct Group {
+		uint32_t scene_instance = 0; // the first of them, in the snapshot
+		uint32_t first = 0;			 // in `instances`
+		uint32_t count = 0;
+	};
+	std::shared_ptr<const SceneSnapshot> scene;
+	glm::uvec2 size_px = glm::uvec2(0);
+	std::vector<Group> groups; // in the order of their first instances
+	std::vector<shader::GBufferInstance> instances;
+};
+
+/// p_visible: from ShadowFrame::list_visible. p_size_px: of the image.
+GBufferInstances collect_gbuffer_instances(std::shared_ptr<const SceneSnapshot> p_scene,
+		std::span<const VisibleReceiver> p_visible, glm::uvec2 p_size_px);
+
+/// Draws the instances.
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,
-		MaterialStore &r_materials, const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
-		RGBuffer p_frame, uint32_t &r_drawn_count);
+		MaterialStore &r_materials, const GBufferInstances &p_instances, RGBuffer p_frame);
 
 } // namespace gnomon

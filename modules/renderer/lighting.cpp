@@ -36,14 +36,10 @@ shader::ExposurePush make_exposure(const LitImage &p_image) {
 
 } // namespace
 
-float compute_exposure(const SceneSnapshot &p_scene) {
-	Bounds bounds;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		bounds.add(instance.bounds_world);
-	}
+float compute_exposure(const SceneSnapshot &p_scene, const Bounds &p_bounds_world) {
 	float brightest = 0;
-	if (!bounds.is_empty()) {
-		const glm::dvec3 centre = 0.5 * (bounds.minimum + bounds.maximum);
+	if (!p_bounds_world.is_empty()) {
+		const glm::dvec3 centre = 0.5 * (p_bounds_world.minimum + p_bounds_world.maximum);
 		for (const LightSnapshot &light : p_scene.lights) {
 			brightest = std::max(brightest, compute_light_illuminance(light, centre));
 		}

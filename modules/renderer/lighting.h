@@ -5,10 +5,10 @@
 
 namespace gnomon {
 
-/// Computes the exposure at which a white surface at the centre of the scene's bounds, facing the
-/// brightest light, has an exposed radiance of 0.8. The intensities may have any unit. Returns 1
-/// without lights or meshes.
-float compute_exposure(const SceneSnapshot &p_scene);
+/// Computes the exposure at which a white surface at the centre of the bounds of all instances,
+/// facing the brightest light, has an exposed radiance of 0.8. The intensities may have any unit.
+/// Returns 1 without lights or meshes.
+float compute_exposure(const SceneSnapshot &p_scene, const Bounds &p_bounds_world);
 
 /// The data that all passes of one image use.
 struct LitImage {

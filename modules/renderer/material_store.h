@@ -72,8 +72,8 @@ private:
 	std::array<OwnedBuffer, 4> constant_streams;
 };
 
-/// Returns whether the G-buffer pass needs more data about the surface than InstancePush contains:
-/// textures, vertex colours or an alpha cutoff.
+/// Returns whether the G-buffer pass needs more data about the surface than GBufferInstance
+/// contains: textures, vertex colours or an alpha cutoff.
 bool needs_gpu_material(const Mesh &p_mesh, const Material &p_material);
 
 } // namespace gnomon

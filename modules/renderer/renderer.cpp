@@ -67,7 +67,8 @@ struct Renderer::Frame {
 					{ request.technique_override, request.may_skip, request.may_reuse }),
 			image{ graph, r_renderer.device, {}, shadows.get_constants(),
 				request.size_px * get_supersampling_factor(request),
-				get_supersampling_factor(request), compute_exposure(*request.scene) } {}
+				get_supersampling_factor(request),
+				compute_exposure(*request.scene, shadows.get_scene_bounds()) } {}
 
 	/// Returns whether this light's debug view is shown. Its passes are then not skipped.
 	bool shows_debug_view(const LightSnapshot &p_light) const {
@@ -232,10 +233,14 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	RenderResult result;
 	Frame frame(*this, p_request, result);
 	const CommandCounts counts_before = device.get_command_counts();
-	uint32_t drawn_count = 0;
-	const GBuffer &gbuffer = frame.image.gbuffer =
-			add_gbuffer_pass(frame.graph, device, shadows.get_meshes(), materials, scene,
-					frame.image.size_px, frame.image.frame, drawn_count);
+	if (gbuffer_instances.scene != p_request.scene ||
+			gbuffer_instances.size_px != frame.image.size_px) {
+		gbuffer_instances = collect_gbuffer_instances(
+				p_request.scene, frame.shadows.list_visible(), frame.image.size_px);
+	}
+	const GBuffer &gbuffer = frame.image.gbuffer = add_gbuffer_pass(frame.graph, device,
+			shadows.get_meshes(), materials, gbuffer_instances, frame.image.frame);
+	const size_t drawn_count = gbuffer_instances.instances.size();
 	result.plan.run("G-buffer");
 	if (drawn_count < scene.instances.size()) {
 		result.plan.skip(text(scene.instances.size() - drawn_count, " instances"),

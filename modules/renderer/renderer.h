@@ -113,6 +113,7 @@ private:
 	TransientPool transients;
 	ShadowSystem shadows;
 	MaterialStore materials;
+	GBufferInstances gbuffer_instances; // of the last frame
 };
 
 } // namespace gnomon

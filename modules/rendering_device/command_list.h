@@ -61,6 +61,9 @@ public:
 	virtual void bind_index_buffer(BufferRID p_buffer) = 0; // uint32 indices
 	virtual void draw(uint32_t p_vertex_count, uint32_t p_instance_count = 1) = 0;
 	virtual void draw_indexed(uint32_t p_index_count, uint32_t p_first_index = 0) = 0;
+	/// Draws all indices p_instance_count times; gl_InstanceIndex begins at p_first_instance.
+	virtual void draw_instances(
+			uint32_t p_index_count, uint32_t p_instance_count, uint32_t p_first_instance) = 0;
 	/// The buffer contains, at the offset, the uint32 vertex count, instance count, first vertex
 	/// and first instance index.
 	virtual void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) = 0;

@@ -311,6 +311,12 @@ void GodotDevice::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
 			is_procedural ? p_vertex_count : 0);
 }
 
+void GodotDevice::draw_instances(
+		uint32_t /*p_index_count*/, uint32_t /*p_instance_count*/, uint32_t /*p_first_instance*/) {
+	GNOMON_ASSERT(false, "pipeline '", bound->name,
+			"': draw_instances is not possible in Godot; use draw_indexed");
+}
+
 void GodotDevice::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
 	++counts.draws;
 	const auto &desc = std::get<RasterPipelineDesc>(bound->desc);

@@ -42,6 +42,7 @@ public:
 	void bind_index_buffer(BufferRID) override {}
 	void draw(uint32_t, uint32_t) override {}
 	void draw_indexed(uint32_t, uint32_t) override {}
+	void draw_instances(uint32_t, uint32_t, uint32_t) override {}
 	void draw_indirect(BufferRID, uint64_t) override {}
 	void begin_conditional(BufferRID, uint64_t) override {}
 	void end_conditional() override {}

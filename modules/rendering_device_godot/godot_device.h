@@ -142,6 +142,9 @@ private:
 	void bind_index_buffer(BufferRID p_buffer) override;
 	void draw(uint32_t p_vertex_count, uint32_t p_instance_count) override;
 	void draw_indexed(uint32_t p_index_count, uint32_t p_first_index) override;
+	/// An error: Godot's draw lists have no first instance.
+	void draw_instances(
+			uint32_t p_index_count, uint32_t p_instance_count, uint32_t p_first_instance) override;
 	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) override;
 	void begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes) override;
 	void end_conditional() override;
@@ -212,8 +215,8 @@ private:
 	/// times what is between two timestamps, and has room for few of them.
 	std::vector<GpuSpan> spans;
 	static constexpr std::string_view TIMED_SPAN_PREFIX = "Gnomon: "; // of timestamps
-	bool is_any_timed = false;	// some span needed a time
-	bool is_span_timed = false; // the last timestamp began a span
+	bool is_any_timed = false;										  // some span needed a time
+	bool is_span_timed = false;				// the last timestamp began a span
 	std::map<std::string, double> timed_ms; // by span
 
 	SlotTable<BufferRID, GodotBuffer> buffers{ "buffer" };

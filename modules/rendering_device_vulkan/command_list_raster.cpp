@@ -221,6 +221,23 @@ void VulkanCommandList::draw_indexed(uint32_t p_index_count, uint32_t p_first_in
 	vkCmdDrawIndexed(commands, p_index_count, 1, p_first_index, 0, 0);
 }
 
+void VulkanCommandList::draw_instances(
+		uint32_t p_index_count, uint32_t p_instance_count, uint32_t p_first_instance) {
+	check_draw("draw_instances");
+	GNOMON_ASSERT(is_index_buffer_bound, "pipeline '", bound_pipeline->name,
+			"': draw_instances before bind_index_buffer");
+	const uint64_t triangles = std::max<uint64_t>(p_index_count / 3, 1);
+	const auto instances_per_draw = static_cast<uint32_t>(std::clamp<uint64_t>(
+			device->max_part_triangles / triangles, 1, std::max(p_instance_count, 1u)));
+	for (uint32_t first = 0; first < p_instance_count; first += instances_per_draw) {
+		const uint32_t count = std::min(instances_per_draw, p_instance_count - first);
+		++device->command_counts.draws;
+		begin_part_if_full(triangles * count);
+		vkCmdDrawIndexed(commands, p_index_count, count, /*firstIndex=*/0, /*vertexOffset=*/0,
+				p_first_instance + first);
+	}
+}
+
 void VulkanCommandList::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
 	check_draw("draw_indirect");
 	++device->command_counts.draws;

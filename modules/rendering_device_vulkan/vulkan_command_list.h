@@ -44,6 +44,8 @@ public:
 	void bind_index_buffer(BufferRID p_buffer) override;
 	void draw(uint32_t p_vertex_count, uint32_t p_instance_count) override;
 	void draw_indexed(uint32_t p_index_count, uint32_t p_first_index) override;
+	void draw_instances(
+			uint32_t p_index_count, uint32_t p_instance_count, uint32_t p_first_instance) override;
 	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) override;
 	void begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes) override;
 	void end_conditional() override;

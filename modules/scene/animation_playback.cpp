@@ -16,7 +16,8 @@ void AnimationPlayback::play() {
 	}
 }
 
-void AnimationPlayback::advance(Scene &r_scene, double p_seconds) {
+bool AnimationPlayback::advance(Scene &r_scene, double p_seconds) {
+	const double before_s = time_s;
 	if (animation && is_playing) {
 		const double next_s = time_s + p_seconds * speed;
 		if (loops) {
@@ -27,6 +28,7 @@ void AnimationPlayback::advance(Scene &r_scene, double p_seconds) {
 		}
 	}
 	apply(r_scene);
+	return animation && time_s != before_s;
 }
 
 void AnimationPlayback::apply(Scene &r_scene) const {

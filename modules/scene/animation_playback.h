@@ -17,8 +17,9 @@ public:
 
 	/// Starts playing; if it does not loop and is at its end, it restarts from the other end.
 	void play();
-	/// Advances by p_seconds of real time, times the speed, and poses the scene.
-	void advance(Scene &r_scene, double p_seconds);
+	/// Advances by p_seconds of real time, times the speed, and poses the scene. Returns false if
+	/// the time is that of the call before, and so is the pose, if nothing else posed the scene.
+	bool advance(Scene &r_scene, double p_seconds);
 	/// Poses the scene at the current time.
 	void apply(Scene &r_scene) const;
 };

@@ -248,6 +248,9 @@ double InstanceSnapshot::compute_max_penumbra_half_width(
 }
 
 glm::vec3 InstanceSnapshot::compute_transmittance() const {
+	if (!(material->transmission > 0.0f)) {
+		return glm::vec3(0.0f); // most instances; without the scale
+	}
 	const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_node))));
 	return material->compute_transmittance(static_cast<float>(scale));
 }
@@ -293,10 +296,11 @@ std::shared_ptr<const SceneSnapshot> SceneSnapshot::select_casters(
 		if (!selected) {
 			selected = std::make_shared<SceneSnapshot>(*this);
 		}
-		selected->instances[index].casts_shadow = casts;
-		selected->instances[index].caster_mesh = mesh;
+		InstanceSnapshot &chosen = selected->instances.edit()[index];
+		chosen.casts_shadow = casts;
+		chosen.caster_mesh = mesh;
 		if (casts && has_own) {
-			selected->instances[index].cut_hash = mesh->content_hash;
+			chosen.cut_hash = mesh->content_hash;
 		}
 	}
 	return selected;

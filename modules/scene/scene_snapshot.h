@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/core/property.h"
+#include "modules/core/shared_vector.h"
 #include "modules/scene/nodes.h"
 
 #include <glm/glm.hpp>
@@ -141,8 +142,8 @@ glm::dmat3 compute_orientation(
 /// Everything one frame needs of the scene, by value; never changes once built.
 struct SceneSnapshot {
 	CameraSnapshot camera;
-	std::vector<LightSnapshot> lights;
-	std::vector<InstanceSnapshot> instances;
+	SharedVector<LightSnapshot> lights;
+	SharedVector<InstanceSnapshot> instances;
 	/// True: the host lights with normals that are not those of the faces, so that a face turned
 	/// away from a light may be lit. It is a receiver too, on its far side; see RECEIVER_FAR_SIDE
 	/// in frame_shared.h.

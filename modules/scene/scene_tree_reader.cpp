@@ -1,6 +1,7 @@
 // build_snapshot: reads what one frame needs from a scene's tree.
 
 #include "modules/core/error.h"
+#include "modules/scene/frame_snapshots.h"
 #include "modules/scene/mesh_pose.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/scene/skin_transforms.h"
@@ -65,7 +66,8 @@ public:
 			snapshot(r_snapshot), is_posed(p_is_posed) {}
 
 	void read(const Node3D &p_root) {
-		snapshot.instances.reserve(count_nodes(p_root)); // most nodes of large scenes are meshes
+		snapshot.instances.edit().reserve(
+				count_nodes(p_root)); // most nodes of large scenes are meshes
 		read_node(p_root, glm::dmat4(1.0));
 		for (const auto &[node, world_from_node] : deformable) { // now that all joints are known
 			read_deformable(*node, world_from_node);
@@ -149,9 +151,10 @@ private:
 
 	InstanceSnapshot &add_instance(const MeshInstance3D &p_node,
 			const MeshInstance3D::Surface &p_surface, const glm::dmat4 &p_world_from_node) {
-		snapshot.instances.push_back(
+		std::vector<InstanceSnapshot> &instances = snapshot.instances.edit();
+		instances.push_back(
 				make_instance(p_surface.mesh, p_surface.material, p_world_from_node, p_node.name));
-		InstanceSnapshot &instance = snapshot.instances.back();
+		InstanceSnapshot &instance = instances.back();
 		instance.casts_shadow = instance.casts_shadow && p_node.casts_shadow;
 		instance.is_planar_receiver = p_node.is_planar_receiver;
 		return instance;
@@ -177,10 +180,26 @@ std::shared_ptr<const SceneSnapshot> build_snapshot(
 		snapshot->scene_size_m = snapshot->compute_caster_bounds().get_diagonal();
 	}
 	snapshot->scene_size_m = std::max(MIN_SCENE_SIZE_M, snapshot->scene_size_m);
-	for (LightSnapshot &light : snapshot->lights) {
+	for (LightSnapshot &light : snapshot->lights.edit()) {
 		light.decide_settings(snapshot->scene_size_m);
 	}
 	return snapshot;
+}
+
+std::shared_ptr<const SceneSnapshot> FrameSnapshots::build(
+		const Scene &p_scene, const Camera3D &p_camera, bool p_has_changed) {
+	if (!last || p_has_changed) {
+		last = build_snapshot(p_scene, p_camera);
+		return last;
+	}
+	CameraSnapshot camera = build_camera_snapshot(p_camera);
+	if (camera.name != last->camera.name ||
+			camera.compute_hash(0) != last->camera.compute_hash(0)) {
+		auto moved = std::make_shared<SceneSnapshot>(*last);
+		moved->camera = std::move(camera);
+		last = std::move(moved);
+	}
+	return last;
 }
 
 } // namespace gnomon

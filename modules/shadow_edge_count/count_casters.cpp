@@ -159,7 +159,7 @@ CountCasters build_count_casters(
 	result.side_tolerance =
 			static_cast<float>(is_directional ? SIDE_TOLERANCE_COSINE
 											  : SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
-	const Bounds scene_bounds = p_inputs.scene.compute_bounds();
+	const Bounds &scene_bounds = p_inputs.scene_bounds_world;
 	uint32_t views_with_faces = 0;
 	const std::vector<uint32_t> indices = collect_casters(p_inputs, view_indices);
 	uint64_t triangle_count = 0;

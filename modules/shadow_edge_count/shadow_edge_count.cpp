@@ -38,9 +38,8 @@ uint64_t compute_casters_hash(
 		hash = compute_value_hash(p_inputs.casters[view].content_hash, hash);
 		hash = compute_value_hash(p_inputs.views[view].view_from_world, hash);
 	}
-	const Bounds bounds = p_inputs.scene.compute_bounds();
-	hash = compute_value_hash(bounds.minimum, hash);
-	hash = compute_value_hash(bounds.maximum, hash);
+	hash = compute_value_hash(p_inputs.scene_bounds_world.minimum, hash);
+	hash = compute_value_hash(p_inputs.scene_bounds_world.maximum, hash);
 	return compute_value_hash(p_inputs.scene.scene_size_m, hash);
 }
 
@@ -86,15 +85,15 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	// In a large world, what did not change is not looked through again.
 	const uint64_t casters_hash = compute_casters_hash(p_inputs, settings);
-	bool is_same = p_inputs.may_skip && p_inputs.may_reuse &&
-			!cached.casters.casters.empty() && cached.casters_hash == casters_hash;
+	bool is_same = p_inputs.may_skip && p_inputs.may_reuse && !cached.casters.casters.empty() &&
+			cached.casters_hash == casters_hash;
 	CountCasters built;
 	if (!is_same) {
 		built = build_count_casters(p_inputs, settings.disc_radius, order);
 	}
 	const CountCasters &casters = is_same ? cached.casters : built;
-	may_exceed_budget = settings.has_budget() &&
-			(casters.edge_count > settings.budget || !p_inputs.may_skip);
+	may_exceed_budget =
+			settings.has_budget() && (casters.edge_count > settings.budget || !p_inputs.may_skip);
 	may_filter = may_exceed_budget || settings.has_time_budget();
 	// Only the filter reads views other than that of the receiver.
 	views.begin(p_inputs,
@@ -354,11 +353,12 @@ std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 				 "choose_rungs.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
-	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
-				 "bound_clusters.comp", "list_cut_faces.comp", "find_leaves.comp",
-				 "list_leaves.comp", "count_solids.comp", "resolve_smooth.comp",
-				 "resolve_smooth_fine.comp", "resolve.comp", "resolve_fine.comp",
-				 "resolve_coarse.comp", "resolve_unfinished.comp", "resolve_unfinished_fine.comp", "debug.comp" }) {
+	for (const char *name :
+			{ "caster_faces.comp", "mark_edges.comp", "list_edges.comp", "bound_clusters.comp",
+					"list_cut_faces.comp", "find_leaves.comp", "list_leaves.comp",
+					"count_solids.comp", "resolve_smooth.comp", "resolve_smooth_fine.comp",
+					"resolve.comp", "resolve_fine.comp", "resolve_coarse.comp",
+					"resolve_unfinished.comp", "resolve_unfinished_fine.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 		files.push_back(get_storage_variant(files.back()));
 	}

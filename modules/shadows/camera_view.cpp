@@ -26,6 +26,11 @@ glm::dmat4 compute_shift(const CameraSnapshot &p_camera) {
 }
 
 shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
+	return compute_frame_constants(p_scene, p_scene.compute_caster_bounds(), p_size_px);
+}
+
+shader::FrameConstants compute_frame_constants(
+		const SceneSnapshot &p_scene, const Bounds &p_caster_bounds_world, glm::uvec2 p_size_px) {
 	const CameraSnapshot &camera = p_scene.camera;
 	const LightView view = make_camera_view(camera, p_size_px);
 	shader::FrameConstants frame = {};
@@ -43,8 +48,7 @@ shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm
 	frame.near_m = camera.near_m;
 	frame.scene_size_m = static_cast<float>(p_scene.scene_size_m);
 	const double pixel_size_per_m = 2.0 * view.half_extent.y / p_size_px.y;
-	const double extent_m =
-			std::max(p_scene.scene_size_m, p_scene.compute_caster_bounds().get_diagonal());
+	const double extent_m = std::max(p_scene.scene_size_m, p_caster_bounds_world.get_diagonal());
 	frame.pixel_size_per_m = static_cast<float>(pixel_size_per_m);
 	frame.receiver_offset_m = static_cast<float>(RECEIVER_OFFSET_ROUNDING * extent_m);
 	frame.receiver_offset_per_m =

@@ -34,6 +34,9 @@ constexpr float NO_FAR_SIDE = 2.0f;
 
 /// Fills the camera constants that the shaders read. p_size_px: size of the image.
 shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
+/// The same, if the bounds of all casters are known.
+shader::FrameConstants compute_frame_constants(
+		const SceneSnapshot &p_scene, const Bounds &p_caster_bounds_world, glm::uvec2 p_size_px);
 
 /// Camera-relative position of a pixel's centre in metres, from its reversed depth (above 0): the
 /// CPU version of position_from_depth in depth_inc.glsl.

@@ -114,22 +114,36 @@ shader::LightViewConstants LightView::compute_constants(
 
 bool LightView::may_see_box(
 		const Bounds &p_box, const glm::dmat4 &p_view_from_box, double p_margin_m) const {
-	// The box is outside when all its corners are farther than the margin outside one plane: the
-	// four sides, and z > 0 for a perspective view.
-	const glm::dvec2 slope = is_orthographic ? glm::dvec2(0.0) : glm::dvec2(half_extent);
-	const glm::dvec2 margin = p_margin_m * glm::sqrt(1.0 + slope * slope);
-	int outside_counts[5] = {};
-	for_each_corner(p_box, [&](const glm::dvec3 &p_corner) {
-		const glm::dvec3 p = glm::dvec3(p_view_from_box * glm::dvec4(p_corner, 1.0));
-		const glm::dvec2 limit = glm::dvec2(half_extent) * (is_orthographic ? 1.0 : p.z) + margin;
-		outside_counts[0] += p.x > limit.x;
-		outside_counts[1] += p.x < -limit.x;
-		outside_counts[2] += p.y > limit.y;
-		outside_counts[3] += p.y < -limit.y;
-		outside_counts[4] += !is_orthographic && p.z < -p_margin_m;
-	});
-	return std::none_of(std::begin(outside_counts), std::end(outside_counts),
-			[](int p_count) { return p_count == 8; });
+	// The box is outside when all of it is farther than the margin outside one plane: the four
+	// sides, and z > 0 for a perspective view. A linear function is lowest at one of its corners.
+	const glm::dvec3 centre = 0.5 * (p_box.minimum + p_box.maximum);
+	const glm::dvec3 half_size = 0.5 * (p_box.maximum - p_box.minimum);
+	const glm::dvec3 origin = glm::dvec3(p_view_from_box * glm::dvec4(centre, 1.0));
+	const glm::dmat3 axes(glm::dvec3(p_view_from_box[0]) * half_size.x,
+			glm::dvec3(p_view_from_box[1]) * half_size.y,
+			glm::dvec3(p_view_from_box[2]) * half_size.z);
+	const double ROUNDING = 1e-13; // relative
+	// Whether normal . p is above the limit for all p of the box.
+	const auto is_above = [&](const glm::dvec3 &p_normal, double p_limit) {
+		const glm::dvec3 reach = glm::abs(p_normal * axes); // of each axis
+		const glm::dvec3 terms = glm::abs(p_normal * origin);
+		const double middle = glm::dot(p_normal, origin);
+		const double rounding = ROUNDING * (terms.x + terms.y + terms.z + std::abs(p_limit));
+		return middle - (reach.x + reach.y + reach.z) > p_limit + rounding;
+	};
+	const glm::dvec2 extent(half_extent);
+	if (is_orthographic) {
+		return !is_above({ 1.0, 0.0, 0.0 }, extent.x + p_margin_m) &&
+				!is_above({ -1.0, 0.0, 0.0 }, extent.x + p_margin_m) &&
+				!is_above({ 0.0, 1.0, 0.0 }, extent.y + p_margin_m) &&
+				!is_above({ 0.0, -1.0, 0.0 }, extent.y + p_margin_m);
+	}
+	const glm::dvec2 margin = p_margin_m * glm::sqrt(1.0 + extent * extent);
+	return !is_above({ 0.0, 0.0, -1.0 }, p_margin_m) &&
+			!is_above({ 1.0, 0.0, -extent.x }, margin.x) &&
+			!is_above({ -1.0, 0.0, -extent.x }, margin.x) &&
+			!is_above({ 0.0, 1.0, -extent.y }, margin.y) &&
+			!is_above({ 0.0, -1.0, -extent.y }, margin.y);
 }
 
 bool LightView::may_see(const Bounds &p_bounds_world) const {

@@ -16,8 +16,21 @@ namespace gnomon {
 
 namespace {
 
-CasterList cull_casters(const SceneSnapshot &p_scene, const CasterFlags &p_casts,
-		const LightView &p_view, bool p_may_cull) {
+/// Hashes everything of each instance that its shadow depends on.
+std::vector<uint64_t> hash_casters(const SceneSnapshot &p_scene) {
+	std::vector<uint64_t> hashes;
+	hashes.reserve(p_scene.instances.size());
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		uint64_t hash = instance.compute_hash(/*p_seed=*/1);
+		hash = compute_value_hash(instance.caster_mesh->id, hash);
+		hashes.push_back(compute_value_hash(instance.caster_levels != nullptr, hash));
+	}
+	return hashes;
+}
+
+/// p_hashes: from hash_casters.
+CasterList cull_casters(const SceneSnapshot &p_scene, std::span<const uint64_t> p_hashes,
+		const CasterFlags &p_casts, const LightView &p_view, bool p_may_cull) {
 	CasterList casters;
 	// Field by field: the struct has padding.
 	uint64_t hash = compute_value_hash(p_view.view_from_world, /*p_seed=*/1);
@@ -31,9 +44,7 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const CasterFlags &p_casts
 			continue;
 		}
 		casters.instances.push_back(index);
-		hash = instance.compute_hash(hash);
-		hash = compute_value_hash(instance.caster_mesh->id, hash);
-		hash = compute_value_hash(instance.caster_levels != nullptr, hash);
+		hash = compute_value_hash(p_hashes[index], hash);
 	}
 	casters.content_hash = hash;
 	return casters;
@@ -82,7 +93,9 @@ void TechniquePlan::skip_light_view(uint32_t p_view_index, const std::string &p_
 
 struct ShadowFrame::Work {
 	const SceneSnapshot &scene;
-	const LightSnapshot &light;
+	std::span<const uint64_t> caster_hashes; // see hash_casters
+	const LightSnapshot &snapshot_light;	 // the snapshot's own
+	const LightSnapshot &light;				 // with the technique's widths
 	const ShadowTechniqueInfo &info;
 	const PropertyValues &properties;
 	const VisibleReceivers &lit_receivers;
@@ -100,10 +113,10 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 	if (!options.technique_override.empty()) {
 		ShadowRegistry::get(options.technique_override); // throws when it is not registered
 	}
-	system.begin_frame(*scene);
-	const uint32_t moved_count = system.meshes->add_deform_pass(graph, *scene, options.may_reuse);
-	const auto posed_count = std::count_if(scene->instances.begin(), scene->instances.end(),
-			[](const InstanceSnapshot &p_instance) { return p_instance.pose != nullptr; });
+	system.begin_frame(scene, size_px);
+	const size_t posed_count = system.scene_parts.posed_count;
+	const uint32_t moved_count =
+			posed_count > 0 ? system.meshes->add_deform_pass(graph, *scene, options.may_reuse) : 0;
 	if (moved_count > 0) {
 		plan.run(text("deform, meshes: ", moved_count));
 	}
@@ -111,18 +124,10 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		plan.skip(text("deform, meshes: ", posed_count - moved_count),
 				"cached: their pose is the same");
 	}
-	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px),
+	constants = graph.upload_constants("frame constants", system.camera_parts.constants,
 			BufferUsage::STORAGE | BufferUsage::UNIFORM); // hosts may bind it as either
-	LightView view = make_camera_view(scene->camera, size_px);
-	// make_camera_view ignores the shift; this wider view contains the shifted one.
-	view.half_extent *= 1.0f + glm::abs(scene->camera.shift);
-	receivers = find_visible_receivers(*scene, view);
-	for (const InstanceSnapshot &instance : scene->instances) {
-		if (instance.casts_shadow && instance.cut_block_size_px > 0) {
-			plan.run(
-					text("holes of \"", instance.node_name, "\" as squares, one for each block of ",
-							instance.cut_block_size_px, " texels"));
-		}
+	for (const std::string &line : system.scene_parts.cut_out_lines) {
+		plan.run(line);
 	}
 }
 
@@ -198,7 +203,7 @@ void ShadowFrame::add_receivers_pass(LightShadow &r_shadow, bool p_lists_all_til
 }
 
 std::string ShadowFrame::describe_unlit(const LightSnapshot &p_light) const {
-	if (!find_lit_receivers(p_light, receivers).list.empty()) {
+	if (!find_lit_receivers(p_light, system.camera_parts.receivers).list.empty()) {
 		return {};
 	}
 	return text("the camera sees no surface",
@@ -216,7 +221,7 @@ LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_de
 			"light constants", compute_light_constants(p_light, scene->camera));
 	add_receivers_pass(shadow, !options.may_skip || p_wants_debug_views);
 	plan.run("receivers");
-	const VisibleReceivers lit = find_lit_receivers(p_light, receivers);
+	const VisibleReceivers lit = find_lit_receivers(p_light, system.camera_parts.receivers);
 	if (!p_light.casts_shadow) {
 		plan.skip("shadow", "shadow_enabled is false");
 		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
@@ -277,6 +282,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.device = system.device,
 		.meshes = *system.meshes,
 		.scene = p_work.scene,
+		.scene_bounds_world = system.scene_parts.bounds_world,
 		.light = p_work.light,
 		.properties = p_work.properties,
 		.settings = ShadowRegistry::get_setting_values(p_work.info.id),
@@ -315,40 +321,58 @@ RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
 	return p_mask;
 }
 
-RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_technique,
-		const CasterFlags &p_casts, const std::string &p_run) {
-	TechniquePlan technique_plan(plan, p_run.empty() ? "" : p_run + ": ");
-	const bool wants_debug_views = p_work.wants_debug_views && p_run.empty();
-	std::vector<LightView> views;
-	r_technique.get_light_views(p_work.light,
-			{ p_work.scene, compute_bounds(p_work.scene, p_casts) }, p_work.properties, views);
-	std::vector<CasterList> casters;
-	for (LightView &view : views) {
-		if (r_technique.queries_receivers_only()) {
+ShadowSystem::RunParts ShadowFrame::derive_run_parts(const Work &p_work,
+		const ShadowTechnique &p_technique, const CasterFlags &p_casts,
+		bool p_wants_debug_views) const {
+	ShadowSystem::RunParts parts = { &p_work.snapshot_light, options.may_skip, p_wants_debug_views,
+		/*views=*/{}, /*casters=*/{} };
+	p_technique.get_light_views(p_work.light,
+			{ p_work.scene, compute_bounds(p_work.scene, p_casts) }, p_work.properties,
+			parts.views);
+	for (LightView &view : parts.views) {
+		if (p_technique.queries_receivers_only()) {
 			fit_to_receivers(view, p_work.lit_receivers,
 					compute_fit_reach_m(view, p_work.light, p_work.scene, p_work.lit_receivers));
 		}
-		casters.push_back(cull_casters(p_work.scene, p_casts, view, options.may_skip));
+		parts.casters.push_back(
+				cull_casters(p_work.scene, p_work.caster_hashes, p_casts, view, options.may_skip));
 		// While debug views are shown, every view counts as having receivers, so that its map is
 		// drawn.
-		casters.back().has_receivers =
-				wants_debug_views || may_view_contain_any(view, p_work.lit_receivers);
+		parts.casters.back().has_receivers =
+				p_wants_debug_views || may_view_contain_any(view, p_work.lit_receivers);
 	}
+	return parts;
+}
+
+RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowSystem::Slot &r_slot,
+		const TranslucentCasters &p_translucent, const TranslucentGroup *p_group,
+		const std::string &p_run) {
+	TechniquePlan technique_plan(plan, p_run.empty() ? "" : p_run + ": ");
+	const bool wants_debug_views = p_work.wants_debug_views && p_run.empty();
+	ShadowTechnique &technique = *r_slot.technique;
+	const ShadowSystem::RunParts &parts = r_slot.run_parts;
+	if (parts.light != &p_work.snapshot_light || parts.may_skip != options.may_skip ||
+			parts.wants_debug_views != wants_debug_views) {
+		r_slot.run_parts = derive_run_parts(p_work, technique,
+				find_opaque_casters(p_work.scene, p_translucent, p_group), wants_debug_views);
+	}
+	const std::vector<LightView> &views = parts.views;
+	const std::vector<CasterList> &casters = parts.casters;
 	const ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
-	r_technique.plan(inputs, technique_plan);
+	technique.plan(inputs, technique_plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {
 		if (technique_plan.is_light_view_skipped(index)) {
 			continue;
 		}
 		technique_plan.run(text("light view ", index));
-		r_technique.before_light_view(graph, inputs, index);
-		r_technique.at_light_view(graph, inputs, index);
-		r_technique.after_light_view(graph, inputs, index);
+		technique.before_light_view(graph, inputs, index);
+		technique.at_light_view(graph, inputs, index);
+		technique.after_light_view(graph, inputs, index);
 	}
 	technique_plan.run("resolve");
-	const RGTexture mask = r_technique.resolve(graph, inputs);
+	const RGTexture mask = technique.resolve(graph, inputs);
 	if (wants_debug_views) {
-		r_technique.get_debug_views(p_work.shadow.debug_views);
+		technique.get_debug_views(p_work.shadow.debug_views);
 		for (ShadowTechnique::DebugView &view : p_work.shadow.debug_views) {
 			view.shown_range =
 					view.is_light_depth ? compute_debug_depth_range(inputs) : view.shown_range;
@@ -365,8 +389,7 @@ RGTexture ShadowFrame::add_translucent_casters(
 		const std::string name = text("translucent ", index + 1);
 		graph.set_pass_prefix(text(p_work.light.name, ": ", name, ": "));
 		ShadowSystem::Slot &slot = system.get_slot({ p_work.light.name, index + 1 }, p_work.info);
-		const RGTexture both = add_technique(p_work, *slot.technique,
-				find_opaque_casters(p_work.scene, p_casters, &group), name);
+		const RGTexture both = add_technique(p_work, slot, p_casters, &group, name);
 		const RGTexture tinted = create_mask(graph, size_px, Format::RGBA16_SFLOAT);
 		add_compute_pass(graph, "tint",
 				system.device.get_compute_pipeline(
@@ -397,31 +420,33 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	}
 	const PropertyValues properties = resolve_light_properties(
 			p_light, ShadowRegistry::get_light_properties(choice.info->id));
-	const std::shared_ptr<const SceneSnapshot> selection = scene->select_casters(p_light);
-	if (selection) {
-		selections.push_back(selection);
+	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
+	ShadowSystem::LightParts &parts = slot.light_parts;
+	if (parts.light != &p_light) {
+		parts = { &p_light, scene->select_casters(p_light), /*translucent=*/{},
+			/*caster_hashes=*/{} };
+		const SceneSnapshot &selected = parts.selection ? *parts.selection : *scene;
+		parts.translucent = find_translucent_casters(selected, p_light);
+		parts.caster_hashes = hash_casters(selected);
 	}
-	const SceneSnapshot &seen = selection ? *selection : *scene;
+	const SceneSnapshot &seen = parts.selection ? *parts.selection : *scene;
 	LightSnapshot &light = lights.emplace_back(p_light);
 	light.derive_widths(choice.info->derived_widths);
-	const Work work = { seen, light, *choice.info, properties, p_lit, r_shadow,
-		p_wants_debug_views };
-	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
+	const Work work = { seen, parts.caster_hashes, p_light, light, *choice.info, properties, p_lit,
+		r_shadow, p_wants_debug_views };
 	for (const ExceededLimit &limit : slot.limits.find_exceeded(
 				 seen, light, choice.info->id, slot.technique->get_limits(properties))) {
 		system.warn_once(limit.key, limit.warning);
 	}
 	RGTexture mask;
-	TranslucentCasters translucent;
-	if (!slot.technique->sees_translucent_casters()) {
-		translucent = find_translucent_casters(seen, p_light);
-	}
+	const TranslucentCasters none;
+	const TranslucentCasters &translucent =
+			slot.technique->sees_translucent_casters() ? none : parts.translucent;
 	std::erase_if(system.slots, [&](const auto &p_slot) { // groups that no longer exist
 		return p_slot.first.first == p_light.name &&
 				p_slot.first.second > translucent.groups.size();
 	});
-	mask = add_technique(work, *slot.technique,
-			find_opaque_casters(seen, translucent, /*p_group=*/nullptr), /*p_run=*/"");
+	mask = add_technique(work, slot, translucent, /*p_group=*/nullptr, /*p_run=*/"");
 	if (!translucent.is_empty()) {
 		system.warn_once(describe_merged(p_light, translucent));
 		mask = add_translucent_casters(work, translucent, mask);

@@ -68,6 +68,12 @@ public:
 	/// The camera, as a buffer that can be bound as uniform or storage buffer:
 	/// shader::FrameConstants.
 	RGBuffer get_constants() const { return constants; }
+	/// All instances that the camera may see, in the snapshot's order.
+	std::span<const VisibleReceiver> list_visible() const {
+		return system.camera_parts.receivers.list;
+	}
+	/// Of all instances.
+	const Bounds &get_scene_bounds() const { return system.scene_parts.bounds_world; }
 	/// Call before the first add_light.
 	void set_surfaces(const HostSurfaces &p_surfaces);
 	/// The surfaces that were set, with normals added when the host gave none.
@@ -101,9 +107,12 @@ private:
 			LightShadow &r_shadow, bool p_wants_debug_views);
 	ShadowTechnique::Inputs make_inputs(const Work &p_work, std::span<const LightView> p_views,
 			std::span<const CasterList> p_casters, bool p_wants_debug_views) const;
-	/// p_run: empty for the opaque casters, else the name of the group of translucent ones.
-	RGTexture add_technique(const Work &p_work, ShadowTechnique &r_technique,
-			const CasterFlags &p_casts, const std::string &p_run);
+	/// p_group: null for the opaque casters. p_run: empty for these, else the group's name.
+	RGTexture add_technique(const Work &p_work, ShadowSystem::Slot &r_slot,
+			const TranslucentCasters &p_translucent, const TranslucentGroup *p_group,
+			const std::string &p_run);
+	ShadowSystem::RunParts derive_run_parts(const Work &p_work, const ShadowTechnique &p_technique,
+			const CasterFlags &p_casts, bool p_wants_debug_views) const;
 	RGTexture add_translucent_casters(
 			const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque);
 	RGTexture add_filters(const Work &p_work, RGTexture p_mask);
@@ -116,12 +125,9 @@ private:
 	ShadowFrameOptions options;
 	RGBuffer constants;
 	HostSurfaces surfaces;
-	RGBuffer tile_depths;		// see add_tile_depths_pass
-	VisibleReceivers receivers; // for all lights
+	RGBuffer tile_depths; // see add_tile_depths_pass
 	/// Copies of lights, with the widths that their technique derives.
 	std::deque<LightSnapshot> lights;
-	/// Snapshots for lights for which some casters cast no shadow.
-	std::vector<std::shared_ptr<const SceneSnapshot>> selections;
 	bool has_ended = false;
 };
 

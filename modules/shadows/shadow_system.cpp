@@ -2,8 +2,21 @@
 
 #include "modules/core/limits.h"
 #include "modules/core/log.h"
+#include "modules/core/text.h"
+#include "modules/shadows/camera_view.h"
 
 namespace gnomon {
+
+namespace {
+
+bool differ_in_camera_only(const SceneSnapshot &p_before, const SceneSnapshot &p_scene) {
+	return p_before.instances.shares_items_with(p_scene.instances) &&
+			p_before.lights.shares_items_with(p_scene.lights) &&
+			p_before.has_far_sides == p_scene.has_far_sides &&
+			p_before.scene_size_m == p_scene.scene_size_m;
+}
+
+} // namespace
 
 ShadowSystem::ShadowSystem(RenderingDevice &p_device, std::shared_ptr<MeshStore> p_meshes) :
 		device(p_device),
@@ -16,6 +29,7 @@ ShadowSystem::Slot &ShadowSystem::get_slot(
 		slot.technique.reset(); // first, so that the resources of both never exist at once
 		slot.technique = p_info.make();
 		slot.technique_id = p_info.id;
+		slot.run_parts = {};
 	}
 	slot.last_frame = frame;
 	return slot;
@@ -35,7 +49,8 @@ std::vector<WorkCounter> ShadowSystem::get_counters(const std::string &p_light_n
 	return counters;
 }
 
-void ShadowSystem::begin_frame(const SceneSnapshot &p_scene) {
+void ShadowSystem::begin_frame(
+		const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) {
 	if (technique_revision != ShadowRegistry::get_revision()) {
 		technique_revision = ShadowRegistry::get_revision();
 		slots.clear();
@@ -48,12 +63,52 @@ void ShadowSystem::begin_frame(const SceneSnapshot &p_scene) {
 			filters.push_back(info.make());
 		}
 	}
-	warn_once("scene_size", describe_scene_size_problem(p_scene));
 	++frame;
+	if (!scene_parts.scene || !differ_in_camera_only(*scene_parts.scene, *p_scene)) {
+		derive_scene_parts(p_scene);
+	}
+	if (camera_parts.scene != p_scene || camera_parts.size_px != p_size_px) {
+		derive_camera_parts(p_scene, p_size_px);
+	}
 	std::erase_if(slots, [&](const auto &p_slot) {
 		return frame - p_slot.second.last_frame > MAX_UNUSED_FRAMES ||
-				p_scene.find_light(p_slot.first.first) == nullptr;
+				p_scene->find_light(p_slot.first.first) == nullptr;
 	});
+}
+
+void ShadowSystem::derive_scene_parts(const std::shared_ptr<const SceneSnapshot> &p_scene) {
+	warn_once("scene_size", describe_scene_size_problem(*p_scene));
+	scene_parts = { p_scene, p_scene->compute_bounds(), p_scene->compute_caster_bounds(),
+		/*posed_count=*/0, /*cut_out_lines=*/{} };
+	for (const InstanceSnapshot &instance : p_scene->instances) {
+		scene_parts.posed_count += instance.pose != nullptr ? 1 : 0;
+		if (instance.casts_shadow && instance.cut_block_size_px > 0) {
+			scene_parts.cut_out_lines.push_back(
+					text("holes of \"", instance.node_name, "\" as squares, one for each block of ",
+							instance.cut_block_size_px, " texels"));
+		}
+	}
+	for (auto &[key, slot] : slots) {
+		slot.light_parts = {};
+	}
+}
+
+void ShadowSystem::derive_camera_parts(
+		const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) {
+	LightView view = make_camera_view(p_scene->camera, p_size_px);
+	// make_camera_view ignores the shift; this wider view contains the shifted one.
+	view.half_extent *= 1.0f + glm::abs(p_scene->camera.shift);
+	camera_parts = { p_scene, p_size_px,
+		compute_frame_constants(*p_scene, scene_parts.caster_bounds_world, p_size_px),
+		find_visible_receivers(*p_scene, view) };
+	for (auto &[key, slot] : slots) {
+		slot.run_parts = {};
+		if (slot.light_parts.selection) {
+			auto selection = std::make_shared<SceneSnapshot>(*slot.light_parts.selection);
+			selection->camera = p_scene->camera;
+			slot.light_parts.selection = std::move(selection);
+		}
+	}
 }
 
 void ShadowSystem::warn_once(const std::string &p_warning) {

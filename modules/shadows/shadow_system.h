@@ -4,6 +4,7 @@
 #include "modules/shadows/mask_filter.h"
 #include "modules/shadows/mesh_store.h"
 #include "modules/shadows/shadow_registry.h"
+#include "modules/shadows/translucent_casters.h"
 #include "modules/shadows/visible_receivers.h"
 
 #include <map>
@@ -38,12 +39,47 @@ public:
 
 private:
 	friend class ShadowFrame;
+	// What a frame derives from its snapshot. A frame whose snapshot shares instances and lights
+	// with that of the frame before (see FrameSnapshots) uses most of it again.
+
+	/// What does not depend on the camera.
+	struct SceneParts {
+		std::shared_ptr<const SceneSnapshot> scene; // from which it was derived; null: none
+		Bounds bounds_world;						// of all instances
+		Bounds caster_bounds_world;
+		size_t posed_count = 0;
+		std::vector<std::string> cut_out_lines; // of the plan
+	};
+	struct CameraParts {
+		std::shared_ptr<const SceneSnapshot> scene; // from which it was derived; null: none
+		glm::uvec2 size_px = glm::uvec2(0);
+		shader::FrameConstants constants = {};
+		VisibleReceivers receivers; // all instances that the camera may see
+	};
+	/// Of one light; independent of the camera.
+	struct LightParts {
+		const LightSnapshot *light = nullptr; // of SceneParts::scene; null: none
+		/// See SceneSnapshot::select_casters. With the frame's camera.
+		std::shared_ptr<const SceneSnapshot> selection;
+		TranslucentCasters translucent;
+		std::vector<uint64_t> caster_hashes; // of each instance, see hash_casters
+	};
+	/// Of one run of a light's technique; depends on the camera.
+	struct RunParts {
+		const LightSnapshot *light = nullptr; // null: none
+		bool may_skip = false;
+		bool wants_debug_views = false;
+		std::vector<LightView> views;
+		std::vector<CasterList> casters; // of each view
+	};
 	/// The technique of one light, or of one group of the light's translucent casters.
 	struct Slot {
 		std::string technique_id;
 		std::unique_ptr<ShadowTechnique> technique;
 		LightLimits limits;
 		uint64_t last_frame = 0; // the last frame that used the slot
+		LightParts light_parts;	 // of the slot of the light's opaque casters
+		RunParts run_parts;
 	};
 	/// The light's name, and 0 for its opaque casters or 1 + i for its group i of translucent ones.
 	using SlotKey = std::pair<std::string, size_t>;
@@ -53,11 +89,18 @@ private:
 	void warn_once(const std::string &p_key, const std::string &p_warning);
 	/// Drops the techniques of lights that no longer exist or that were unused for
 	/// MAX_UNUSED_FRAMES frames, and all techniques or filters when their registry changed. Warns
-	/// about a scene size that does not fit. Called once a frame.
-	void begin_frame(const SceneSnapshot &p_scene);
+	/// about a scene size that does not fit. Derives what has changed since the frame before.
+	/// Called once a frame.
+	void begin_frame(const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px);
+
+	void derive_scene_parts(const std::shared_ptr<const SceneSnapshot> &p_scene);
+	void derive_camera_parts(
+			const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px);
 
 	RenderingDevice &device;
 	std::shared_ptr<MeshStore> meshes;
+	SceneParts scene_parts;
+	CameraParts camera_parts;
 	std::map<SlotKey, Slot> slots;
 	std::vector<std::unique_ptr<MaskFilter>> filters; // in the registry's order
 	std::set<std::string> warned;					  // keys of the warnings that were logged

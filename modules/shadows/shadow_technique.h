@@ -86,6 +86,7 @@ public:
 		RenderingDevice &device;
 		MeshStore &meshes; // GPU buffers of the casters
 		const SceneSnapshot &scene;
+		const Bounds &scene_bounds_world; // of all its instances
 		/// With the technique's own derived widths (ShadowTechniqueInfo::derived_widths), unlike
 		/// the lights of `scene`.
 		const LightSnapshot &light;

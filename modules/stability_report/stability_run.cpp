@@ -136,7 +136,7 @@ void correct_reference(
 
 MaskTask move_light(const MaskTask &p_task) {
 	auto scene = std::make_shared<SceneSnapshot>(*p_task.scene);
-	for (LightSnapshot &light : scene->lights) {
+	for (LightSnapshot &light : scene->lights.edit()) {
 		if (light.name != p_task.light) {
 			continue;
 		}

@@ -10,11 +10,12 @@ layout(set = 0, binding = GBUFFER_BINDING_POSITIONS) readonly buffer Positions {
 layout(set = 0, binding = GBUFFER_BINDING_INDICES) readonly buffer Indices {
 	uint indices[];
 };
-layout(push_constant) uniform Push {
-	InstancePush instance;
+layout(std430, set = 0, binding = GBUFFER_BINDING_INSTANCES) readonly buffer Instances {
+	GBufferInstance instances[];
 };
 
 layout(location = 0) in vec3 in_normal; // world axes; 0 where the mesh has none
+layout(location = 4) flat in uint in_instance;
 layout(location = 0) out vec4 out_base_color;
 layout(location = 1) out uint out_shading_normal;
 layout(location = 2) out vec4 out_material;
@@ -25,7 +26,7 @@ vec3 load_position(uint p_corner) {
 	const uint base = 3u * indices[3u * uint(gl_PrimitiveID) + p_corner];
 	const vec4 node =
 			vec4(positions_node[base], positions_node[base + 1u], positions_node[base + 2u], 1.0);
-	return (instance.camera_relative_from_node * node).xyz;
+	return (instances[in_instance].camera_relative_from_node * node).xyz;
 }
 
 void main() {
@@ -33,7 +34,7 @@ void main() {
 	const vec3 a = load_position(0u);
 	const vec3 geometric = face_normal_to_viewer(a, load_position(1u), load_position(2u));
 
-	const SurfaceTexels texels = make_texels(instance, make_shading_normal(in_normal, geometric));
+	const SurfaceTexels texels = make_texels(instances[in_instance], make_shading_normal(in_normal, geometric));
 	out_base_color = texels.base_color;
 	out_shading_normal = pack_normal(texels.shading_normal);
 	out_material = texels.material;

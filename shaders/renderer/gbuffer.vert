@@ -7,13 +7,14 @@
 layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // why uniform: gbuffer_inc.glsl
 	FrameConstants frame;
 };
-layout(push_constant) uniform Push {
-	InstancePush instance;
+layout(std430, set = 0, binding = GBUFFER_BINDING_INSTANCES) readonly buffer Instances {
+	GBufferInstance instances[];
 };
 
 layout(location = 0) in vec3 in_position_node;
 layout(location = 1) in vec3 in_normal_node;
 layout(location = 0) out vec3 out_normal; // world axes; 0 where the mesh has none
+layout(location = 4) flat out uint out_instance;
 #ifdef VARIANT_TEXTURED
 layout(location = 2) in vec2 in_first_uv;
 layout(location = 3) in vec2 in_second_uv;
@@ -25,12 +26,13 @@ layout(location = 3) out vec4 out_color;
 #endif
 
 void main() {
-	const mat4 m = instance.camera_relative_from_node;
+	out_instance = gl_InstanceIndex;
+	const mat4 m = instances[gl_InstanceIndex].camera_relative_from_node;
 	// The cofactor matrix transforms normals, also if the transform has no inverse. For a mirroring
 	// transform it gives the opposite normal.
 	const mat3 cofactor =
 			mat3(cross(m[1].xyz, m[2].xyz), cross(m[2].xyz, m[0].xyz), cross(m[0].xyz, m[1].xyz));
-	const vec3 normal = cofactor * in_normal_node * (instance.is_mirrored != 0u ? -1.0 : 1.0);
+	const vec3 normal = cofactor * in_normal_node * (instances[gl_InstanceIndex].is_mirrored != 0u ? -1.0 : 1.0);
 	const float length2 = dot(normal, normal);
 	out_normal = length2 > 0.0 ? normal * inversesqrt(length2) : vec3(0.0);
 #ifdef VARIANT_TEXTURED

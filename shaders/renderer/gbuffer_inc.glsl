@@ -50,7 +50,7 @@ vec4 load_texel(uint p_has_texture, sampler2D p_texture, TextureTransform p_tran
 	return (TEXTURES & p_has_texture) == 0u ? vec4(1.0) : texture(p_texture, transform_uv(p_transform));
 }
 
-/// Applies the normal map. p_normal: the result of make_shading_normal. p_is_mirrored: InstancePush::is_mirrored.
+/// Applies the normal map. p_normal: the result of make_shading_normal. p_is_mirrored: GBufferInstance::is_mirrored.
 vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 	if ((TEXTURES & GBUFFER_HAS_NORMAL_MAP) == 0u) {
 		return p_normal;
@@ -67,7 +67,7 @@ vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 }
 
 /// Discards the fragment if its alpha is below the material's cutoff.
-SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
+SurfaceTexels make_texels(GBufferInstance p_instance, vec3 p_normal) {
 	const vec4 base_color = vec4(p_instance.base_color_roughness.rgb, material.alpha) * in_color *
 			load_texel(GBUFFER_HAS_BASE_COLOR, base_color_texture, material.base_color);
 	const vec3 metallic_roughness = load_texel(GBUFFER_HAS_METALLIC_ROUGHNESS, metallic_roughness_texture,
@@ -91,7 +91,7 @@ SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
 
 #else
 
-SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
+SurfaceTexels make_texels(GBufferInstance p_instance, vec3 p_normal) {
 	return SurfaceTexels(vec4(p_instance.base_color_roughness.rgb, 1.0), p_normal,
 			vec4(p_instance.scatter, p_instance.scatter_distance_m,
 					p_instance.base_color_roughness.a, p_instance.emissive_metallic.a),

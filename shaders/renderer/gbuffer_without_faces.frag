@@ -9,11 +9,12 @@
 layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // why uniform: gbuffer_inc.glsl
 	FrameConstants frame;
 };
-layout(push_constant) uniform Push {
-	InstancePush instance;
+layout(std430, set = 0, binding = GBUFFER_BINDING_INSTANCES) readonly buffer Instances {
+	GBufferInstance instances[];
 };
 
 layout(location = 0) in vec3 in_normal; // world axes; 0 where the mesh has none
+layout(location = 4) flat in uint in_instance;
 layout(location = 0) out vec4 out_base_color;
 layout(location = 1) out uint out_shading_normal;
 layout(location = 2) out vec4 out_material;
@@ -27,7 +28,7 @@ void main() {
 	const vec3 face = length2 > 0.0 ? scaled_face_normal * inversesqrt(length2) : -normalize(position);
 	const vec3 shading = make_shading_normal(in_normal, dot(face, position) > 0.0 ? -face : face);
 
-	const SurfaceTexels texels = make_texels(instance, shading);
+	const SurfaceTexels texels = make_texels(instances[in_instance], shading);
 	out_base_color = texels.base_color;
 	out_shading_normal = pack_normal(texels.shading_normal);
 	out_material = texels.material;

@@ -32,6 +32,7 @@
 #define GBUFFER_BINDING_NORMAL 6
 #define GBUFFER_BINDING_OCCLUSION 7
 #define GBUFFER_BINDING_EMISSIVE 8
+#define GBUFFER_BINDING_INSTANCES 9 // GBufferInstance, indexed by gl_InstanceIndex
 // Which textures the material has: a sum of the values below. The others are not read.
 #define GBUFFER_CONSTANT_TEXTURES 0
 #define GBUFFER_HAS_BASE_COLOR 1u
@@ -40,8 +41,8 @@
 #define GBUFFER_HAS_OCCLUSION 8u
 #define GBUFFER_HAS_EMISSIVE 16u
 
-/// Push constants of gbuffer.vert, gbuffer.frag and gbuffer_without_faces.frag.
-struct SHARED_ALIGN InstancePush {
+/// One drawn surface, for gbuffer.vert, gbuffer.frag and gbuffer_without_faces.frag.
+struct SHARED_ALIGN GBufferInstance {
 	mat4 camera_relative_from_node;
 	vec4 base_color_roughness; // rgb linear; a: roughness, or -1 - roughness for Phong's model
 	vec4 emissive_metallic;	   // rgb in cd/m^2
@@ -50,7 +51,7 @@ struct SHARED_ALIGN InstancePush {
 	uint is_mirrored; // 1: the transform reverses the winding
 	uint padding;
 };
-SHARED_SIZE(InstancePush, 112);
+SHARED_SIZE(GBufferInstance, 112);
 
 /// Transform of texture coordinates: dot(row_u.xyz, (u, v, 1)) and dot(row_v.xyz, (u, v, 1)) are
 /// the coordinates in the image.
@@ -60,7 +61,7 @@ struct SHARED_ALIGN TextureTransform {
 };
 SHARED_SIZE(TextureTransform, 32);
 
-/// What a material defines in addition to InstancePush.
+/// What a material defines in addition to GBufferInstance.
 struct SHARED_ALIGN MaterialConstants {
 	TextureTransform base_color;
 	TextureTransform metallic_roughness;

@@ -158,10 +158,11 @@ struct Square {
 		const RGBuffer frame =
 				graph.upload_constants("frame", compute_frame_constants(*snapshot, size_px),
 						BufferUsage::STORAGE | BufferUsage::UNIFORM);
-		uint32_t drawn_count = 0;
-		const GBuffer gbuffer = add_gbuffer_pass(
-				graph, device, meshes, materials, *snapshot, size_px, frame, drawn_count);
-		CHECK(drawn_count == 1);
+		const VisibleReceiver visible[] = { { 0, snapshot->instances[0].bounds_world } };
+		const GBufferInstances instances = collect_gbuffer_instances(snapshot, visible, size_px);
+		CHECK(instances.instances.size() == 1);
+		const GBuffer gbuffer =
+				add_gbuffer_pass(graph, device, meshes, materials, instances, frame);
 		Texels texels;
 		add_readback(graph, gbuffer.base_color, texels.base_color);
 		add_readback(graph, gbuffer.shading_normal, texels.normal);
@@ -523,7 +524,8 @@ TEST_CASE(
 	for (int copy = 0; copy < COPY_COUNT; ++copy) {
 		MeshInstance3D &node = add_mesh(
 				scene.scene, "Copy", textured, { 0.2 * (copy % 8) - 0.7, 0.2 * (copy / 8), 0.3 });
-		node.surfaces[0].material = materials[copy % 3];
+		// Copies of one material would be one draw.
+		node.surfaces[0].material = std::make_shared<const Material>(*materials[copy % 3]);
 	}
 	const auto render_frames = [&](int p_count) {
 		for (int frame = 0; frame < p_count; ++frame) {
@@ -535,4 +537,48 @@ TEST_CASE(
 	const uint64_t before = render_frames(8);
 	const uint64_t after = render_frames(16);
 	CHECK(after < before + (uint64_t(16) << 20)); // a leak of 20 kB for each draw would be seen
+}
+
+TEST_CASE("[GPU][Textures] copies of a mesh with one material are one draw, and look the same") {
+	RenderFixture fixture;
+	const auto box = make_box_mesh("box", glm::vec3(0.08f));
+	MeshAttributes attributes;
+	attributes.uvs[0].resize(box->positions_node.size());
+	for (size_t vertex = 0; vertex < attributes.uvs[0].size(); ++vertex) {
+		attributes.uvs[0][vertex] = glm::vec2(vertex % 2, vertex / 2 % 2);
+	}
+	const auto mesh =
+			make_mesh("mesh", box->positions_node, box->normals_node, box->indices, attributes);
+	const int COPY_COUNT = 24;
+	for (const bool has_texture : { false, true }) {
+		CAPTURE(has_texture);
+		auto material = std::make_shared<Material>();
+		material->base_color = glm::vec3(0.8f, 0.5f, 0.2f);
+		if (has_texture) {
+			material->base_color_texture.image = make_noise({ 16, 16 });
+		}
+		std::vector<uint8_t> pixels[2];
+		uint64_t draws[2] = {};
+		for (const bool is_shared : { false, true }) {
+			SmallScene scene;
+			for (int copy = 0; copy < COPY_COUNT; ++copy) {
+				MeshInstance3D &node = add_mesh(scene.scene, "Copy", mesh,
+						{ 0.3 * (copy % 8) - 1.0, 0.3 * (copy / 8), 0.5 });
+				// Mirrored and stretched copies have draws of their own, or the same one.
+				const glm::dvec3 size(copy % 3 == 0 ? -1.0 : 1.0, 1.0 + 0.03 * copy, 1.0);
+				node.parent_from_node = glm::scale(node.parent_from_node, size);
+				// A copy of the mesh has a draw of its own.
+				node.surfaces[0] = { is_shared
+							? mesh
+							: make_mesh("mesh", mesh->positions_node, mesh->normals_node,
+									  mesh->indices, attributes),
+					material };
+			}
+			const RenderResult result = fixture.render_image(scene);
+			pixels[is_shared] = result.image;
+			draws[is_shared] = result.commands.draws;
+		}
+		CHECK(pixels[0] == pixels[1]);
+		CHECK(draws[0] - draws[1] == COPY_COUNT - 2);
+	}
 }

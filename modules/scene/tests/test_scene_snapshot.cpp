@@ -181,7 +181,7 @@ TEST_CASE("[SceneSnapshot] an instance casts with another mesh, or nothing, for 
 	SceneSnapshot scene = *small.build();
 	CHECK_FALSE(scene.select_casters(scene.lights[0]));
 	const auto other = make_mesh("o", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 2, 0 } }, {}, { 0, 1, 2 });
-	InstanceSnapshot &instance = scene.instances[0];
+	InstanceSnapshot &instance = scene.instances.edit()[0];
 	const uint64_t hash = instance.compute_hash(1);
 	instance.caster_meshes_of_lights = { { "Lamp", other }, { "Sun", nullptr } };
 	const auto of_lamp = scene.select_casters(scene.lights[0]);

@@ -87,7 +87,7 @@ MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_
 		if (const auto selected = snapshot->select_casters(light)) {
 			*snapshot = *selected;
 		}
-		for (InstanceSnapshot &instance : snapshot->instances) {
+		for (InstanceSnapshot &instance : snapshot->instances.edit()) {
 			instance.caster_levels = nullptr;
 		}
 	}

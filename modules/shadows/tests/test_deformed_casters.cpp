@@ -95,7 +95,7 @@ struct TubeScene : SmallScene {
 	/// The scene with the posed tube replaced by a rigid mesh of the same shape.
 	std::shared_ptr<const SceneSnapshot> bake() const {
 		auto baked = std::make_shared<SceneSnapshot>(*snap());
-		for (InstanceSnapshot &instance : baked->instances) {
+		for (InstanceSnapshot &instance : baked->instances.edit()) {
 			if (!instance.pose) {
 				continue;
 			}
@@ -320,7 +320,7 @@ TEST_CASE("[GPU][DeformedCasters] a mesh that a vertex program bends casts as it
 			auto moved = std::make_shared<SceneSnapshot>(*scene.snap());
 			auto baked = std::make_shared<SceneSnapshot>(*moved);
 			moved->instances.push_back(make_instance(movable, nullptr, world_from_node, "Tube"));
-			moved->instances.back().set_pose(slot, slot->make_pose({}, {}, "Tube", move));
+			moved->instances.edit().back().set_pose(slot, slot->make_pose({}, {}, "Tube", move));
 			std::vector<glm::vec3> positions = tube->positions_node;
 			for (size_t vertex = 0; vertex < positions.size(); ++vertex) {
 				const float along = attributes.uvs[0][vertex].x;
@@ -330,8 +330,9 @@ TEST_CASE("[GPU][DeformedCasters] a mesh that a vertex program bends casts as it
 					make_instance(make_mesh("bent", positions, {}, tube->indices), nullptr,
 							world_from_node, "Bent"));
 			// With the same bounds, maps have the same texels.
-			baked->instances.back().bounds_world = moved->instances.back().bounds_world;
-			baked->instances.back().caster_bounds_node = moved->instances.back().caster_bounds_node;
+			baked->instances.edit().back().bounds_world = moved->instances.back().bounds_world;
+			baked->instances.edit().back().caster_bounds_node =
+					moved->instances.back().caster_bounds_node;
 			const MaskResult mask = fixture.render(make_request(moved, p_info.id));
 			double fraction = 0;
 			compute_difference(mask, fixture.render(make_request(baked, p_info.id)), fraction);

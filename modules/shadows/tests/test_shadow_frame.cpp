@@ -213,9 +213,9 @@ TEST_CASE("[GPU][Shadows] a mesh on none of a light's caster layers casts no sha
 		Light3D &other = scene.add_light("Other", p_type, { 1.2, 4.0, 0.8 }, { 0, 0.3, 0 });
 		other.properties = scene.light->properties;
 		auto snapshot = std::make_shared<SceneSnapshot>(*scene.snap());
-		snapshot->instances[1].layers = 0b10; // the box
-		snapshot->lights[0].caster_layers = 0b01;
-		snapshot->lights[1].caster_layers = 0b11;
+		snapshot->instances.edit()[1].layers = 0b10; // the box
+		snapshot->lights.edit()[0].caster_layers = 0b01;
+		snapshot->lights.edit()[1].caster_layers = 0b11;
 		MaskRequest request;
 		request.scene = snapshot;
 		request.technique_override = p_info.id;
@@ -226,6 +226,46 @@ TEST_CASE("[GPU][Shadows] a mesh on none of a light's caster layers casts no sha
 		CHECK(shadowed.visibility != unshadowed.visibility);
 		CHECK(masks.masks.at("Light").visibility == unshadowed.visibility);
 		CHECK(masks.masks.at("Other").visibility == shadowed.visibility);
+	});
+}
+
+TEST_CASE("[GPU][Shadows] masks of frames that share instances are those of separate snapshots") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		use_cheap_settings(*scene.light);
+		auto glass = std::make_shared<Material>();
+		glass->transmission = 0.5f;
+		add_mesh(scene.scene, "Glass", make_box_mesh("glass", glm::vec3(0.3f)), { 0.9, 1.6, 0.2 })
+				.surfaces[0]
+				.material = glass;
+		// Of another light, so that the light has a selection of casters.
+		auto other_layer = std::make_shared<SceneSnapshot>(*scene.snap());
+		other_layer->instances.edit()[1].layers = 0b10;
+		other_layer->lights.edit()[0].caster_layers = 0b01;
+		for (const bool has_selection : { false, true }) {
+			CAPTURE(has_selection);
+			std::shared_ptr<SceneSnapshot> shared =
+					has_selection ? other_layer : std::make_shared<SceneSnapshot>(*scene.snap());
+			for (const glm::dvec3 from : { glm::dvec3(-2.4, 3.6, 3.4), glm::dvec3(2.4, 3.0, -3.4),
+						 glm::dvec3(2.4, 3.0, -3.4) }) {
+				const glm::dmat4 pose = look_at(from, { 0, 0.3, 0 });
+				shared = std::make_shared<SceneSnapshot>(*shared);
+				shared->camera.position_world = from;
+				shared->camera.world_from_camera = glm::dmat3(pose);
+				auto separate = std::make_shared<SceneSnapshot>(*shared);
+				separate->instances.edit();
+				separate->lights.edit();
+				CHECK_FALSE(separate->instances.shares_items_with(shared->instances));
+				MaskRequest request;
+				request.technique_override = p_info.id;
+				request.scene = shared;
+				const MaskResult mask = fixture.render(request);
+				MaskFixture fresh;
+				request.scene = separate;
+				CHECK(fresh.render(request).visibility == mask.visibility);
+			}
+		}
 	});
 }
 
