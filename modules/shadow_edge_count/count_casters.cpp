@@ -3,22 +3,16 @@
 #include "modules/core/error.h"
 #include "modules/scene/cut_levels.h"
 #include "modules/scene/node_transform.h"
-#include "modules/shadows/caster_pass.h"
 #include "modules/shadows/mesh_store.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 
 namespace gnomon {
 
 namespace {
-
-// Maximum number of faces, and of edges. Their indices must fit in 24 bits (EDGE_COUNT_FACE_MASK)
-// and 26 bits (COUNT_EDGE_MASK in count_box_inc.glsl).
-constexpr uint32_t MAX_COUNT = 10'000'000;
 
 // With more triangles, casters have no second level of detail, so that this level does not make
 // buffers exceed the device's maximum size.
@@ -74,11 +68,11 @@ std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
 	return meshes;
 }
 
-/// The sum of both. Throws an Error if it exceeds MAX_COUNT.
+/// The sum of both. Throws an Error if it exceeds MAX_CASTER_FACES.
 uint32_t add_checked(
 		uint32_t p_sum, uint32_t p_count, const char *p_what, const std::string &p_light) {
-	if (p_count > MAX_COUNT - p_sum) {
-		fail_capacity("Light \"", p_light, "\": its casters have more than ", MAX_COUNT, " ",
+	if (p_count > MAX_CASTER_FACES - p_sum) {
+		fail_capacity("Light \"", p_light, "\": its casters have more than ", MAX_CASTER_FACES, " ",
 				p_what, ", which is the most for edge_count. Let fewer meshes cast shadows.");
 	}
 	return p_sum + p_count;
@@ -145,27 +139,24 @@ bool CountCasters::has_layout_of(const CountCasters &p_other) const {
 			});
 }
 
-CountCasters build_count_casters(
-		const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, CasterOrder &r_order) {
+CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
+		const std::vector<uint32_t> &p_indices, double p_disc_radius, CasterOrder &r_order) {
 	const LightView &first = p_inputs.views.front();
 	const bool is_directional = first.is_orthographic;
 	const double WIDENING = 1.01; // for rounding
 	const glm::dvec3 light_world(glm::inverse(first.view_from_world)[3]);
-	std::vector<uint32_t> view_indices(p_inputs.views.size());
-	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
-	result.casters.reserve(p_inputs.casters[0].instances.size());
+	result.casters.reserve(p_indices.size());
 	result.disc_radius = p_disc_radius;
 	result.side_tolerance =
 			static_cast<float>(is_directional ? SIDE_TOLERANCE_COSINE
 											  : SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
 	const Bounds &scene_bounds = p_inputs.scene_bounds_world;
 	uint32_t views_with_faces = 0;
-	const std::vector<uint32_t> indices = collect_casters(p_inputs, view_indices);
 	uint64_t triangle_count = 0;
 	std::vector<OrderedCaster> ordered;
-	ordered.reserve(indices.size());
-	for (const uint32_t index : indices) {
+	ordered.reserve(p_indices.size());
+	for (const uint32_t index : p_indices) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const auto count = static_cast<uint32_t>(instance.caster_mesh->get_triangle_count());
 		triangle_count += count;
@@ -173,7 +164,7 @@ CountCasters build_count_casters(
 	}
 	const bool may_have_levels = triangle_count <= MAX_COUNT_WITH_LEVELS;
 	for (const uint32_t ordered_index : r_order.update(ordered, p_inputs.may_reuse)) {
-		const uint32_t index = indices[ordered_index];
+		const uint32_t index = p_indices[ordered_index];
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
 		if (volume == 0 || !std::isfinite(volume)) {
@@ -204,7 +195,7 @@ CountCasters build_count_casters(
 									WIDENING * p_disc_radius);
 		}
 	}
-	result.empty_views = ~views_with_faces & ~0u >> (32 - view_indices.size());
+	result.empty_views = ~views_with_faces & ~0u >> (32 - p_inputs.views.size());
 	return result;
 }
 

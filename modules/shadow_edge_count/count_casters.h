@@ -9,6 +9,10 @@
 
 namespace gnomon {
 
+/// Maximum number of a light's faces, and of its edges. Their indices must fit in 24 bits
+/// (EDGE_COUNT_FACE_MASK) and 26 bits (COUNT_EDGE_MASK in count_box_inc.glsl).
+constexpr uint32_t MAX_CASTER_FACES = 10'000'000;
+
 /// One caster of a light, or one level of detail of it.
 struct CountCaster {
 	uint64_t mesh_id = 0;
@@ -46,11 +50,12 @@ struct CountCasters {
 	bool has_layout_of(const CountCasters &p_other) const;
 };
 
-/// Collects the casters of all views, in the order of r_order, and uploads their meshes where
-/// needed. p_disc_radius: R, see CountSettings. Throws an Error if there are more than 10,000,000
-/// faces or edges: face indices have 24 bits, edge indices 26.
-CountCasters build_count_casters(
-		const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, CasterOrder &r_order);
+/// Collects the casters, in the order of r_order, and uploads their meshes where needed. p_indices:
+/// of instances that some view may see, ascending. p_disc_radius: R, see CountSettings. Throws an
+/// Error if there are more than 10,000,000 faces or edges: face indices have 24 bits, edge
+/// indices 26.
+CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
+		const std::vector<uint32_t> &p_indices, double p_disc_radius, CasterOrder &r_order);
 
 /// Clears CountCaster::is_moved of casters with the same transform and pose as in p_before, which
 /// are earlier casters of the same light with the same layout.

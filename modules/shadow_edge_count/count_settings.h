@@ -10,7 +10,7 @@ namespace gnomon {
 struct CountSettings {
 	uint32_t sample_count = 64;				// points of the light: 64 or 256
 	uint32_t budget = EDGE_COUNT_NO_BUDGET; // maximum number of edges of one leaf
-	double time_budget_ms = -1; // see CountTimeBudget; below 0: none
+	double time_budget_ms = -1;				// see CountTimeBudget; below 0: none
 	float interpolation = 0; // maximum motion of an edge's projection onto the disc, see
 							 // CountLightConstants
 	/// R: the mean of the light's two penumbra widths in metres, by default its radius.

@@ -22,8 +22,8 @@ constexpr uint64_t MAX_LIST_WORDS = 5'700'000;
 // Every block of pixels has room for one leaf, and half of them for a second one. More are in few
 // blocks, and those whose leaves are completely lit need none.
 constexpr uint32_t LEAVES_PER_TWO_BLOCKS = 3;
-// Leaves of a chunk (see CountLeafPush), so that no dispatch takes 100 ms: 20 us a leaf are usual on
-// a CPU with two cores.
+// Leaves of a chunk (see CountLeafPush), so that no dispatch takes 100 ms: 20 us a leaf are usual
+// on a CPU with two cores.
 constexpr uint32_t CPU_CHUNK_LEAVES = 4096;
 constexpr uint32_t GPU_CHUNK_LEAVES = 16384;
 constexpr uint32_t BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
@@ -107,7 +107,8 @@ struct KindPass {
 	std::string shader;
 	uint32_t kind = 0;	  // EDGE_COUNT_LEAVES_*
 	uint32_t rungs = ~0u; // bit i: those on rung i
-	// If edges are counted: how many of a leaf's 64 receivers are, and with how many sets of points.
+	// If edges are counted: how many of a leaf's 64 receivers are, and with how many sets of
+	// points.
 	uint32_t receiver_count = BLOCK_PIXELS;
 	uint32_t sample_set_count = 1;
 	float nearest_w = 0; // of the filter, see CountLeafPush
@@ -181,11 +182,11 @@ void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	std::vector<Step> steps;
 	for (const KindPass &kind : p_kinds) {
-		std::vector<SpecializationConstant> constants = make_pipeline_constants(
-				p_passes, kind.receiver_count *
+		std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes,
+				kind.receiver_count *
 						get_count_shape(inputs.device, kind.sample_set_count).lanes_per_receiver);
-		const bool has_no_list = kind.kind == EDGE_COUNT_LEAVES_UNLISTED ||
-				kind.kind == EDGE_COUNT_LEAVES_FILTERED;
+		const bool has_no_list =
+				kind.kind == EDGE_COUNT_LEAVES_UNLISTED || kind.kind == EDGE_COUNT_LEAVES_FILTERED;
 		constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, has_no_list ? 1u : 0u });
 		steps.push_back({ inputs.device.get_compute_pipeline(
 								  { kind.shader, kind.shader, std::move(constants) }),
@@ -221,8 +222,7 @@ void add_solids_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 	if (!p_passes.inputs.device.get_features().runs_on_cpu) {
 		for (const uint32_t kind : { EDGE_COUNT_LEAVES_SMOOTH, EDGE_COUNT_LEAVES_LISTED,
 					 EDGE_COUNT_LEAVES_UNLISTED }) {
-			kinds.push_back(
-					{ "count solids", shader, kind, ~(1u << EDGE_COUNT_RUNG_FILTERED) });
+			kinds.push_back({ "count solids", shader, kind, ~(1u << EDGE_COUNT_RUNG_FILTERED) });
 		}
 	}
 	std::vector<PassBinding> bindings = make_solid_bindings(p_passes, p_leaves);
@@ -476,8 +476,7 @@ RGTexture add_count_debug_pass(
 					/*is_array=*/true });
 	add_clear_pass(r_graph, "clear debug", output, 0.0f); // of leaves that are all lit
 	for (uint32_t kind = 0; kind < EDGE_COUNT_LEAF_KINDS; ++kind) {
-		std::vector<PassBinding> bindings =
-				make_count_bindings(p_passes, p_leaves, p_passes.masks);
+		std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_leaves, p_passes.masks);
 		bindings.push_back(
 				PassBinding::write(COUNT_BINDING_OUTPUT, output, PassBuilder::Content::UPDATE));
 		const KindPass pass = { text("debug ", kind),

@@ -78,18 +78,26 @@ void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightS
 	r_views = build_light_views(light, p_scene, DEPTH_MAP_SIZE_PX, BORDER_PX, margin_m);
 }
 
+uint64_t ShadowEdgeCount::find_max_triangle_count(const RenderingDevice &p_device) const {
+	return std::min<uint64_t>(MAX_CASTER_FACES,
+			p_device.get_features().max_storage_buffer_bytes / sizeof(shader::CountFaceRecord));
+}
+
 void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	debug_image = {};
 	frame_depth_map = {};
 	are_casters_found = false;
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	// In a large world, what did not change is not looked through again.
-	const uint64_t casters_hash = compute_casters_hash(p_inputs, settings);
+	uint64_t casters_hash = compute_casters_hash(p_inputs, settings);
+	chosen.update(
+			p_inputs, settings.disc_radius, casters_hash, find_max_triangle_count(p_inputs.device));
+	casters_hash = compute_value_hash(chosen.get_revision(), casters_hash);
 	bool is_same = p_inputs.may_skip && p_inputs.may_reuse && !cached.casters.casters.empty() &&
 			cached.casters_hash == casters_hash;
 	CountCasters built;
 	if (!is_same) {
-		built = build_count_casters(p_inputs, settings.disc_radius, order);
+		built = build_count_casters(p_inputs, chosen.get(), settings.disc_radius, order);
 	}
 	const CountCasters &casters = is_same ? cached.casters : built;
 	may_exceed_budget =
@@ -116,7 +124,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 			(is_same || cached.casters.has_layout_of(casters)) &&
 			(!may_filter || cached.has_depth_map);
 	if (is_same && !has_content) { // meshes that were not read for some frames may be gone
-		built = build_count_casters(p_inputs, settings.disc_radius, order);
+		built = build_count_casters(p_inputs, chosen.get(), settings.disc_radius, order);
 		is_same = false;
 	}
 	if (!is_same && has_content && p_inputs.may_skip && p_inputs.may_reuse &&
@@ -163,6 +171,11 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	if (reused_count > 0) {
 		r_plan.skip(text("find edges, casters: ", reused_count),
 				"cached: neither the light nor the caster moved");
+	}
+	if (chosen.get_skipped_count() > 0) {
+		r_plan.skip(text("find edges, casters: ", chosen.get_skipped_count()),
+				"their shadows reach nothing that the camera sees, and all have too many "
+				"triangles");
 	}
 	if (cached.casters.collapsed_instance_count > 0) {
 		r_plan.skip(text("edges of instances: ", cached.casters.collapsed_instance_count),

@@ -2,13 +2,14 @@
 
 #include "modules/shadow_edge_count/count_time_budget.h"
 #include "modules/shadow_edge_count/leaf_passes.h"
+#include "modules/shadow_edge_count/shadowing_casters.h"
 #include "modules/shadows/cached_views.h"
 
 #include <optional>
 #include <vector>
 
-// A light's frame, pass by pass, with the buffers that each writes. n faces and e edges of the light's
-// casters, l leaves: 1.5 for each 8 x 8 pixels. Numbers are bytes.
+// A light's frame, pass by pass, with the buffers that each writes. n faces and e edges of the
+// light's casters, l leaves: 1.5 for each 8 x 8 pixels. Numbers are bytes.
 //
 //     meshes of all lights: faces 32, edges 16, vertices 16        casters of the light: 112 each
 //                         |                                              |
@@ -27,10 +28,10 @@
 // 12 filter ----------> mask; reads the depth maps, with a budget
 // 13 read status
 //
-// 1 to 5 are in find_passes.h and count_casters.h, 6 to 12 in leaf_passes.h and count_rounds.h. Based
-// on: Laine et al. 2005 (soft shadow volumes: silhouettes and one reference ray), Johnson et al. 2009
-// (lists for receivers), Aila and Laine 2009 (walks through trees), Olsson et al. 2012 (clusters of
-// pixels); doc/techniques/edge_count.md has the sources in full.
+// 1 to 5 are in find_passes.h and count_casters.h, 6 to 12 in leaf_passes.h and count_rounds.h.
+// Based on: Laine et al. 2005 (soft shadow volumes: silhouettes and one reference ray), Johnson et
+// al. 2009 (lists for receivers), Aila and Laine 2009 (walks through trees), Olsson et al. 2012
+// (clusters of pixels); doc/techniques/edge_count.md has the sources in full.
 
 namespace gnomon {
 
@@ -69,6 +70,9 @@ protected:
 		return time_budget->find_cost_limit(settings.time_budget_ms);
 	}
 
+	/// The most triangles of all casters for which the device has room. Tests choose it.
+	virtual uint64_t find_max_triangle_count(const RenderingDevice &p_device) const;
+
 private:
 	/// The light and casters for which the buffers were last filled.
 	struct CachedState {
@@ -89,6 +93,7 @@ private:
 	/// The depth map for leaves over budget; one texture array for all views.
 	RGTexture import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs);
 
+	ChosenCasters chosen;
 	CasterOrder order;
 	CountBuffers buffers;
 	CachedViews views;

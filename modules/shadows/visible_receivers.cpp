@@ -23,31 +23,8 @@ constexpr double COSINE_MARGIN = 1e-6;
 
 using Polygon = std::vector<glm::dvec3>;
 
-/// Inside: dot(normal, p) + offset >= 0.
-struct Plane {
-	glm::dvec3 normal;
-	double offset;
-	double compute_side(const glm::dvec3 &p_point) const {
-		return glm::dot(normal, p_point) + offset;
-	}
-};
-
-/// The view's four sides and the plane behind which nothing is seen.
-std::array<Plane, 5> find_planes(const LightView &p_view) {
-	const glm::dmat4 rows = glm::transpose(p_view.view_from_world);
-	const glm::dvec4 z = rows[2];
-	const glm::dvec2 extent(p_view.half_extent);
-	const std::array<glm::dvec4, 5> sides = { z * extent.x - rows[0], z * extent.x + rows[0],
-		z * extent.y - rows[1], z * extent.y + rows[1], z };
-	std::array<Plane, 5> planes;
-	for (size_t index = 0; index < sides.size(); ++index) {
-		planes[index] = { glm::dvec3(sides[index]), sides[index].w };
-	}
-	return planes;
-}
-
 /// The part of a convex polygon on the plane's inner side.
-Polygon clip(const Polygon &p_polygon, const Plane &p_plane) {
+Polygon clip(const Polygon &p_polygon, const ViewPlane &p_plane) {
 	Polygon clipped;
 	for (size_t index = 0; index < p_polygon.size(); ++index) {
 		const glm::dvec3 &from = p_polygon[index];
@@ -90,10 +67,10 @@ void add_ray(const Bounds &p_box, const glm::dvec3 &p_origin, const glm::dvec3 &
 /// Bounds of the intersection of the box and the camera's view: of the box's faces, clipped by the
 /// view's planes, and of the view's edges inside the box. Empty when they do not intersect.
 Bounds compute_visible_bounds(const Bounds &p_box, const LightView &p_view,
-		const std::array<Plane, 5> &p_planes, const CameraSnapshot &p_camera) {
+		const ViewPlanes &p_planes, const CameraSnapshot &p_camera) {
 	bool is_inside = true;
 	for (int index = 0; index < 8 && is_inside; ++index) {
-		is_inside = std::all_of(p_planes.begin(), p_planes.end(), [&](const Plane &p_plane) {
+		is_inside = std::all_of(p_planes.begin(), p_planes.end(), [&](const ViewPlane &p_plane) {
 			return p_plane.compute_side(p_box.get_corner(index)) >= 0;
 		});
 	}
@@ -108,7 +85,7 @@ Bounds compute_visible_bounds(const Bounds &p_box, const LightView &p_view,
 		for (const int side : { 0, 1 << axis }) {
 			Polygon face = { p_box.get_corner(side), p_box.get_corner(side | u),
 				p_box.get_corner(side | u | v), p_box.get_corner(side | v) };
-			for (const Plane &plane : p_planes) {
+			for (const ViewPlane &plane : p_planes) {
 				face = clip(face, plane);
 			}
 			for (const glm::dvec3 &point : face) {
@@ -151,9 +128,22 @@ bool is_outside_cone(const LightSnapshot &p_light, const glm::dvec3 &p_centre, d
 
 } // namespace
 
+ViewPlanes find_view_planes(const LightView &p_view) {
+	const glm::dmat4 rows = glm::transpose(p_view.view_from_world);
+	const glm::dvec4 z = rows[2];
+	const glm::dvec2 extent(p_view.half_extent);
+	const std::array<glm::dvec4, 5> sides = { z * extent.x - rows[0], z * extent.x + rows[0],
+		z * extent.y - rows[1], z * extent.y + rows[1], z };
+	ViewPlanes planes;
+	for (size_t index = 0; index < sides.size(); ++index) {
+		planes[index] = { glm::dvec3(sides[index]), sides[index].w };
+	}
+	return planes;
+}
+
 VisibleReceivers find_visible_receivers(
 		const SceneSnapshot &p_scene, const LightView &p_camera_view) {
-	const std::array<Plane, 5> planes = find_planes(p_camera_view);
+	const ViewPlanes planes = find_view_planes(p_camera_view);
 	VisibleReceivers receivers;
 	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
 		const InstanceSnapshot &instance = p_scene.instances[index];

@@ -2,6 +2,7 @@
 
 #include "modules/shadows/light_view.h"
 
+#include <array>
 #include <vector>
 
 namespace gnomon {
@@ -24,6 +25,18 @@ struct VisibleReceivers {
 		bounds_world.add(p_receiver.bounds_world);
 	}
 };
+
+/// Inside: dot(normal, p) + offset >= 0. The normal has any length.
+struct ViewPlane {
+	glm::dvec3 normal;
+	double offset;
+	double compute_side(const glm::dvec3 &p_point) const {
+		return glm::dot(normal, p_point) + offset;
+	}
+};
+/// A perspective view's four sides and the plane behind which nothing is seen, in the world.
+using ViewPlanes = std::array<ViewPlane, 5>;
+ViewPlanes find_view_planes(const LightView &p_view);
 
 /// The instances that the camera may see.
 VisibleReceivers find_visible_receivers(
