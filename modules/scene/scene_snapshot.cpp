@@ -56,6 +56,10 @@ void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	const glm::dmat3 axes(r_world_from_node);
 	const double longest =
 			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
+	// The longest cross product is at most the square of the longest axis, so this is not flat.
+	if (std::abs(glm::determinant(axes)) > ROUNDING * longest * longest * longest) {
+		return;
+	}
 	const glm::dvec3 normal_world = find_longest_cross_product(axes);
 	const glm::dvec3 flat_axis_node = find_longest_cross_product(glm::transpose(axes));
 	if (longest <= 0 || glm::length(normal_world) <= ROUNDING * longest * longest ||

@@ -69,7 +69,10 @@ public:
 		snapshot.instances.edit().reserve(
 				count_nodes(p_root)); // most nodes of large scenes are meshes
 		read_node(p_root, glm::dmat4(1.0));
-		for (const auto &[node, world_from_node] : deformable) { // now that all joints are known
+		if (!deformable.empty()) {
+			find_joints(p_root, glm::dmat4(1.0));
+		}
+		for (const auto &[node, world_from_node] : deformable) {
 			read_deformable(*node, world_from_node);
 		}
 	}
@@ -90,14 +93,27 @@ private:
 		return count;
 	}
 
-	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
-		is_animated = is_animated || p_node.posed_parent_from_node;
-		const glm::dmat4 world_from_node = p_world_from_parent *
+	glm::dmat4 compute_world_from_node(
+			const Node3D &p_node, const glm::dmat4 &p_world_from_parent) const {
+		return p_world_from_parent *
 				(is_posed ? p_node.get_parent_from_node() : p_node.parent_from_node);
-		check_transform(p_node, world_from_node);
+	}
+
+	/// Fills world_from_nodes, which only scenes with deformable meshes need.
+	void find_joints(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
+		const glm::dmat4 world_from_node = compute_world_from_node(p_node, p_world_from_parent);
 		if (p_node.file_index >= 0) {
 			world_from_nodes.emplace(p_node.file_index, world_from_node);
 		}
+		for (const std::unique_ptr<Node3D> &child : p_node.children) {
+			find_joints(*child, world_from_node);
+		}
+	}
+
+	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
+		is_animated = is_animated || p_node.posed_parent_from_node;
+		const glm::dmat4 world_from_node = compute_world_from_node(p_node, p_world_from_parent);
+		check_transform(p_node, world_from_node);
 		if (const auto *light = dynamic_cast<const Light3D *>(&p_node)) {
 			snapshot.lights.push_back(build_light_snapshot(*light, world_from_node));
 		} else if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node)) {
