@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -36,6 +37,8 @@ public:
 		if (items.use_count() > 1) {
 			items = std::make_shared<std::vector<T>>(*items);
 		}
+		// What another thread did with the last other copy, before it dropped that, is done.
+		std::atomic_thread_fence(std::memory_order_acquire);
 		return *items;
 	}
 

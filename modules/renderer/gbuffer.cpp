@@ -146,16 +146,16 @@ void record_draw(PassContext &p_context, const GBufferDraw &p_draw, RGBuffer p_f
 
 } // namespace
 
-GBufferInstances collect_gbuffer_instances(std::shared_ptr<const SceneSnapshot> p_scene,
+GBufferInstances collect_gbuffer_instances(const SceneSnapshot &p_scene,
 		std::span<const VisibleReceiver> p_visible, glm::uvec2 p_size_px) {
 	// Mesh, material with textures, is mirrored, is double-sided.
 	using Key = std::tuple<const Mesh *, const Material *, bool, bool>;
 	std::map<Key, std::vector<shader::GBufferInstance>> instances;
 	GBufferInstances result;
 	std::vector<const std::vector<shader::GBufferInstance> *> of_groups;
-	const LightView camera_view = make_camera_view(p_scene->camera, p_size_px);
+	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
 	for (const VisibleReceiver &item : p_visible) {
-		const InstanceSnapshot &instance = p_scene->instances[item.instance_index];
+		const InstanceSnapshot &instance = p_scene.instances[item.instance_index];
 		if (!camera_view.may_see(instance)) {
 			continue;
 		}
@@ -167,7 +167,7 @@ GBufferInstances collect_gbuffer_instances(std::shared_ptr<const SceneSnapshot> 
 			result.groups.push_back({ item.instance_index });
 			of_groups.push_back(&place->second);
 		}
-		place->second.push_back(make_instance_data(*p_scene, instance));
+		place->second.push_back(make_instance_data(p_scene, instance));
 	}
 	for (size_t index = 0; index < of_groups.size(); ++index) {
 		result.groups[index].first = static_cast<uint32_t>(result.instances.size());
@@ -175,7 +175,8 @@ GBufferInstances collect_gbuffer_instances(std::shared_ptr<const SceneSnapshot> 
 		result.instances.insert(
 				result.instances.end(), of_groups[index]->begin(), of_groups[index]->end());
 	}
-	result.scene = std::move(p_scene);
+	result.scene_instances = p_scene.instances;
+	result.camera_hash = p_scene.camera.compute_hash(0);
 	result.size_px = p_size_px;
 	return result;
 }
@@ -204,7 +205,7 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 	GBufferPipelines pipelines(p_device);
 	std::vector<GBufferDraw> draws;
 	for (const GBufferInstances::Group &group : p_instances.groups) {
-		const InstanceSnapshot &instance = p_instances.scene->instances[group.scene_instance];
+		const InstanceSnapshot &instance = p_instances.scene_instances[group.scene_instance];
 		GBufferDraw &draw = draws.emplace_back();
 		draw.mesh = &r_meshes.get(instance.mesh);
 		draw.first_instance = group.first;

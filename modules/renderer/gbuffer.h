@@ -8,7 +8,6 @@
 
 #include "renderer/renderer_shared.h"
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,14 +32,21 @@ struct GBufferInstances {
 		uint32_t first = 0;			 // in `instances`
 		uint32_t count = 0;
 	};
-	std::shared_ptr<const SceneSnapshot> scene;
+	SharedVector<InstanceSnapshot> scene_instances; // of the snapshot
+	uint64_t camera_hash = 0;
 	glm::uvec2 size_px = glm::uvec2(0);
 	std::vector<Group> groups; // in the order of their first instances
 	std::vector<shader::GBufferInstance> instances;
+
+	/// Whether collect_gbuffer_instances would return the same.
+	bool is_of(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) const {
+		return scene_instances.shares_items_with(p_scene.instances) &&
+				camera_hash == p_scene.camera.compute_hash(0) && size_px == p_size_px;
+	}
 };
 
 /// p_visible: from ShadowFrame::list_visible. p_size_px: of the image.
-GBufferInstances collect_gbuffer_instances(std::shared_ptr<const SceneSnapshot> p_scene,
+GBufferInstances collect_gbuffer_instances(const SceneSnapshot &p_scene,
 		std::span<const VisibleReceiver> p_visible, glm::uvec2 p_size_px);
 
 /// Draws the instances.

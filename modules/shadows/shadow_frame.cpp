@@ -113,7 +113,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 	if (!options.technique_override.empty()) {
 		ShadowRegistry::get(options.technique_override); // throws when it is not registered
 	}
-	system.begin_frame(scene, size_px);
+	system.begin_frame(*scene, size_px);
 	const size_t posed_count = system.scene_parts.posed_count;
 	const uint32_t moved_count =
 			posed_count > 0 ? system.meshes->add_deform_pass(graph, *scene, options.may_reuse) : 0;

@@ -49,8 +49,7 @@ std::vector<WorkCounter> ShadowSystem::get_counters(const std::string &p_light_n
 	return counters;
 }
 
-void ShadowSystem::begin_frame(
-		const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) {
+void ShadowSystem::begin_frame(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
 	if (technique_revision != ShadowRegistry::get_revision()) {
 		technique_revision = ShadowRegistry::get_revision();
 		slots.clear();
@@ -64,23 +63,24 @@ void ShadowSystem::begin_frame(
 		}
 	}
 	++frame;
-	if (!scene_parts.scene || !differ_in_camera_only(*scene_parts.scene, *p_scene)) {
+	if (!scene_parts.scene || !differ_in_camera_only(*scene_parts.scene, p_scene)) {
 		derive_scene_parts(p_scene);
 	}
-	if (camera_parts.scene != p_scene || camera_parts.size_px != p_size_px) {
+	if (!camera_parts.is_valid || camera_parts.camera_hash != p_scene.camera.compute_hash(0) ||
+			camera_parts.size_px != p_size_px) {
 		derive_camera_parts(p_scene, p_size_px);
 	}
 	std::erase_if(slots, [&](const auto &p_slot) {
 		return frame - p_slot.second.last_frame > MAX_UNUSED_FRAMES ||
-				p_scene->find_light(p_slot.first.first) == nullptr;
+				p_scene.find_light(p_slot.first.first) == nullptr;
 	});
 }
 
-void ShadowSystem::derive_scene_parts(const std::shared_ptr<const SceneSnapshot> &p_scene) {
-	warn_once("scene_size", describe_scene_size_problem(*p_scene));
-	scene_parts = { p_scene, p_scene->compute_bounds(), p_scene->compute_caster_bounds(),
+void ShadowSystem::derive_scene_parts(const SceneSnapshot &p_scene) {
+	warn_once("scene_size", describe_scene_size_problem(p_scene));
+	scene_parts = { p_scene, p_scene.compute_bounds(), p_scene.compute_caster_bounds(),
 		/*posed_count=*/0, /*cut_out_lines=*/{} };
-	for (const InstanceSnapshot &instance : p_scene->instances) {
+	for (const InstanceSnapshot &instance : p_scene.instances) {
 		scene_parts.posed_count += instance.pose != nullptr ? 1 : 0;
 		if (instance.casts_shadow && instance.cut_block_size_px > 0) {
 			scene_parts.cut_out_lines.push_back(
@@ -88,24 +88,24 @@ void ShadowSystem::derive_scene_parts(const std::shared_ptr<const SceneSnapshot>
 							instance.cut_block_size_px, " texels"));
 		}
 	}
+	camera_parts.is_valid = false;
 	for (auto &[key, slot] : slots) {
 		slot.light_parts = {};
 	}
 }
 
-void ShadowSystem::derive_camera_parts(
-		const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) {
-	LightView view = make_camera_view(p_scene->camera, p_size_px);
+void ShadowSystem::derive_camera_parts(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
+	LightView view = make_camera_view(p_scene.camera, p_size_px);
 	// make_camera_view ignores the shift; this wider view contains the shifted one.
-	view.half_extent *= 1.0f + glm::abs(p_scene->camera.shift);
-	camera_parts = { p_scene, p_size_px,
-		compute_frame_constants(*p_scene, scene_parts.caster_bounds_world, p_size_px),
-		find_visible_receivers(*p_scene, view) };
+	view.half_extent *= 1.0f + glm::abs(p_scene.camera.shift);
+	camera_parts = { /*is_valid=*/true, p_scene.camera.compute_hash(0), p_size_px,
+		compute_frame_constants(p_scene, scene_parts.caster_bounds_world, p_size_px),
+		find_visible_receivers(p_scene, view) };
 	for (auto &[key, slot] : slots) {
 		slot.run_parts = {};
 		if (slot.light_parts.selection) {
 			auto selection = std::make_shared<SceneSnapshot>(*slot.light_parts.selection);
-			selection->camera = p_scene->camera;
+			selection->camera = p_scene.camera;
 			slot.light_parts.selection = std::move(selection);
 		}
 	}

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -44,14 +45,17 @@ private:
 
 	/// What does not depend on the camera.
 	struct SceneParts {
-		std::shared_ptr<const SceneSnapshot> scene; // from which it was derived; null: none
-		Bounds bounds_world;						// of all instances
+		/// From which it was derived. A copy, so that instances and lights that a host edits are
+		/// others.
+		std::optional<SceneSnapshot> scene;
+		Bounds bounds_world; // of all instances
 		Bounds caster_bounds_world;
 		size_t posed_count = 0;
 		std::vector<std::string> cut_out_lines; // of the plan
 	};
 	struct CameraParts {
-		std::shared_ptr<const SceneSnapshot> scene; // from which it was derived; null: none
+		bool is_valid = false; // for this camera and size, and the SceneParts
+		uint64_t camera_hash = 0;
 		glm::uvec2 size_px = glm::uvec2(0);
 		shader::FrameConstants constants = {};
 		VisibleReceivers receivers; // all instances that the camera may see
@@ -91,11 +95,10 @@ private:
 	/// MAX_UNUSED_FRAMES frames, and all techniques or filters when their registry changed. Warns
 	/// about a scene size that does not fit. Derives what has changed since the frame before.
 	/// Called once a frame.
-	void begin_frame(const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px);
+	void begin_frame(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 
-	void derive_scene_parts(const std::shared_ptr<const SceneSnapshot> &p_scene);
-	void derive_camera_parts(
-			const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px);
+	void derive_scene_parts(const SceneSnapshot &p_scene);
+	void derive_camera_parts(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 
 	RenderingDevice &device;
 	std::shared_ptr<MeshStore> meshes;

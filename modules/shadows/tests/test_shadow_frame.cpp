@@ -269,6 +269,28 @@ TEST_CASE("[GPU][Shadows] masks of frames that share instances are those of sepa
 	});
 }
 
+TEST_CASE("[GPU][Shadows] a snapshot that a host edits after a frame gets the masks of a new one") {
+	MaskFixture fixture;
+	SmallScene scene(LightType::DIRECTIONAL);
+	auto snapshot = std::make_shared<SceneSnapshot>(*scene.snap());
+	MaskRequest request;
+	request.scene = snapshot;
+	const std::vector<float> before = fixture.render(request).visibility;
+	snapshot->instances.edit()[1].casts_shadow = false; // the box
+	const std::vector<float> without_box = fixture.render(request).visibility;
+	CHECK(without_box != before);
+	snapshot->instances.edit()[1].casts_shadow = true;
+	CHECK(fixture.render(request).visibility == before);
+	snapshot->lights.edit()[0].world_from_light = glm::dmat3(look_at({ 3, 4, -2 }, { 0, 0, 0 }));
+	const std::vector<float> turned = fixture.render(request).visibility;
+	CHECK(turned != before);
+	snapshot->camera.position_world.x += 0.4;
+	const MaskResult moved = fixture.render(request);
+	MaskFixture fresh;
+	CHECK(fresh.render(request).visibility == moved.visibility);
+	CHECK(moved.visibility != turned);
+}
+
 TEST_CASE("[GPU][Shadows] two shadow systems that draw alternately share meshes, not masks") {
 	MaskFixture fixture;
 	SmallScene scene;
