@@ -162,12 +162,12 @@ GBufferInstances collect_gbuffer_instances(const SceneSnapshot &p_scene,
 		const bool has_textures = needs_gpu_material(*instance.mesh, *instance.material);
 		const Key key = { instance.mesh.get(), has_textures ? instance.material.get() : nullptr,
 			instance.is_mirrored(), instance.material->is_double_sided };
-		const auto [place, is_new] = instances.try_emplace(key);
+		const auto [entry, is_new] = instances.try_emplace(key);
 		if (is_new) {
 			result.groups.push_back({ item.instance_index });
-			of_groups.push_back(&place->second);
+			of_groups.push_back(&entry->second);
 		}
-		place->second.push_back(make_instance_data(p_scene, instance));
+		entry->second.push_back(make_instance_data(p_scene, instance));
 	}
 	for (size_t index = 0; index < of_groups.size(); ++index) {
 		result.groups[index].first = static_cast<uint32_t>(result.instances.size());

@@ -215,8 +215,8 @@ private:
 	/// times what is between two timestamps, and has room for few of them.
 	std::vector<GpuSpan> spans;
 	static constexpr std::string_view TIMED_SPAN_PREFIX = "Gnomon: "; // of timestamps
-	bool is_any_timed = false;										  // some span needed a time
-	bool is_span_timed = false;				// the last timestamp began a span
+	bool is_any_timed = false; // some span needed a time
+	bool is_span_timed = false; // the last timestamp began a span
 	std::map<std::string, double> timed_ms; // by span
 
 	SlotTable<BufferRID, GodotBuffer> buffers{ "buffer" };

@@ -66,8 +66,8 @@ public:
 			snapshot(r_snapshot), is_posed(p_is_posed) {}
 
 	void read(const Node3D &p_root) {
-		snapshot.instances.edit().reserve(
-				count_nodes(p_root)); // most nodes of large scenes are meshes
+		// Most nodes of large scenes are meshes.
+		snapshot.instances.edit().reserve(count_nodes(p_root));
 		read_node(p_root, glm::dmat4(1.0));
 		if (!deformable.empty()) {
 			find_joints(p_root, glm::dmat4(1.0));

@@ -78,9 +78,10 @@ void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightS
 	r_views = build_light_views(light, p_scene, DEPTH_MAP_SIZE_PX, BORDER_PX, margin_m);
 }
 
-uint64_t ShadowEdgeCount::find_max_triangle_count(const RenderingDevice &p_device) const {
-	return std::min<uint64_t>(MAX_CASTER_FACES,
-			p_device.get_features().max_storage_buffer_bytes / sizeof(shader::CountFaceRecord));
+CasterLimits ShadowEdgeCount::find_caster_limits(const RenderingDevice &p_device) const {
+	const uint64_t bytes = p_device.get_features().max_storage_buffer_bytes;
+	return { std::min<uint64_t>(MAX_CASTER_FACES, bytes / sizeof(shader::CountFaceRecord)),
+		std::min<uint64_t>(MAX_CASTER_FACES, bytes / sizeof(shader::CountEdgeRecord)) };
 }
 
 void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
@@ -91,7 +92,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	// In a large world, what did not change is not looked through again.
 	uint64_t casters_hash = compute_casters_hash(p_inputs, settings);
 	chosen.update(
-			p_inputs, settings.disc_radius, casters_hash, find_max_triangle_count(p_inputs.device));
+			p_inputs, settings.disc_radius, casters_hash, find_caster_limits(p_inputs.device));
 	casters_hash = compute_value_hash(chosen.get_revision(), casters_hash);
 	bool is_same = p_inputs.may_skip && p_inputs.may_reuse && !cached.casters.casters.empty() &&
 			cached.casters_hash == casters_hash;

@@ -70,8 +70,8 @@ protected:
 		return time_budget->find_cost_limit(settings.time_budget_ms);
 	}
 
-	/// The most triangles of all casters for which the device has room. Tests choose it.
-	virtual uint64_t find_max_triangle_count(const RenderingDevice &p_device) const;
+	/// Tests choose them.
+	virtual CasterLimits find_caster_limits(const RenderingDevice &p_device) const;
 
 private:
 	/// The light and casters for which the buffers were last filled.

@@ -1,6 +1,7 @@
 #include "modules/shadow_edge_count/shadowing_casters.h"
 
 #include "modules/core/error.h"
+#include "modules/mesh_tools/topology.h"
 #include "modules/scene/mesh.h"
 #include "modules/shadows/camera_view.h"
 #include "modules/shadows/caster_pass.h"
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <numeric>
 
 namespace gnomon {
@@ -24,11 +27,10 @@ public:
 			all.add(boxes.back());
 		}
 		for (const Bounds &box : boxes) {
-			for_each_cell(
-					glm::dvec2(box.minimum), glm::dvec2(box.maximum), [&](double &r_farthest) {
-						r_farthest = std::max(r_farthest, double(box.maximum.z));
-						return false;
-					});
+			any_cell(glm::dvec2(box.minimum), glm::dvec2(box.maximum), [&](size_t p_cell) {
+				farthest_m[p_cell] = std::max(farthest_m[p_cell], double(box.maximum.z));
+				return false;
+			});
 		}
 	}
 
@@ -42,10 +44,10 @@ public:
 		const double reach_m = p_disc_radius * depth_m + p_margin_m;
 		const glm::dvec2 low = glm::dvec2(p_box.minimum) - reach_m;
 		const glm::dvec2 high = glm::dvec2(p_box.maximum) + reach_m;
-		const bool is_beside = glm::any(glm::greaterThan(low, glm::dvec2(all.maximum))) ||
+		const bool is_outside = glm::any(glm::greaterThan(low, glm::dvec2(all.maximum))) ||
 				glm::any(glm::lessThan(high, glm::dvec2(all.minimum)));
-		return !is_beside && for_each_cell(low, high, [&](double p_farthest) {
-			return p_farthest + p_margin_m >= p_box.minimum.z;
+		return !is_outside && any_cell(low, high, [&](size_t p_cell) {
+			return farthest_m[p_cell] + p_margin_m >= p_box.minimum.z;
 		});
 	}
 
@@ -55,20 +57,15 @@ private:
 	int find_line(double p_value, int p_axis) const {
 		const double size = std::max(all.maximum[p_axis] - all.minimum[p_axis], 1e-300);
 		const double line = std::floor((p_value - all.minimum[p_axis]) / size * SIDE);
-		return static_cast<int>(std::clamp(line, -1.0, double(SIDE)));
+		return static_cast<int>(std::clamp(line, 0.0, double(SIDE - 1)));
 	}
-	/// Calls the function for each cell that the rectangle overlaps, until it returns true.
+	/// Whether the function returns true for some cell that the rectangle overlaps. What is outside
+	/// counts as in the nearest cell.
 	template <typename Function>
-	bool for_each_cell(
-			const glm::dvec2 &p_low, const glm::dvec2 &p_high, Function p_function) const {
-		// What is at the upper border is in the last cell.
-		const int first_x = std::max(find_line(p_low.x, 0), 0);
-		const int first_y = std::max(find_line(p_low.y, 1), 0);
-		for (int y = std::min(first_y, SIDE - 1); y <= std::min(find_line(p_high.y, 1), SIDE - 1);
-				++y) {
-			for (int x = std::min(first_x, SIDE - 1);
-					x <= std::min(find_line(p_high.x, 0), SIDE - 1); ++x) {
-				if (p_function(farthest_m[static_cast<size_t>(y * SIDE + x)])) {
+	bool any_cell(const glm::dvec2 &p_low, const glm::dvec2 &p_high, Function p_function) const {
+		for (int y = find_line(p_low.y, 1); y <= find_line(p_high.y, 1); ++y) {
+			for (int x = find_line(p_low.x, 0); x <= find_line(p_high.x, 0); ++x) {
+				if (p_function(static_cast<size_t>(y * SIDE + x))) {
 					return true;
 				}
 			}
@@ -77,13 +74,13 @@ private:
 	}
 
 	Bounds all;
-	mutable std::vector<double> farthest_m =
+	std::vector<double> farthest_m =
 			std::vector<double>(SIDE * SIDE, -std::numeric_limits<double>::infinity());
 };
 
 /// True if the box and all its shadow are outside one plane of the camera's view. p_direction: of
 /// the light. p_disc_radius: how far the shadow may deviate from it, a tangent.
-bool is_shadow_beside(const ViewPlanes &p_planes, const Bounds &p_box,
+bool is_shadow_outside(const ViewPlanes &p_planes, const Bounds &p_box,
 		const glm::dvec3 &p_direction, double p_disc_radius, double p_margin_m) {
 	const glm::dvec3 centre = 0.5 * (p_box.minimum + p_box.maximum);
 	const glm::dvec3 half_size = 0.5 * (p_box.maximum - p_box.minimum);
@@ -94,6 +91,31 @@ bool is_shadow_beside(const ViewPlanes &p_planes, const Bounds &p_box,
 		const double approach = glm::dot(p_plane.normal, p_direction) + p_disc_radius * length;
 		return approach <= 0 && highest < -p_margin_m * length;
 	});
+}
+
+bool do_fit(const SceneSnapshot &p_scene, const std::vector<uint32_t> &p_indices,
+		const CasterLimits &p_limits) {
+	uint64_t face_count = 0;
+	for (const uint32_t index : p_indices) {
+		face_count += p_scene.instances[index].caster_mesh->get_triangle_count();
+	}
+	const uint64_t MAX_EDGES_PER_FACE = 3;
+	if (face_count > p_limits.face_count ||
+			face_count * MAX_EDGES_PER_FACE <= p_limits.edge_count) {
+		return face_count <= p_limits.face_count;
+	}
+	// Triangles that share no edges have twice as many as closed meshes.
+	std::map<const Mesh *, uint64_t> edge_counts;
+	uint64_t edge_count = 0;
+	for (const uint32_t index : p_indices) {
+		const std::shared_ptr<const Mesh> &mesh = p_scene.instances[index].caster_mesh;
+		const auto [entry, is_new] = edge_counts.try_emplace(mesh.get());
+		if (is_new) {
+			entry->second = get_topology(mesh)->edges.size();
+		}
+		edge_count += entry->second;
+	}
+	return edge_count <= p_limits.edge_count;
 }
 
 } // namespace
@@ -109,20 +131,20 @@ std::vector<uint32_t> find_shadowing_casters(const SceneSnapshot &p_scene,
 	const double ROUNDING_SIZES = 1e-5;
 	const double margin_m =
 			p_margin_m + (ROUNDING_SIZES + 2 * MAX_RECEIVER_OFFSET) * p_scene.scene_size_m;
-	std::vector<uint32_t> kept;
+	std::vector<uint32_t> shadowing;
 	for (const uint32_t index : p_indices) {
 		const Bounds &bounds = p_scene.instances[index].bounds_world;
-		if (!is_shadow_beside(planes, bounds, direction, p_view.disc_radius, margin_m) &&
+		if (!is_shadow_outside(planes, bounds, direction, p_view.disc_radius, margin_m) &&
 				grid.may_shadow(
 						transform_bounds(bounds, view_from_world), p_view.disc_radius, margin_m)) {
-			kept.push_back(index);
+			shadowing.push_back(index);
 		}
 	}
-	return kept;
+	return shadowing;
 }
 
 void ChosenCasters::update(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius,
-		uint64_t p_hash, uint64_t p_max_triangle_count) {
+		uint64_t p_hash, const CasterLimits &p_limits) {
 	const bool has_changed = revision == 0 || hash != p_hash;
 	if (!has_changed && skipped_count == 0) {
 		return;
@@ -131,21 +153,15 @@ void ChosenCasters::update(const ShadowTechnique::Inputs &p_inputs, double p_dis
 	std::iota(views.begin(), views.end(), 0u);
 	std::vector<uint32_t> all = collect_casters(p_inputs, views);
 	const auto fits = [&](const std::vector<uint32_t> &p_indices) {
-		uint64_t sum = 0;
-		for (const uint32_t index : p_indices) {
-			sum += p_inputs.scene.instances[index].caster_mesh->get_triangle_count();
-		}
-		return sum <= p_max_triangle_count;
+		return do_fit(p_inputs.scene, p_indices, p_limits);
 	};
 	const size_t all_count = all.size();
 	const bool has_all = !p_inputs.may_skip || !p_inputs.views.front().is_orthographic || fits(all);
 	if (has_all) {
 		indices = std::move(all);
 	} else {
-		const CameraSnapshot &camera = p_inputs.scene.camera;
-		ShadowedView view = { p_inputs.views.front(), p_disc_radius, p_inputs.lit_receivers,
-			make_camera_view(camera, p_inputs.size_px) };
-		view.camera.half_extent *= 1.0f + glm::abs(camera.shift);
+		const ShadowedView view = { p_inputs.views.front(), p_disc_radius, p_inputs.lit_receivers,
+			make_shifted_camera_view(p_inputs.scene.camera, p_inputs.size_px) };
 		const auto find = [&](double p_margin_m) {
 			return find_shadowing_casters(p_inputs.scene, view, all, p_margin_m);
 		};

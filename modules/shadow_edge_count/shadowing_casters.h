@@ -20,15 +20,21 @@ struct ShadowedView {
 std::vector<uint32_t> find_shadowing_casters(const SceneSnapshot &p_scene,
 		const ShadowedView &p_view, const std::vector<uint32_t> &p_indices, double p_margin_m);
 
-/// The casters of a light whose faces and edges are recorded: all of them, unless they have too
-/// many triangles for the device. Then, for a directional light, those whose shadows may reach a
+/// How many faces and edges of a light's casters the device has room for.
+struct CasterLimits {
+	uint64_t face_count = 0;
+	uint64_t edge_count = 0;
+};
+
+/// The casters of a light whose faces and edges are recorded: all of them, unless they exceed the
+/// limits. Then, for a directional light, those whose shadows may reach a
 /// receiver that the camera sees, and some more, so that they do not change with every step of the
 /// camera.
 class ChosenCasters {
 public:
 	/// p_hash: equal for equal casters of the light, see compute_casters_hash.
 	void update(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius, uint64_t p_hash,
-			uint64_t p_max_triangle_count);
+			const CasterLimits &p_limits);
 	/// Indices of instances, ascending.
 	const std::vector<uint32_t> &get() const { return indices; }
 	size_t get_skipped_count() const { return skipped_count; }

@@ -19,6 +19,12 @@ LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px)
 	return view;
 }
 
+LightView make_shifted_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px) {
+	LightView view = make_camera_view(p_camera, p_size_px);
+	view.half_extent *= 1.0f + glm::abs(p_camera.shift);
+	return view;
+}
+
 glm::dmat4 compute_shift(const CameraSnapshot &p_camera) {
 	glm::dmat4 shift(1.0); // of clip space, whose y points down
 	shift[3] = glm::dvec4(-p_camera.shift.x, p_camera.shift.y, 0.0, 1.0);

@@ -9,6 +9,8 @@ namespace gnomon {
 /// Describes the camera as a view, for clip-space matrices and for culling (against the four sides
 /// of its frustum and the plane z = 0). Ignores the subpixel shift (CameraSnapshot::shift).
 LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px);
+/// The same, so wide that it contains the shifted view.
+LightView make_shifted_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px);
 
 /// Clip-space matrix that applies the camera's subpixel shift (CameraSnapshot::shift). It expects w
 /// to be the distance along the view, as a perspective projection makes it.

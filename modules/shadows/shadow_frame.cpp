@@ -114,7 +114,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		ShadowRegistry::get(options.technique_override); // throws when it is not registered
 	}
 	system.begin_frame(*scene, size_px);
-	const size_t posed_count = system.scene_parts.posed_count;
+	const size_t posed_count = system.derived_scene.posed_count;
 	const uint32_t moved_count =
 			posed_count > 0 ? system.meshes->add_deform_pass(graph, *scene, options.may_reuse) : 0;
 	if (moved_count > 0) {
@@ -124,9 +124,9 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		plan.skip(text("deform, meshes: ", posed_count - moved_count),
 				"cached: their pose is the same");
 	}
-	constants = graph.upload_constants("frame constants", system.camera_parts.constants,
+	constants = graph.upload_constants("frame constants", system.derived_camera.constants,
 			BufferUsage::STORAGE | BufferUsage::UNIFORM); // hosts may bind it as either
-	for (const std::string &line : system.scene_parts.cut_out_lines) {
+	for (const std::string &line : system.derived_scene.cut_out_lines) {
 		plan.run(line);
 	}
 }
@@ -203,7 +203,7 @@ void ShadowFrame::add_receivers_pass(LightShadow &r_shadow, bool p_lists_all_til
 }
 
 std::string ShadowFrame::describe_unlit(const LightSnapshot &p_light) const {
-	if (!find_lit_receivers(p_light, system.camera_parts.receivers).list.empty()) {
+	if (!find_lit_receivers(p_light, system.derived_camera.receivers).list.empty()) {
 		return {};
 	}
 	return text("the camera sees no surface",
@@ -221,7 +221,7 @@ LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_de
 			"light constants", compute_light_constants(p_light, scene->camera));
 	add_receivers_pass(shadow, !options.may_skip || p_wants_debug_views);
 	plan.run("receivers");
-	const VisibleReceivers lit = find_lit_receivers(p_light, system.camera_parts.receivers);
+	const VisibleReceivers lit = find_lit_receivers(p_light, system.derived_camera.receivers);
 	if (!p_light.casts_shadow) {
 		plan.skip("shadow", "shadow_enabled is false");
 		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
@@ -282,7 +282,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.device = system.device,
 		.meshes = *system.meshes,
 		.scene = p_work.scene,
-		.scene_bounds_world = system.scene_parts.bounds_world,
+		.scene_bounds_world = system.derived_scene.bounds_world,
 		.light = p_work.light,
 		.properties = p_work.properties,
 		.settings = ShadowRegistry::get_setting_values(p_work.info.id),
@@ -321,27 +321,28 @@ RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
 	return p_mask;
 }
 
-ShadowSystem::RunParts ShadowFrame::derive_run_parts(const Work &p_work,
+ShadowSystem::DerivedRun ShadowFrame::derive_run(const Work &p_work,
 		const ShadowTechnique &p_technique, const CasterFlags &p_casts,
 		bool p_wants_debug_views) const {
-	ShadowSystem::RunParts parts = { &p_work.snapshot_light, options.may_skip, p_wants_debug_views,
+	ShadowSystem::DerivedRun derived = { &p_work.snapshot_light, options.may_skip,
+		p_wants_debug_views,
 		/*views=*/{}, /*casters=*/{} };
 	p_technique.get_light_views(p_work.light,
 			{ p_work.scene, compute_bounds(p_work.scene, p_casts) }, p_work.properties,
-			parts.views);
-	for (LightView &view : parts.views) {
+			derived.views);
+	for (LightView &view : derived.views) {
 		if (p_technique.queries_receivers_only()) {
 			fit_to_receivers(view, p_work.lit_receivers,
 					compute_fit_reach_m(view, p_work.light, p_work.scene, p_work.lit_receivers));
 		}
-		parts.casters.push_back(
+		derived.casters.push_back(
 				cull_casters(p_work.scene, p_work.caster_hashes, p_casts, view, options.may_skip));
 		// While debug views are shown, every view counts as having receivers, so that its map is
 		// drawn.
-		parts.casters.back().has_receivers =
+		derived.casters.back().has_receivers =
 				p_wants_debug_views || may_view_contain_any(view, p_work.lit_receivers);
 	}
-	return parts;
+	return derived;
 }
 
 RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowSystem::Slot &r_slot,
@@ -350,14 +351,14 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowSystem::Slot &r_s
 	TechniquePlan technique_plan(plan, p_run.empty() ? "" : p_run + ": ");
 	const bool wants_debug_views = p_work.wants_debug_views && p_run.empty();
 	ShadowTechnique &technique = *r_slot.technique;
-	const ShadowSystem::RunParts &parts = r_slot.run_parts;
-	if (parts.light != &p_work.snapshot_light || parts.may_skip != options.may_skip ||
-			parts.wants_debug_views != wants_debug_views) {
-		r_slot.run_parts = derive_run_parts(p_work, technique,
+	const ShadowSystem::DerivedRun &derived = r_slot.derived_run;
+	if (derived.light != &p_work.snapshot_light || derived.may_skip != options.may_skip ||
+			derived.wants_debug_views != wants_debug_views) {
+		r_slot.derived_run = derive_run(p_work, technique,
 				find_opaque_casters(p_work.scene, p_translucent, p_group), wants_debug_views);
 	}
-	const std::vector<LightView> &views = parts.views;
-	const std::vector<CasterList> &casters = parts.casters;
+	const std::vector<LightView> &views = derived.views;
+	const std::vector<CasterList> &casters = derived.casters;
 	const ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
 	technique.plan(inputs, technique_plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {
@@ -421,19 +422,19 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	const PropertyValues properties = resolve_light_properties(
 			p_light, ShadowRegistry::get_light_properties(choice.info->id));
 	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
-	ShadowSystem::LightParts &parts = slot.light_parts;
-	if (parts.light != &p_light) {
-		parts = { &p_light, scene->select_casters(p_light), /*translucent=*/{},
+	ShadowSystem::DerivedLight &derived = slot.derived_light;
+	if (derived.light != &p_light) {
+		derived = { &p_light, scene->select_casters(p_light), /*translucent=*/{},
 			/*caster_hashes=*/{} };
-		const SceneSnapshot &selected = parts.selection ? *parts.selection : *scene;
-		parts.translucent = find_translucent_casters(selected, p_light);
-		parts.caster_hashes = hash_casters(selected);
+		const SceneSnapshot &selected = derived.selection ? *derived.selection : *scene;
+		derived.translucent = find_translucent_casters(selected, p_light);
+		derived.caster_hashes = hash_casters(selected);
 	}
-	const SceneSnapshot &seen = parts.selection ? *parts.selection : *scene;
+	const SceneSnapshot &seen = derived.selection ? *derived.selection : *scene;
 	LightSnapshot &light = lights.emplace_back(p_light);
 	light.derive_widths(choice.info->derived_widths);
-	const Work work = { seen, parts.caster_hashes, p_light, light, *choice.info, properties, p_lit,
-		r_shadow, p_wants_debug_views };
+	const Work work = { seen, derived.caster_hashes, p_light, light, *choice.info, properties,
+		p_lit, r_shadow, p_wants_debug_views };
 	for (const ExceededLimit &limit : slot.limits.find_exceeded(
 				 seen, light, choice.info->id, slot.technique->get_limits(properties))) {
 		system.warn_once(limit.key, limit.warning);
@@ -441,7 +442,7 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	RGTexture mask;
 	const TranslucentCasters none;
 	const TranslucentCasters &translucent =
-			slot.technique->sees_translucent_casters() ? none : parts.translucent;
+			slot.technique->sees_translucent_casters() ? none : derived.translucent;
 	std::erase_if(system.slots, [&](const auto &p_slot) { // groups that no longer exist
 		return p_slot.first.first == p_light.name &&
 				p_slot.first.second > translucent.groups.size();

@@ -70,10 +70,10 @@ public:
 	RGBuffer get_constants() const { return constants; }
 	/// All instances that the camera may see, in the snapshot's order.
 	std::span<const VisibleReceiver> list_visible() const {
-		return system.camera_parts.receivers.list;
+		return system.derived_camera.receivers.list;
 	}
 	/// Of all instances.
-	const Bounds &get_scene_bounds() const { return system.scene_parts.bounds_world; }
+	const Bounds &get_scene_bounds() const { return system.derived_scene.bounds_world; }
 	/// Call before the first add_light.
 	void set_surfaces(const HostSurfaces &p_surfaces);
 	/// The surfaces that were set, with normals added when the host gave none.
@@ -111,7 +111,7 @@ private:
 	RGTexture add_technique(const Work &p_work, ShadowSystem::Slot &r_slot,
 			const TranslucentCasters &p_translucent, const TranslucentGroup *p_group,
 			const std::string &p_run);
-	ShadowSystem::RunParts derive_run_parts(const Work &p_work, const ShadowTechnique &p_technique,
+	ShadowSystem::DerivedRun derive_run(const Work &p_work, const ShadowTechnique &p_technique,
 			const CasterFlags &p_casts, bool p_wants_debug_views) const;
 	RGTexture add_translucent_casters(
 			const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque);

@@ -29,7 +29,7 @@ ShadowSystem::Slot &ShadowSystem::get_slot(
 		slot.technique.reset(); // first, so that the resources of both never exist at once
 		slot.technique = p_info.make();
 		slot.technique_id = p_info.id;
-		slot.run_parts = {};
+		slot.derived_run = {};
 	}
 	slot.last_frame = frame;
 	return slot;
@@ -63,12 +63,12 @@ void ShadowSystem::begin_frame(const SceneSnapshot &p_scene, glm::uvec2 p_size_p
 		}
 	}
 	++frame;
-	if (!scene_parts.scene || !differ_in_camera_only(*scene_parts.scene, p_scene)) {
-		derive_scene_parts(p_scene);
+	if (!derived_scene.scene || !differ_in_camera_only(*derived_scene.scene, p_scene)) {
+		derive_scene(p_scene);
 	}
-	if (!camera_parts.is_valid || camera_parts.camera_hash != p_scene.camera.compute_hash(0) ||
-			camera_parts.size_px != p_size_px) {
-		derive_camera_parts(p_scene, p_size_px);
+	if (!derived_camera.is_valid || derived_camera.camera_hash != p_scene.camera.compute_hash(0) ||
+			derived_camera.size_px != p_size_px) {
+		derive_camera(p_scene, p_size_px);
 	}
 	std::erase_if(slots, [&](const auto &p_slot) {
 		return frame - p_slot.second.last_frame > MAX_UNUSED_FRAMES ||
@@ -76,37 +76,34 @@ void ShadowSystem::begin_frame(const SceneSnapshot &p_scene, glm::uvec2 p_size_p
 	});
 }
 
-void ShadowSystem::derive_scene_parts(const SceneSnapshot &p_scene) {
+void ShadowSystem::derive_scene(const SceneSnapshot &p_scene) {
 	warn_once("scene_size", describe_scene_size_problem(p_scene));
-	scene_parts = { p_scene, p_scene.compute_bounds(), p_scene.compute_caster_bounds(),
+	derived_scene = { p_scene, p_scene.compute_bounds(), p_scene.compute_caster_bounds(),
 		/*posed_count=*/0, /*cut_out_lines=*/{} };
 	for (const InstanceSnapshot &instance : p_scene.instances) {
-		scene_parts.posed_count += instance.pose != nullptr ? 1 : 0;
+		derived_scene.posed_count += instance.pose != nullptr ? 1 : 0;
 		if (instance.casts_shadow && instance.cut_block_size_px > 0) {
-			scene_parts.cut_out_lines.push_back(
+			derived_scene.cut_out_lines.push_back(
 					text("holes of \"", instance.node_name, "\" as squares, one for each block of ",
 							instance.cut_block_size_px, " texels"));
 		}
 	}
-	camera_parts.is_valid = false;
+	derived_camera.is_valid = false;
 	for (auto &[key, slot] : slots) {
-		slot.light_parts = {};
+		slot.derived_light = {};
 	}
 }
 
-void ShadowSystem::derive_camera_parts(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
-	LightView view = make_camera_view(p_scene.camera, p_size_px);
-	// make_camera_view ignores the shift; this wider view contains the shifted one.
-	view.half_extent *= 1.0f + glm::abs(p_scene.camera.shift);
-	camera_parts = { /*is_valid=*/true, p_scene.camera.compute_hash(0), p_size_px,
-		compute_frame_constants(p_scene, scene_parts.caster_bounds_world, p_size_px),
-		find_visible_receivers(p_scene, view) };
+void ShadowSystem::derive_camera(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
+	derived_camera = { /*is_valid=*/true, p_scene.camera.compute_hash(0), p_size_px,
+		compute_frame_constants(p_scene, derived_scene.caster_bounds_world, p_size_px),
+		find_visible_receivers(p_scene, make_shifted_camera_view(p_scene.camera, p_size_px)) };
 	for (auto &[key, slot] : slots) {
-		slot.run_parts = {};
-		if (slot.light_parts.selection) {
-			auto selection = std::make_shared<SceneSnapshot>(*slot.light_parts.selection);
+		slot.derived_run = {};
+		if (slot.derived_light.selection) {
+			auto selection = std::make_shared<SceneSnapshot>(*slot.derived_light.selection);
 			selection->camera = p_scene.camera;
-			slot.light_parts.selection = std::move(selection);
+			slot.derived_light.selection = std::move(selection);
 		}
 	}
 }

@@ -44,7 +44,7 @@ private:
 	// with that of the frame before (see FrameSnapshots) uses most of it again.
 
 	/// What does not depend on the camera.
-	struct SceneParts {
+	struct DerivedScene {
 		/// From which it was derived. A copy, so that instances and lights that a host edits are
 		/// others.
 		std::optional<SceneSnapshot> scene;
@@ -53,23 +53,23 @@ private:
 		size_t posed_count = 0;
 		std::vector<std::string> cut_out_lines; // of the plan
 	};
-	struct CameraParts {
-		bool is_valid = false; // for this camera and size, and the SceneParts
+	struct DerivedCamera {
+		bool is_valid = false; // for this camera and size, and the DerivedScene
 		uint64_t camera_hash = 0;
 		glm::uvec2 size_px = glm::uvec2(0);
 		shader::FrameConstants constants = {};
 		VisibleReceivers receivers; // all instances that the camera may see
 	};
 	/// Of one light; independent of the camera.
-	struct LightParts {
-		const LightSnapshot *light = nullptr; // of SceneParts::scene; null: none
+	struct DerivedLight {
+		const LightSnapshot *light = nullptr; // of DerivedScene::scene; null: none
 		/// See SceneSnapshot::select_casters. With the frame's camera.
 		std::shared_ptr<const SceneSnapshot> selection;
 		TranslucentCasters translucent;
 		std::vector<uint64_t> caster_hashes; // of each instance, see hash_casters
 	};
 	/// Of one run of a light's technique; depends on the camera.
-	struct RunParts {
+	struct DerivedRun {
 		const LightSnapshot *light = nullptr; // null: none
 		bool may_skip = false;
 		bool wants_debug_views = false;
@@ -81,9 +81,9 @@ private:
 		std::string technique_id;
 		std::unique_ptr<ShadowTechnique> technique;
 		LightLimits limits;
-		uint64_t last_frame = 0; // the last frame that used the slot
-		LightParts light_parts;	 // of the slot of the light's opaque casters
-		RunParts run_parts;
+		uint64_t last_frame = 0;	// the last frame that used the slot
+		DerivedLight derived_light; // of the slot of the light's opaque casters
+		DerivedRun derived_run;
 	};
 	/// The light's name, and 0 for its opaque casters or 1 + i for its group i of translucent ones.
 	using SlotKey = std::pair<std::string, size_t>;
@@ -97,13 +97,13 @@ private:
 	/// Called once a frame.
 	void begin_frame(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 
-	void derive_scene_parts(const SceneSnapshot &p_scene);
-	void derive_camera_parts(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
+	void derive_scene(const SceneSnapshot &p_scene);
+	void derive_camera(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 
 	RenderingDevice &device;
 	std::shared_ptr<MeshStore> meshes;
-	SceneParts scene_parts;
-	CameraParts camera_parts;
+	DerivedScene derived_scene;
+	DerivedCamera derived_camera;
 	std::map<SlotKey, Slot> slots;
 	std::vector<std::unique_ptr<MaskFilter>> filters; // in the registry's order
 	std::set<std::string> warned;					  // keys of the warnings that were logged

@@ -21,7 +21,6 @@ from measure_world import RATE_BASE, TECHNIQUES
 NEAR_M = 50.0  # along the view
 WALK_S = 20.0
 SUNS = ("Low", "High", "Overcast")
-PENUMBRA = (0.002, 0.998)  # doc/glossary.md
 WRONG = 0.2
 
 
@@ -32,13 +31,11 @@ class Errors:
         self.receivers = self.wrong = self.penumbra = 0
         self.penumbra_sum = 0.0
 
-    def add(self, reference, visibility):
-        error = abs(visibility - reference)
+    def add(self, error, is_in_penumbra):
         self.receivers += 1
         self.wrong += error > WRONG
-        if PENUMBRA[0] < reference < PENUMBRA[1]:
-            self.penumbra += 1
-            self.penumbra_sum += error
+        self.penumbra += is_in_penumbra
+        self.penumbra_sum += error * is_in_penumbra
 
     def describe(self):
         mean = "%.4f" % (self.penumbra_sum / self.penumbra) if self.penumbra else ""
@@ -70,11 +67,13 @@ def measure_frame(program, path, light, time_s, options, folder, errors):
     samples = ("%s_samples=%d" % (reference_id, options.samples),)
     reference = draw(program, path, light, time_s, reference_id, samples, options.size, folder, "--surfaces", folder)
     distances = load_distances(os.path.join(folder, "depth.f32"), near_m)
+    penumbra = set(reference.find_penumbra())
     for technique, settings in TECHNIQUES.items():
         mask = draw(program, path, light, time_s, technique, settings, options.size, folder)
         for i, receiver in enumerate(reference.receiver):
             if receiver >= 0.5:
-                errors[technique, distances[i] < NEAR_M].add(reference.visibility[i], mask.visibility[i])
+                error = abs(mask.visibility[i] - reference.visibility[i])
+                errors[technique, distances[i] < NEAR_M].add(error, i in penumbra)
 
 
 def main():

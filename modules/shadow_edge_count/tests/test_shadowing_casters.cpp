@@ -10,12 +10,12 @@ namespace {
 /// edge_count on a device with room for few triangles.
 class SmallEdgeCount : public ShadowEdgeCount {
 protected:
-	uint64_t find_max_triangle_count(const RenderingDevice & /*p_device*/) const override {
-		return max_triangle_count;
+	CasterLimits find_caster_limits(const RenderingDevice & /*p_device*/) const override {
+		return limits;
 	}
 
 public:
-	static inline uint64_t max_triangle_count = 0;
+	static inline CasterLimits limits;
 };
 
 /// A field of boxes about the small scene, of which the camera sees a part.
@@ -38,6 +38,14 @@ bool skips_casters(const FramePlan &p_plan) {
 
 TEST_CASE("[GPU][EdgeCount] casters whose shadows reach nothing visible are skipped if all do not "
 		  "fit") {
+	// 227 boxes have 12 faces each, and 18 edges of which 6 are inside flat sides.
+	CasterLimits limits;
+	SUBCASE("too many faces") {
+		limits = { 12 * 200, 1000000 };
+	}
+	SUBCASE("too many edges") {
+		limits = { 1000000, 18 * 200 };
+	}
 	MaskFixture fixture;
 	for (const double angle_deg : { 0.0, 0.5, 20.0 }) {
 		CAPTURE(angle_deg);
@@ -57,20 +65,21 @@ TEST_CASE("[GPU][EdgeCount] casters whose shadows reach nothing visible are skip
 		render_all(expected);
 		{
 			const ReplacedTechnique<SmallEdgeCount> technique;
-			SmallEdgeCount::max_triangle_count = 12 * 200; // of 227 boxes
+			SmallEdgeCount::limits = limits;
 			render_all(limited);
 		}
 		for (size_t view = 0; view < std::size(views); ++view) {
 			CAPTURE(view);
 			CHECK_FALSE(skips_casters(expected[view].plan));
-			// The second view is so close to the first that nothing is found anew.
+			// The second view is so close to the first that no casters are searched for again.
 			CHECK(skips_casters(limited[view].plan) == (view != 1));
 			CHECK(limited[view].visibility == expected[view].visibility);
 		}
 	}
 }
 
-TEST_CASE("[EdgeCount] a caster is kept if it is before a visible receiver, seen from the light") {
+TEST_CASE("[EdgeCount] a caster is recorded if it is before a visible receiver, seen from the "
+		  "light") {
 	SmallScene scene(LightType::DIRECTIONAL);
 	scene.light->parent_from_node = look_at({ 0, 4, 0 }, { 0, 0, 0 });
 	const auto mesh = make_box_mesh("cube", glm::vec3(0.1f));
@@ -95,7 +104,7 @@ TEST_CASE("[EdgeCount] a caster is kept if it is before a visible receiver, seen
 	CHECK(find(1.0, 0.0) == std::vector<uint32_t>{ 2, 3 }); // its penumbra is wide
 	CHECK(find(0.0, 1.5) == std::vector<uint32_t>{ 2, 3 });
 	CHECK(find(0.0, 2.5) == std::vector<uint32_t>{ 2, 3, 4 });
-	// A camera that looks along x from x = 1.5: only what comes near in its view is kept.
+	// A camera that looks along x from x = 1.5: only what comes near its view is recorded.
 	scene.camera->parent_from_node = look_at({ 1.5, 0, 0 }, { 9, 0, 0 });
 	auto ahead = scene.snap();
 	const ShadowedView shadowed = { view, /*disc_radius=*/0.0, std::span(&receiver, 1),
