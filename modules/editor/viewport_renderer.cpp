@@ -114,11 +114,11 @@ void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_r
 		return;
 	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_request.scene);
-	for (LightSnapshot &light : scene->lights.edit()) {
-		if (light.name == p_request.debug_light) {
-			light.technique_id = technique;
+	scene->lights.edit_all([&](LightSnapshot &r_light) {
+		if (r_light.name == p_request.debug_light) {
+			r_light.technique_id = technique;
 		}
-	}
+	});
 	p_request.scene = scene;
 	if (!compared_renderer) {
 		compared_renderer = std::make_unique<Renderer>(device);

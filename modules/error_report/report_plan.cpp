@@ -213,9 +213,9 @@ private:
 	void add_scene_image(const std::string &p_scene,
 			const std::shared_ptr<const SceneSnapshot> &p_snapshot, bool p_has_shadows) {
 		auto shown = std::make_shared<SceneSnapshot>(*p_snapshot);
-		for (LightSnapshot &light : shown->lights.edit()) {
-			light.casts_shadow = light.casts_shadow && p_has_shadows;
-		}
+		shown->lights.edit_all([&](LightSnapshot &r_light) {
+			r_light.casts_shadow = r_light.casts_shadow && p_has_shadows;
+		});
 		ReportSceneImage image;
 		image.scene = p_scene;
 		image.has_shadows = p_has_shadows;

@@ -573,7 +573,7 @@ void SceneReader::cull_faces(const ShadowNode &p_node, SceneSnapshot &r_scene) {
 			? glm::dvec4(-light.get_direction_world(), 0.0)
 			: glm::dvec4(light.position_world, 1.0);
 	for (const CulledInstance &entry : culled) {
-		InstanceSnapshot &instance = r_scene.instances.edit()[entry.instance];
+		InstanceSnapshot &instance = r_scene.instances.edit(entry.instance);
 		const bool is_back = (entry.culling == ShadowCulling::BACK) != is_reversed;
 		const std::shared_ptr<const Mesh> mesh = facing.select(instance.caster_mesh,
 				{ light_id, entry.instance }, glm::inverse(instance.world_from_node) * light_world,

@@ -87,10 +87,10 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	auto scene = std::make_shared<SceneSnapshot>(*p_frame.scene);
 	scene->camera = p_view.camera;
 	for (const auto &[index, instance] : detail.billboards) {
-		scene->instances.edit()[index] = instance;
+		scene->instances.edit(index) = instance;
 	}
 	for (const size_t hidden : detail.hidden_instances) {
-		scene->instances.edit()[hidden].casts_shadow = false;
+		scene->instances.edit(hidden).casts_shadow = false;
 	}
 	RenderGraph graph(device, transients);
 	FramePlan plan;

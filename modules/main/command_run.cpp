@@ -79,9 +79,9 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 		request.wants_image = index + 1 == frame_count;
 		request.wants_graph = request.wants_image && !options.dot.empty();
 		// A fixed time step, so that the images do not depend on the speed of the machine.
-		const bool has_changed =
+		const SceneChange change =
 				options.playback.advance(r_scene, index == 0 ? 0.0 : 1.0 / HEADLESS_FRAMES_PER_S);
-		request.scene = snapshots.build(r_scene, camera, has_changed);
+		request.scene = snapshots.build(r_scene, camera, change);
 		result = renderer.render(request);
 	}
 	write_outputs(result, p_size_px);
@@ -92,14 +92,18 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	std::printf("%-40s %8.3f ms GPU, %.3f ms wall\n", "frame", result.gpu_ms, result.wall_ms);
 	if (!options.time_path.empty()) {
 		request.wants_image = false;
-		request.may_reuse = options.is_still;
+		request.may_reuse = options.is_still || options.is_playing;
+		const auto build_next = [&] {
+			const SceneChange change = options.is_playing
+					? options.playback.advance(r_scene, 1.0 / HEADLESS_FRAMES_PER_S)
+					: options.is_still ? SceneChange::NONE
+									   : SceneChange::ANY;
+			return snapshots.build(r_scene, camera, change);
+		};
 		save_file_atomically(options.time_path,
 				RunPartRegistry::find(MASKS_PART)
-						->measure_time(
-								renderer, request, WARM_UP_FRAME_COUNT, MEASURED_FRAME_COUNT, [&] {
-									return snapshots.build(
-											r_scene, camera, /*p_has_changed=*/!options.is_still);
-								}));
+						->measure_time(renderer, request, WARM_UP_FRAME_COUNT, MEASURED_FRAME_COUNT,
+								build_next));
 	}
 }
 
@@ -172,10 +176,16 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 				command->add_option("--time", options.time_path,
 							   "Writes the times of 20 frames after 5 to warm up as JSON")
 						->needs(headless);
-		command->add_flag("--still", options.is_still,
-					   "--time measures frames in which nothing moves, so that techniques reuse "
-					   "their caches")
-				->needs(time);
+		CLI::Option *still =
+				command->add_flag("--still", options.is_still,
+							   "--time measures frames in which nothing moves, so that techniques "
+							   "reuse their caches")
+						->needs(time);
+		command->add_flag("--playing", options.is_playing,
+					   "--time measures whole frames in which the animation plays and techniques "
+					   "reuse their caches, as in a window")
+				->needs(time)
+				->excludes(still);
 	}
 	command->add_flag("--skip-nothing,--leave-out-nothing", options.skips_nothing,
 				   "Also runs passes that the image does not need (for comparison)")

@@ -38,7 +38,7 @@ struct GameState {
 	AnimationPlayback playback;
 	bool has_reference = false;
 	bool shows_text = true;
-	bool has_changed_scene = false; // since the last frame
+	SceneChange change = SceneChange::ANY; // since the last frame
 	/// Debug view that key V selects ("mask" or "error"); empty: the view of --debug-view, if any.
 	std::string shown;
 
@@ -62,7 +62,7 @@ struct GameState {
 			const PropertyValue value = get_float(list, light->properties, name) * p_factor;
 			if (check_property(*list.find(name), value).empty()) {
 				light->properties[name] = value;
-				has_changed_scene = true;
+				change = SceneChange::ANY;
 			}
 		}
 	}
@@ -164,7 +164,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	fly_camera.apply(camera);
 	state.playback.advance(r_scene, 0.0);
 	FrameSnapshots snapshots;
-	request.scene = snapshots.build(r_scene, camera, /*p_has_changed=*/true);
+	request.scene = snapshots.build(r_scene, camera, SceneChange::ANY);
 	while (window.poll()) {
 		const Clock::time_point now = Clock::now();
 		const double seconds = std::chrono::duration<double>(now - last).count();
@@ -174,15 +174,15 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		}
 		fly(fly_camera, window, seconds);
 		fly_camera.apply(camera);
-		state.has_changed_scene |=
-				state.playback.advance(r_scene, drawn_count == 0 ? 0.0 : seconds);
+		state.change = std::max(
+				state.change, state.playback.advance(r_scene, drawn_count == 0 ? 0.0 : seconds));
 		const glm::uvec2 size_px = window.get_size_px();
 		if (size_px.x == 0 || size_px.y == 0) {
 			continue; // minimised
 		}
 		const bool is_last = p_options.frame_count > 0 && drawn_count + 1 >= p_options.frame_count;
-		request.scene = snapshots.build(r_scene, camera, state.has_changed_scene);
-		state.has_changed_scene = false;
+		request.scene = snapshots.build(r_scene, camera, state.change);
+		state.change = SceneChange::NONE;
 		request.size_px = size_px;
 		request.acquire_window_image = [&] { return swapchain->acquire(size_px); };
 		request.debug_view = state.shown.empty() ? p_options.debug_view : state.shown;

@@ -28,6 +28,7 @@ struct RunOptions {
 	std::string dot;			// path of the frame graph in Graphviz format; empty: none
 	std::string time_path;		// --time, headless: the JSON file to write; empty: none
 	bool is_still = false;		// --still: the frames of --time may reuse cached results
+	bool is_playing = false;	// --playing: as is_still, while the animation plays
 	bool skips_nothing = false; // headless: also runs passes that the image does not need
 };
 

@@ -80,9 +80,8 @@ TracedReference RenderedMaskSource::trace_reference(
 				" that states how many rays it takes. Declare it.");
 	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_task.scene);
-	for (LightSnapshot &light : scene->lights.edit()) {
-		light.properties[samples] = int64_t(p_sample_count);
-	}
+	scene->lights.edit_all(
+			[&](LightSnapshot &r_light) { r_light.properties[samples] = int64_t(p_sample_count); });
 	RenderRequest request = make_request(p_task, reference.id);
 	request.scene = scene;
 	request.wants_surfaces = true;

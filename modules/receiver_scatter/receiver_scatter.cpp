@@ -5,6 +5,7 @@
 #include "modules/receiver_scatter/scatter_samples.h"
 #include "modules/render_graph/compute_pass.h"
 #include "modules/shadows/camera_view.h"
+#include "modules/shadows/scene_summary.h"
 
 #include "receiver_scatter/receiver_scatter_shared.h"
 
@@ -39,11 +40,13 @@ bool is_translucent(const Material &p_material, ScatterKind p_kind) {
 
 /// Whether the light reaches a translucent surface that the camera may see.
 bool has_scatter(const ShadowTechnique::Inputs &p_inputs, ScatterKind p_kind) {
-	return std::any_of(p_inputs.lit_receivers.begin(), p_inputs.lit_receivers.end(),
-			[&](const VisibleReceiver &p_receiver) {
-				return is_translucent(
-						*p_inputs.scene.instances[p_receiver.instance_index].material, p_kind);
-			});
+	return p_inputs.summary.get_whole().may_scatter &&
+			std::any_of(p_inputs.lit_receivers.begin(), p_inputs.lit_receivers.end(),
+					[&](const VisibleReceiver &p_receiver) {
+						return is_translucent(
+								*p_inputs.scene.instances[p_receiver.instance_index].material,
+								p_kind);
+					});
 }
 
 /// Packs depth, normal, material key and mask of each pixel into four 32-bit words (pack.comp).

@@ -105,6 +105,16 @@ shader::GBufferInstance make_instance_data(
 	return data;
 }
 
+/// Mesh, material with textures, is mirrored, is double-sided.
+using GroupKey = std::tuple<const Mesh *, const Material *, bool, bool>;
+
+GroupKey make_group_key(const InstanceSnapshot &p_instance) {
+	const Material *material = p_instance.material.get();
+	return { p_instance.mesh.get(),
+		needs_gpu_material(*p_instance.mesh, *material) ? material : nullptr,
+		p_instance.is_mirrored(), material->is_double_sided };
+}
+
 struct GBufferDraw {
 	const GpuMesh *mesh;
 	PipelineRID pipeline;
@@ -146,39 +156,71 @@ void record_draw(PassContext &p_context, const GBufferDraw &p_draw, RGBuffer p_f
 
 } // namespace
 
-GBufferInstances collect_gbuffer_instances(const SceneSnapshot &p_scene,
-		std::span<const VisibleReceiver> p_visible, glm::uvec2 p_size_px) {
-	// Mesh, material with textures, is mirrored, is double-sided.
-	using Key = std::tuple<const Mesh *, const Material *, bool, bool>;
-	std::map<Key, std::vector<shader::GBufferInstance>> instances;
-	GBufferInstances result;
-	std::vector<const std::vector<shader::GBufferInstance> *> of_groups;
-	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
+void GBufferInstances::collect(const SceneSnapshot &p_scene,
+		std::span<const VisibleReceiver> p_visible, const LightView &p_camera_view) {
+	// Indices of instances, by group.
+	std::map<GroupKey, std::vector<uint32_t>> members;
+	std::vector<const std::vector<uint32_t> *> of_groups;
+	groups.clear();
 	for (const VisibleReceiver &item : p_visible) {
 		const InstanceSnapshot &instance = p_scene.instances[item.instance_index];
-		if (!camera_view.may_see(instance)) {
+		if (!p_camera_view.may_see(instance)) {
 			continue;
 		}
-		const bool has_textures = needs_gpu_material(*instance.mesh, *instance.material);
-		const Key key = { instance.mesh.get(), has_textures ? instance.material.get() : nullptr,
-			instance.is_mirrored(), instance.material->is_double_sided };
-		const auto [entry, is_new] = instances.try_emplace(key);
+		const auto [entry, is_new] = members.try_emplace(make_group_key(instance));
 		if (is_new) {
-			result.groups.push_back({ item.instance_index });
+			groups.push_back({ item.instance_index });
 			of_groups.push_back(&entry->second);
 		}
-		entry->second.push_back(make_instance_data(p_scene, instance));
+		entry->second.push_back(item.instance_index);
 	}
+	instances.clear();
+	places.assign(p_scene.instances.size(), NOT_DRAWN);
 	for (size_t index = 0; index < of_groups.size(); ++index) {
-		result.groups[index].first = static_cast<uint32_t>(result.instances.size());
-		result.groups[index].count = static_cast<uint32_t>(of_groups[index]->size());
-		result.instances.insert(
-				result.instances.end(), of_groups[index]->begin(), of_groups[index]->end());
+		groups[index].first = static_cast<uint32_t>(instances.size());
+		groups[index].count = static_cast<uint32_t>(of_groups[index]->size());
+		for (const uint32_t member : *of_groups[index]) {
+			places[member] = static_cast<uint32_t>(instances.size());
+			instances.push_back(make_instance_data(p_scene, p_scene.instances[member]));
+		}
 	}
-	result.scene_instances = p_scene.instances;
-	result.camera_hash = p_scene.camera.compute_hash(0);
-	result.size_px = p_size_px;
-	return result;
+}
+
+bool GBufferInstances::move(const SceneSnapshot &p_scene,
+		std::span<const VisibleReceiver> p_visible, const LightView &p_camera_view) {
+	for (const uint32_t page : p_scene.instances.find_changed_pages(scene_instances)) {
+		auto index = static_cast<uint32_t>(page * SharedVector<InstanceSnapshot>::PAGE_SIZE);
+		for (const InstanceSnapshot &instance : p_scene.instances.get_page(page)) {
+			const bool is_drawn = std::ranges::binary_search(
+										  p_visible, index, {}, &VisibleReceiver::instance_index) &&
+					p_camera_view.may_see(instance);
+			if (is_drawn != (places[index] != NOT_DRAWN)) {
+				return false;
+			}
+			if (is_drawn) {
+				if (make_group_key(instance) != make_group_key(scene_instances[index])) {
+					return false;
+				}
+				instances[places[index]] = make_instance_data(p_scene, instance);
+			}
+			++index;
+		}
+	}
+	return true;
+}
+
+void GBufferInstances::update(const SceneSnapshot &p_scene,
+		std::span<const VisibleReceiver> p_visible, glm::uvec2 p_size_px) {
+	const uint64_t hash = p_scene.camera.compute_hash(0);
+	const bool is_same_view = camera_hash == hash && size_px == p_size_px &&
+			scene_instances.size() == p_scene.instances.size();
+	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
+	if (!is_same_view || !move(p_scene, p_visible, camera_view)) {
+		collect(p_scene, p_visible, camera_view);
+	}
+	scene_instances = p_scene.instances;
+	camera_hash = hash;
+	size_px = p_size_px;
 }
 
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,

@@ -37,17 +37,21 @@ struct GBufferInstances {
 	glm::uvec2 size_px = glm::uvec2(0);
 	std::vector<Group> groups; // in the order of their first instances
 	std::vector<shader::GBufferInstance> instances;
+	std::vector<uint32_t> places; // by instance of the snapshot: where in `instances`, or NOT_DRAWN
+	static constexpr uint32_t NOT_DRAWN = ~0u;
 
-	/// Whether collect_gbuffer_instances would return the same.
-	bool is_of(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) const {
-		return scene_instances.shares_items_with(p_scene.instances) &&
-				camera_hash == p_scene.camera.compute_hash(0) && size_px == p_size_px;
-	}
+	/// Makes this the instances of a snapshot. If the camera is still, it makes only those that
+	/// have changed. p_visible: from ShadowFrame::list_visible. p_size_px: of the image.
+	void update(const SceneSnapshot &p_scene, std::span<const VisibleReceiver> p_visible,
+			glm::uvec2 p_size_px);
+
+private:
+	void collect(const SceneSnapshot &p_scene, std::span<const VisibleReceiver> p_visible,
+			const LightView &p_camera_view);
+	/// Returns false if others than before are drawn, or in other groups.
+	bool move(const SceneSnapshot &p_scene, std::span<const VisibleReceiver> p_visible,
+			const LightView &p_camera_view);
 };
-
-/// p_visible: from ShadowFrame::list_visible. p_size_px: of the image.
-GBufferInstances collect_gbuffer_instances(const SceneSnapshot &p_scene,
-		std::span<const VisibleReceiver> p_visible, glm::uvec2 p_size_px);
 
 /// Draws the instances.
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,

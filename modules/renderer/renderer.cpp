@@ -233,10 +233,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	RenderResult result;
 	Frame frame(*this, p_request, result);
 	const CommandCounts counts_before = device.get_command_counts();
-	if (!gbuffer_instances.is_of(scene, frame.image.size_px)) {
-		gbuffer_instances =
-				collect_gbuffer_instances(scene, frame.shadows.list_visible(), frame.image.size_px);
-	}
+	gbuffer_instances.update(scene, frame.shadows.list_visible(), frame.image.size_px);
 	const GBuffer &gbuffer = frame.image.gbuffer = add_gbuffer_pass(frame.graph, device,
 			shadows.get_meshes(), materials, gbuffer_instances, frame.image.frame);
 	const size_t drawn_count = gbuffer_instances.instances.size();

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <unordered_map>
 
 namespace gnomon {
 
@@ -45,73 +45,84 @@ NodeTransform choose_components(const NodeTransform &p_file_transform, const Nod
 			: decompose_transform(p_node.parent_from_node);
 }
 
-/// The values that channels set on one node.
-struct NodePose {
-	std::optional<glm::dvec3> translation;
-	std::optional<glm::dquat> rotation;
-	std::optional<glm::dvec3> scale;
-	std::optional<std::vector<float>> weights;
-};
-
-std::map<int, NodePose> sample_channels(const Animation &p_animation, double p_time_s) {
-	std::map<int, NodePose> poses;
-	for (const AnimationChannel &channel : p_animation.channels) {
-		const std::vector<double> values =
-				channel.sampler.sample(p_time_s, channel.path == AnimatedPath::ROTATION);
-		NodePose &pose = poses[channel.node];
-		switch (channel.path) {
+void pose_node(const AnimatedNodePose &p_pose, double p_time_s) {
+	const AnimationChannel *weights = nullptr;
+	bool is_moved = false;
+	Node3D &node = *p_pose.node;
+	for (const AnimationChannel *channel : p_pose.channels) {
+		weights = channel->path == AnimatedPath::WEIGHTS ? channel : weights;
+		is_moved = is_moved || channel->path != AnimatedPath::WEIGHTS;
+	}
+	const auto sample = [&](const AnimationChannel &p_channel) {
+		return p_channel.sampler.sample(p_time_s, p_channel.path == AnimatedPath::ROTATION);
+	};
+	if (auto *instance = dynamic_cast<MeshInstance3D *>(&node); instance && weights) {
+		const std::vector<double> values = sample(*weights);
+		instance->posed_morph_weights.emplace(values.begin(), values.end());
+	}
+	if (!is_moved) {
+		return;
+	}
+	NodeTransform moved = choose_components(p_pose.file_transform, node);
+	for (const AnimationChannel *channel : p_pose.channels) {
+		switch (channel->path) {
 			case AnimatedPath::TRANSLATION:
-				pose.translation = to_vector(values);
+				moved.translation = to_vector(sample(*channel));
 				break;
 			case AnimatedPath::ROTATION:
-				pose.rotation = to_quaternion(values);
+				moved.rotation = to_quaternion(sample(*channel));
 				break;
 			case AnimatedPath::SCALE:
-				pose.scale = to_vector(values);
+				moved.scale = to_vector(sample(*channel));
 				break;
 			case AnimatedPath::WEIGHTS:
-				pose.weights.emplace(values.begin(), values.end());
 				break;
+		}
+	}
+	node.posed_parent_from_node = moved.compose();
+}
+
+/// Finds the nodes that the animation poses; null: none. Several nodes share a file index if one
+/// file node became several, such as a mesh with a light below it. The animation poses only the
+/// first, and the others move with it.
+std::vector<AnimatedNodePose> find_posed_nodes(const Scene &p_scene, const Animation *p_animation) {
+	std::vector<AnimatedNodePose> poses;
+	if (!p_animation) {
+		return poses;
+	}
+	std::unordered_map<int, AnimatedNodePose> by_file_index;
+	for (const AnimationChannel &channel : p_animation->channels) {
+		by_file_index[channel.node].channels.push_back(&channel);
+	}
+	for (const AnimatedNode &node : p_animation->nodes) {
+		by_file_index[node.node].file_transform = node.transform;
+	}
+	for (Node3D *node : p_scene.find_nodes<Node3D>()) {
+		const auto found = by_file_index.find(node->file_index);
+		if (node->file_index >= 0 && found != by_file_index.end()) {
+			poses.push_back(std::move(found->second));
+			poses.back().node = node;
+			by_file_index.erase(found);
 		}
 	}
 	return poses;
 }
 
-/// Implements pose_scene. Changes the nodes, which are not const even in a const scene.
-void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_time_s) {
-	std::map<int, NodePose> poses;
-	std::map<int, NodeTransform> file_transforms;
-	if (p_animation) {
-		poses = sample_channels(*p_animation, p_time_s);
-		for (const AnimatedNode &node : p_animation->nodes) {
-			file_transforms[node.node] = node.transform;
-		}
-	}
+/// Implements pose_scene. Changes the nodes, which are not const even in a const scene. Returns
+/// those that the animation poses.
+std::vector<AnimatedNodePose> pose_nodes(
+		const Scene &p_scene, const Animation *p_animation, double p_time_s) {
 	for (Node3D *node : p_scene.find_nodes<Node3D>()) {
 		node->posed_parent_from_node.reset();
-		auto *instance = dynamic_cast<MeshInstance3D *>(node);
-		if (instance) {
+		if (auto *instance = dynamic_cast<MeshInstance3D *>(node)) {
 			instance->posed_morph_weights.reset();
 		}
-		// Several nodes share a file index if one file node became several, such as a mesh with a
-		// light below it. The animation poses only the first, and the others move with it.
-		const auto pose = poses.find(node->file_index);
-		if (node->file_index < 0 || pose == poses.end()) {
-			continue;
-		}
-		const NodePose channels = std::move(pose->second);
-		poses.erase(pose);
-		if (channels.weights && instance) {
-			instance->posed_morph_weights = channels.weights;
-		}
-		if (channels.translation || channels.rotation || channels.scale) {
-			NodeTransform moved = choose_components(file_transforms.at(node->file_index), *node);
-			moved.translation = channels.translation.value_or(moved.translation);
-			moved.rotation = channels.rotation.value_or(moved.rotation);
-			moved.scale = channels.scale.value_or(moved.scale);
-			node->posed_parent_from_node = moved.compose();
-		}
 	}
+	std::vector<AnimatedNodePose> poses = find_posed_nodes(p_scene, p_animation);
+	for (const AnimatedNodePose &pose : poses) {
+		pose_node(pose, p_time_s);
+	}
+	return poses;
 }
 
 } // namespace
@@ -168,6 +179,27 @@ double Animation::wrap_time(double p_time_s) const {
 
 void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s) {
 	pose_nodes(r_scene, p_animation, p_time_s);
+}
+
+SceneChange ScenePoser::pose(
+		Scene &r_scene, std::shared_ptr<const Animation> p_animation, double p_time_s) {
+	const bool is_same = root == r_scene.root.get() && animation == p_animation &&
+			tree_revision == Node3D::get_tree_revision();
+	if (is_same && (time_s == p_time_s || poses.empty())) {
+		return SceneChange::NONE;
+	}
+	time_s = p_time_s;
+	if (is_same) {
+		for (const AnimatedNodePose &pose : poses) {
+			pose_node(pose, time_s);
+		}
+		return SceneChange::POSE;
+	}
+	root = r_scene.root.get();
+	animation = std::move(p_animation);
+	tree_revision = Node3D::get_tree_revision();
+	poses = pose_nodes(r_scene, animation.get(), time_s);
+	return SceneChange::ANY;
 }
 
 std::shared_ptr<const SceneSnapshot> build_posed_snapshot(const Scene &p_scene,

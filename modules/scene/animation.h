@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/scene/frame_snapshots.h"
 #include "modules/scene/node_transform.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
@@ -60,6 +61,29 @@ struct Animation {
 /// clamped to its first and last key; all other nodes return to rest. Null resets all nodes.
 /// The nodes' own transforms and weights do not change: see Node3D::posed_parent_from_node.
 void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s);
+
+/// A node that an animation poses, and how.
+struct AnimatedNodePose {
+	Node3D *node = nullptr;
+	NodeTransform file_transform; // see AnimatedNode
+	std::vector<const AnimationChannel *> channels;
+};
+
+/// Poses one scene at one time after another. If it was the last to pose the scene, it poses only
+/// the animated nodes.
+class ScenePoser {
+public:
+	/// Poses the scene as pose_scene does. Returns what has changed since the last call. An
+	/// animation of other nodes, another scene or a changed tree is ANY.
+	SceneChange pose(Scene &r_scene, std::shared_ptr<const Animation> p_animation, double p_time_s);
+
+private:
+	const Node3D *root = nullptr;
+	std::shared_ptr<const Animation> animation;
+	uint64_t tree_revision = 0;
+	double time_s = 0;
+	std::vector<AnimatedNodePose> poses;
+};
 
 /// Builds a snapshot, as build_snapshot does, of the scene posed by the animation at a time; null:
 /// at rest. Afterwards the scene has its previous pose again.

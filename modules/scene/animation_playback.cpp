@@ -16,8 +16,7 @@ void AnimationPlayback::play() {
 	}
 }
 
-bool AnimationPlayback::advance(Scene &r_scene, double p_seconds) {
-	const double before_s = time_s;
+SceneChange AnimationPlayback::advance(Scene &r_scene, double p_seconds) {
 	if (animation && is_playing) {
 		const double next_s = time_s + p_seconds * speed;
 		if (loops) {
@@ -27,8 +26,7 @@ bool AnimationPlayback::advance(Scene &r_scene, double p_seconds) {
 			time_s = std::clamp(next_s, 0.0, animation->duration_s);
 		}
 	}
-	apply(r_scene);
-	return animation && time_s != before_s;
+	return poser.pose(r_scene, animation, time_s);
 }
 
 void AnimationPlayback::apply(Scene &r_scene) const {

@@ -17,10 +17,11 @@ public:
 
 	/// Starts playing; if it does not loop and is at its end, it restarts from the other end.
 	void play();
-	/// Advances by p_seconds of real time, times the speed, and poses the scene. Returns false if
-	/// the time is that of the call before, and so is the pose, if nothing else posed the scene.
-	bool advance(Scene &r_scene, double p_seconds);
-	/// Poses the scene at the current time.
+	ScenePoser poser; // used by advance()
+	/// Advances by p_seconds of real time, times the speed, and poses the scene. Returns what has
+	/// changed since the call before, if nothing else has posed the scene.
+	SceneChange advance(Scene &r_scene, double p_seconds);
+	/// Poses the scene at the current time, whatever posed it before.
 	void apply(Scene &r_scene) const;
 };
 

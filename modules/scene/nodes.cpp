@@ -5,8 +5,23 @@
 #include "modules/scene/mesh_pose.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace gnomon {
+
+namespace {
+
+std::atomic<uint64_t> tree_revision = 1; // scenes are also loaded on other threads
+
+} // namespace
+
+Node3D::~Node3D() {
+	++tree_revision;
+}
+
+uint64_t Node3D::get_tree_revision() {
+	return tree_revision;
+}
 
 Node3D *Node3D::add_child(std::unique_ptr<Node3D> p_child) {
 	return insert_child(std::move(p_child), children.size());
@@ -16,6 +31,7 @@ Node3D *Node3D::insert_child(std::unique_ptr<Node3D> p_child, size_t p_index) {
 	GNOMON_ASSERT(p_child, "node ", name, " was given no child");
 	GNOMON_ASSERT(!p_child->parent, "node ", p_child->name, " has a parent already");
 	p_child->parent = this;
+	++tree_revision;
 	const size_t index = std::min(p_index, children.size());
 	return children.insert(children.begin() + ptrdiff_t(index), std::move(p_child))->get();
 }
@@ -27,6 +43,7 @@ std::unique_ptr<Node3D> Node3D::remove_child(const Node3D &p_child) {
 	std::unique_ptr<Node3D> child = std::move(*found);
 	children.erase(found);
 	child->parent = nullptr;
+	++tree_revision;
 	return child;
 }
 

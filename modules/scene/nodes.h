@@ -50,7 +50,7 @@ public:
 	/// light. Such nodes are saved only if a descendant is.
 	bool is_staged = false;
 
-	virtual ~Node3D() = default;
+	virtual ~Node3D();
 	/// Returns the name of the class, such as "Light3D", for the editor's tree.
 	virtual const char *get_class_name() const { return "Node3D"; }
 	/// Members that can be read and set by name; those of the base class come first.
@@ -81,6 +81,9 @@ public:
 	}
 	/// Computes the transform to the world, with the posed transforms.
 	glm::dmat4 compute_world_from_node() const;
+	/// Another value whenever a node of any tree was added, removed or destroyed. While it stays,
+	/// pointers to nodes stay valid.
+	static uint64_t get_tree_revision();
 };
 
 /// Joints, and their inverse bind matrices. Nodes are referenced by Node3D::file_index, so that

@@ -2,7 +2,6 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/scene/cut_levels.h"
 #include "modules/scene/cut_mesh.h"
 #include "modules/scene/mesh_pose.h"
 #include "modules/scene/node_transform.h"
@@ -77,22 +76,6 @@ void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	}
 }
 
-/// Returns the level of detail that suits the light if the instance is cut out; otherwise its
-/// caster mesh.
-std::shared_ptr<const Mesh> choose_caster_mesh(const InstanceSnapshot &p_instance,
-		const LightSnapshot &p_light, const Bounds &p_scene_bounds) {
-	if (!p_instance.caster_levels) {
-		return p_instance.caster_mesh;
-	}
-	const CutLevels &levels = *p_instance.caster_levels;
-	const std::shared_ptr<const Mesh> mesh = levels.get_mesh(levels.choose_level(
-			p_instance.compute_max_penumbra_half_width(p_light, p_scene_bounds)));
-	if (!mesh) {
-		return p_instance.caster_mesh;
-	}
-	return p_instance.pose_slot ? p_instance.pose_slot->get_deformed(mesh) : mesh;
-}
-
 void check_bounds(const InstanceSnapshot &p_instance) {
 	if (!std::isfinite(p_instance.bounds_world.get_diagonal())) {
 		fail("Node \"", p_instance.node_name, "\": its vertices are not finite in the world. Make ",
@@ -136,12 +119,16 @@ InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 	instance.cut_block_size_px = cut.block_size_px;
 	instance.cut_hash = cut.content_hash;
 	instance.node_name = p_node_name;
-	instance.world_from_node = p_world_from_node;
-	thicken_if_flat(instance.world_from_node);
 	instance.caster_bounds_node = instance.caster_mesh->bounds_node;
-	instance.bounds_world = transform_bounds(instance.mesh->bounds_node, instance.world_from_node);
-	check_bounds(instance);
+	instance.set_transform(p_world_from_node);
 	return instance;
+}
+
+void InstanceSnapshot::set_transform(const glm::dmat4 &p_world_from_node) {
+	world_from_node = p_world_from_node;
+	thicken_if_flat(world_from_node);
+	bounds_world = transform_bounds(mesh->bounds_node, world_from_node);
+	check_bounds(*this);
 }
 
 void InstanceSnapshot::set_pose(
@@ -276,38 +263,6 @@ const LightSnapshot *SceneSnapshot::find_light(const std::string &p_name) const 
 		}
 	}
 	return nullptr;
-}
-
-std::shared_ptr<const SceneSnapshot> SceneSnapshot::select_casters(
-		const LightSnapshot &p_light) const {
-	std::shared_ptr<SceneSnapshot> selected;
-	const Bounds bounds = compute_bounds();
-	for (size_t index = 0; index < instances.size(); ++index) {
-		const InstanceSnapshot &instance = instances[index];
-		if (!instance.casts_shadow) {
-			continue;
-		}
-		const auto of_light = instance.caster_meshes_of_lights.find(p_light.name);
-		const bool has_own = of_light != instance.caster_meshes_of_lights.end();
-		const bool casts =
-				(instance.layers & p_light.caster_layers) != 0 && (!has_own || of_light->second);
-		const std::shared_ptr<const Mesh> mesh = !casts ? instance.caster_mesh
-				: has_own								? of_light->second
-						  : choose_caster_mesh(instance, p_light, bounds);
-		if (casts && mesh == instance.caster_mesh) {
-			continue;
-		}
-		if (!selected) {
-			selected = std::make_shared<SceneSnapshot>(*this);
-		}
-		InstanceSnapshot &chosen = selected->instances.edit()[index];
-		chosen.casts_shadow = casts;
-		chosen.caster_mesh = mesh;
-		if (casts && has_own) {
-			chosen.cut_hash = mesh->content_hash;
-		}
-	}
-	return selected;
 }
 
 Bounds SceneSnapshot::compute_bounds() const {

@@ -105,6 +105,9 @@ struct InstanceSnapshot {
 	bool is_planar_receiver = false;
 	uint32_t layers = 1; // see LightSnapshot::caster_layers
 
+	/// Moves an instance whose mesh is at rest. A transform that flattens the mesh gets a minimum
+	/// thickness.
+	void set_transform(const glm::dmat4 &p_world_from_node);
 	/// Applies a pose to an instance whose mesh is at rest. The slot must be that of the mesh.
 	void set_pose(std::shared_ptr<PoseSlot> p_slot, std::shared_ptr<const MeshPose> p_pose);
 	/// Return mesh and caster_mesh with posed vertices, for CPU code.

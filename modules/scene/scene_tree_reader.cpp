@@ -1,9 +1,9 @@
 // build_snapshot: reads what one frame needs from a scene's tree.
 
+#include "modules/scene/scene_tree_reader.h"
+
 #include "modules/core/error.h"
-#include "modules/scene/frame_snapshots.h"
 #include "modules/scene/mesh_pose.h"
-#include "modules/scene/scene_snapshot.h"
 #include "modules/scene/skin_transforms.h"
 
 #include <algorithm>
@@ -27,50 +27,22 @@ bool is_finite(const glm::dmat4 &p_matrix) {
 	return true;
 }
 
-void check_transform(const Node3D &p_node, const glm::dmat4 &p_world_from_node) {
-	if (!is_finite(p_world_from_node)) {
-		fail("Node \"", p_node.name, "\": its transform to the world is not finite. Correct it or ",
-				"one of its parents' transforms.");
-	}
-}
-
-CameraSnapshot build_camera_snapshot(const Camera3D &p_camera) {
-	const glm::dmat4 world_from_node = p_camera.compute_world_from_node();
-	check_transform(p_camera, world_from_node);
-	CameraSnapshot snapshot;
-	snapshot.name = p_camera.name;
-	snapshot.position_world = glm::dvec3(world_from_node[3]);
-	snapshot.world_from_camera = compute_orientation(world_from_node, "Camera", p_camera.name);
-	snapshot.vertical_fov_rad = p_camera.vertical_fov_rad;
-	snapshot.near_m = p_camera.near_m;
-	return snapshot;
-}
-
-LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_world_from_node) {
-	check_transform(p_light, p_world_from_node);
-	LightSnapshot snapshot;
-	static_cast<LightSettings &>(snapshot) = p_light;
-	snapshot.name = p_light.name;
-	snapshot.position_world = glm::dvec3(p_world_from_node[3]);
-	snapshot.world_from_light = compute_orientation(p_world_from_node, "Light", p_light.name);
-	snapshot.file_path = p_light.file_path;
-	return snapshot;
-}
-
 /// Fills the snapshot from the tree. Passes the world transform down, because
 /// Node3D::compute_world_from_node would walk up to the root for each node.
 class TreeReader {
 public:
 	/// p_is_posed: false = the scene at rest, without its animations; only used for the scene size.
-	TreeReader(SceneSnapshot &r_snapshot, bool p_is_posed) :
-			snapshot(r_snapshot), is_posed(p_is_posed) {}
+	/// r_posed: null = not wanted.
+	TreeReader(SceneSnapshot &r_snapshot, bool p_is_posed, PosedParts *r_posed) :
+			snapshot(r_snapshot), posed(r_posed), is_posed(p_is_posed) {}
 
 	void read(const Node3D &p_root) {
-		// Most nodes of large scenes are meshes.
-		snapshot.instances.edit().reserve(count_nodes(p_root));
-		read_node(p_root, glm::dmat4(1.0));
+		read_node(p_root, glm::dmat4(1.0), /*p_is_moving=*/false);
 		if (!deformable.empty()) {
 			find_joints(p_root, glm::dmat4(1.0));
+		}
+		if (posed) {
+			posed->has_deformable = !deformable.empty();
 		}
 		for (const auto &[node, world_from_node] : deformable) {
 			read_deformable(*node, world_from_node);
@@ -80,18 +52,11 @@ public:
 
 private:
 	SceneSnapshot &snapshot;
+	PosedParts *posed;
 	bool is_posed;
 	bool is_animated = false;
 	std::vector<std::pair<const MeshInstance3D *, glm::dmat4>> deformable; // and world_from_node
 	WorldTransforms world_from_nodes;
-
-	static size_t count_nodes(const Node3D &p_node) {
-		size_t count = 1;
-		for (const std::unique_ptr<Node3D> &child : p_node.children) {
-			count += count_nodes(*child);
-		}
-		return count;
-	}
 
 	glm::dmat4 compute_world_from_node(
 			const Node3D &p_node, const glm::dmat4 &p_world_from_parent) const {
@@ -110,17 +75,28 @@ private:
 		}
 	}
 
-	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
+	/// p_is_moving: an ancestor is posed.
+	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent, bool p_is_moving) {
 		is_animated = is_animated || p_node.posed_parent_from_node;
+		const bool is_moving = p_is_moving || p_node.posed_parent_from_node;
 		const glm::dmat4 world_from_node = compute_world_from_node(p_node, p_world_from_parent);
 		check_transform(p_node, world_from_node);
 		if (const auto *light = dynamic_cast<const Light3D *>(&p_node)) {
+			if (posed && is_moving) {
+				const auto index = static_cast<uint32_t>(snapshot.lights.size());
+				posed->lights.push_back({ light, world_from_node, index });
+			}
 			snapshot.lights.push_back(build_light_snapshot(*light, world_from_node));
 		} else if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node)) {
+			const auto first = static_cast<uint32_t>(snapshot.instances.size());
 			read_surfaces(*instance, world_from_node);
+			const auto count = static_cast<uint32_t>(snapshot.instances.size()) - first;
+			if (posed && is_moving && count > 0) {
+				posed->instances.push_back({ instance, world_from_node, first, count });
+			}
 		}
 		for (const std::unique_ptr<Node3D> &child : p_node.children) {
-			read_node(*child, world_from_node);
+			read_node(*child, world_from_node, is_moving);
 		}
 	}
 
@@ -167,10 +143,9 @@ private:
 
 	InstanceSnapshot &add_instance(const MeshInstance3D &p_node,
 			const MeshInstance3D::Surface &p_surface, const glm::dmat4 &p_world_from_node) {
-		std::vector<InstanceSnapshot> &instances = snapshot.instances.edit();
-		instances.push_back(
+		snapshot.instances.push_back(
 				make_instance(p_surface.mesh, p_surface.material, p_world_from_node, p_node.name));
-		InstanceSnapshot &instance = instances.back();
+		InstanceSnapshot &instance = snapshot.instances.edit_back();
 		instance.casts_shadow = instance.casts_shadow && p_node.casts_shadow;
 		instance.is_planar_receiver = p_node.is_planar_receiver;
 		return instance;
@@ -179,43 +154,61 @@ private:
 
 } // namespace
 
+void check_transform(const Node3D &p_node, const glm::dmat4 &p_world_from_node) {
+	if (!is_finite(p_world_from_node)) {
+		fail("Node \"", p_node.name, "\": its transform to the world is not finite. Correct it or ",
+				"one of its parents' transforms.");
+	}
+}
+
+CameraSnapshot build_camera_snapshot(const Camera3D &p_camera) {
+	const glm::dmat4 world_from_node = p_camera.compute_world_from_node();
+	check_transform(p_camera, world_from_node);
+	CameraSnapshot snapshot;
+	snapshot.name = p_camera.name;
+	snapshot.position_world = glm::dvec3(world_from_node[3]);
+	snapshot.world_from_camera = compute_orientation(world_from_node, "Camera", p_camera.name);
+	snapshot.vertical_fov_rad = p_camera.vertical_fov_rad;
+	snapshot.near_m = p_camera.near_m;
+	return snapshot;
+}
+
+LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_world_from_node) {
+	check_transform(p_light, p_world_from_node);
+	LightSnapshot snapshot;
+	static_cast<LightSettings &>(snapshot) = p_light;
+	snapshot.name = p_light.name;
+	snapshot.position_world = glm::dvec3(p_world_from_node[3]);
+	snapshot.world_from_light = compute_orientation(p_world_from_node, "Light", p_light.name);
+	snapshot.file_path = p_light.file_path;
+	return snapshot;
+}
+
 std::shared_ptr<const SceneSnapshot> build_snapshot(
 		const Scene &p_scene, const Camera3D &p_camera) {
+	return read_scene_tree(p_scene, p_camera, /*r_posed=*/nullptr);
+}
+
+std::shared_ptr<const SceneSnapshot> read_scene_tree(
+		const Scene &p_scene, const Camera3D &p_camera, PosedParts *r_posed) {
 	auto snapshot = std::make_shared<SceneSnapshot>();
 	snapshot->camera = build_camera_snapshot(p_camera);
-	TreeReader reader(*snapshot, /*p_is_posed=*/true);
+	TreeReader reader(*snapshot, /*p_is_posed=*/true, r_posed);
 	reader.read(*p_scene.root);
 	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
 	if (has_own_size) {
 		snapshot->scene_size_m = p_scene.scene_size_m;
 	} else if (reader.has_animated_nodes()) { // at rest, so that S does not change with the pose
 		SceneSnapshot rest_snapshot;
-		TreeReader(rest_snapshot, /*p_is_posed=*/false).read(*p_scene.root);
+		TreeReader(rest_snapshot, /*p_is_posed=*/false, /*r_posed=*/nullptr).read(*p_scene.root);
 		snapshot->scene_size_m = rest_snapshot.compute_caster_bounds().get_diagonal();
 	} else {
 		snapshot->scene_size_m = snapshot->compute_caster_bounds().get_diagonal();
 	}
 	snapshot->scene_size_m = std::max(MIN_SCENE_SIZE_M, snapshot->scene_size_m);
-	for (LightSnapshot &light : snapshot->lights.edit()) {
-		light.decide_settings(snapshot->scene_size_m);
-	}
+	snapshot->lights.edit_all(
+			[&](LightSnapshot &r_light) { r_light.decide_settings(snapshot->scene_size_m); });
 	return snapshot;
-}
-
-std::shared_ptr<const SceneSnapshot> FrameSnapshots::build(
-		const Scene &p_scene, const Camera3D &p_camera, bool p_has_changed) {
-	if (!last || p_has_changed) {
-		last = build_snapshot(p_scene, p_camera);
-		return last;
-	}
-	CameraSnapshot camera = build_camera_snapshot(p_camera);
-	if (camera.name != last->camera.name ||
-			camera.compute_hash(0) != last->camera.compute_hash(0)) {
-		auto moved = std::make_shared<SceneSnapshot>(*last);
-		moved->camera = std::move(camera);
-		last = std::move(moved);
-	}
-	return last;
 }
 
 } // namespace gnomon

@@ -16,6 +16,7 @@ constexpr uint32_t CURVE_BITS = 20; // cells of 2 mm in a world of 2 km
 constexpr uint32_t EDGES_PER_GROUP = EDGE_COUNT_CLUSTER_SIZE * 32;
 // Growth of the groups' area since the last sort at which casters are sorted again.
 constexpr double MAX_GROWTH = 1.5;
+constexpr size_t MEASURED_PER_MOVED = 16; // so that a few that move cost less than all
 
 glm::dvec3 compute_center(const Bounds &p_bounds) {
 	return 0.5 * (p_bounds.minimum + p_bounds.maximum);
@@ -69,21 +70,38 @@ double sum_group_areas(
 	return sum + compute_area(group);
 }
 
+bool CasterOrder::has_grown() const {
+	return casters.size() > MAX_UNSORTED &&
+			sum_group_areas(casters, order) > MAX_GROWTH * sorted_area_m2;
+}
+
 const std::vector<uint32_t> &CasterOrder::update(
-		std::span<const OrderedCaster> p_casters, bool p_may_reuse) {
-	if (p_casters.size() <= MAX_UNSORTED) {
-		order.resize(p_casters.size());
+		std::vector<OrderedCaster> p_casters, bool p_may_reuse) {
+	moved_count = 0;
+	const bool has_order = p_may_reuse && order.size() == p_casters.size();
+	casters = std::move(p_casters);
+	if (casters.size() <= MAX_UNSORTED) {
+		order.resize(casters.size());
 		std::iota(order.begin(), order.end(), 0u);
 		sorted_area_m2 = 0;
-		return order;
-	}
-	if (!p_may_reuse || order.size() != p_casters.size() ||
-			sum_group_areas(p_casters, order) > MAX_GROWTH * sorted_area_m2) {
-		order = sort_along_curve(p_casters);
-		sorted_area_m2 = sum_group_areas(p_casters, order);
+	} else if (!has_order || has_grown()) {
+		order = sort_along_curve(casters);
+		sorted_area_m2 = sum_group_areas(casters, order);
 		++sort_count;
 	}
 	return order;
+}
+
+bool CasterOrder::move(std::span<const std::pair<uint32_t, Bounds>> p_moved) {
+	for (const auto &[index, bounds_world] : p_moved) {
+		casters[index].bounds_world = bounds_world;
+	}
+	moved_count += p_moved.size();
+	if (moved_count * MEASURED_PER_MOVED < casters.size()) {
+		return true;
+	}
+	moved_count = 0;
+	return !has_grown();
 }
 
 } // namespace gnomon

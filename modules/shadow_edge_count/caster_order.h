@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -26,13 +27,20 @@ public:
 	/// false, the number of casters has changed, or the groups have grown by half since the last
 	/// sort; then casters are sorted along a Hilbert curve through their bounds' centres.
 	const std::vector<uint32_t> &update(
-			std::span<const OrderedCaster> p_casters, bool p_may_reuse = true);
+			std::vector<OrderedCaster> p_casters, bool p_may_reuse = true);
+	/// Moves casters: pairs of an index and new bounds. Returns false if the groups have grown by
+	/// half; they are measured whenever a sixteenth of the casters have moved.
+	bool move(std::span<const std::pair<uint32_t, Bounds>> p_moved);
 	/// How often update() has sorted.
 	uint32_t get_sort_count() const { return sort_count; }
 
 private:
+	bool has_grown() const;
+
+	std::vector<OrderedCaster> casters; // of the last update
 	std::vector<uint32_t> order;
 	double sorted_area_m2 = 0; // of the groups after the last sort
+	size_t moved_count = 0;	   // casters that moved since the groups were last measured
 	uint32_t sort_count = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "modules/scene/cut_levels.h"
 #include "modules/scene/node_transform.h"
 #include "modules/shadows/mesh_store.h"
+#include "modules/shadows/scene_summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,42 +93,116 @@ uint32_t count_words(uint32_t p_edge_count) {
 	return (p_edge_count + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
 }
 
-/// Adds one mesh of an instance, also to the pools of meshes where needed. p_caster has what all
-/// its meshes have in common. False if the mesh has no faces.
-bool add_caster(const ShadowTechnique::Inputs &p_inputs, const CasterMesh &p_level,
-		CountCaster p_caster, CountCasters &r_casters) {
-	CountMeshPools &pools = p_inputs.meshes.get_shared<CountMeshPools>();
-	const CountGpuMesh &gpu = pools.get(p_inputs.meshes, p_level.mesh);
-	p_caster.face_count = gpu.faces.get_count() / EDGE_COUNT_MESH_FACE_ITEMS;
-	if (p_caster.face_count == 0) {
-		return false;
-	}
-	p_caster.mesh_id = p_level.mesh->id;
-	shader::CountCasterRecord &record = p_caster.record;
+/// What the casters of all instances have in common.
+struct CasterMaker {
+	const ShadowTechnique::Inputs &inputs;
+	double disc_radius;
+	bool may_have_levels;
+
+	/// Makes the casters of an instance, except for their places among all faces and edges, and
+	/// adds their meshes to the pools of meshes where needed. None if its meshes have no faces.
+	std::vector<CountCaster> make(uint32_t p_instance) const;
+
+private:
+	bool set_mesh(const CasterMesh &p_level, CountCaster &r_caster) const;
+};
+
+/// False if the mesh has no faces.
+bool CasterMaker::set_mesh(const CasterMesh &p_level, CountCaster &r_caster) const {
+	CountMeshPools &pools = inputs.meshes.get_shared<CountMeshPools>();
+	const CountGpuMesh &gpu = pools.get(inputs.meshes, p_level.mesh);
+	r_caster.face_count = gpu.faces.get_count() / EDGE_COUNT_MESH_FACE_ITEMS;
+	r_caster.mesh = p_level.mesh;
+	shader::CountCasterRecord &record = r_caster.record;
 	record.edge_count = gpu.edges.get_count();
 	record.first_mesh_face = gpu.faces.get_first();
 	record.first_mesh_edge = gpu.edges.get_first();
 	record.first_vertex = gpu.points.get_first();
 	record.first_source_part = gpu.get_first_source_part();
-	if (p_level.mesh->rest) {
-		p_caster.posed = pools.get_posed(p_inputs.meshes, p_level.mesh);
-		p_caster.posed_positions =
-				p_inputs.meshes.get_topology(p_level.mesh, TopologyBuffer::POSITIONS)
-						.positions.get();
-		record.first_vertex = p_caster.posed->points.get_first();
+	if (r_caster.face_count > 0 && p_level.mesh->rest) {
+		r_caster.posed = pools.get_posed(inputs.meshes, p_level.mesh);
+		r_caster.posed_positions =
+				inputs.meshes.get_topology(p_level.mesh, TopologyBuffer::POSITIONS).positions.get();
+		record.first_vertex = r_caster.posed->points.get_first();
 	}
-	p_caster.word_count = count_words(record.edge_count);
-	record.first_face = r_casters.face_count;
-	record.first_word = r_casters.word_count;
+	r_caster.word_count = count_words(record.edge_count);
 	record.first_half_width = static_cast<float>(p_level.first_half_width_m);
 	record.end_half_width = static_cast<float>(p_level.end_half_width_m);
-	r_casters.face_count = add_checked(
-			r_casters.face_count, p_caster.face_count, "triangles", p_inputs.light.name);
-	r_casters.edge_count =
-			add_checked(r_casters.edge_count, record.edge_count, "edges", p_inputs.light.name);
+	return r_caster.face_count > 0;
+}
+
+std::vector<CountCaster> CasterMaker::make(uint32_t p_instance) const {
+	const double WIDENING = 1.01; // for rounding
+	const InstanceSnapshot &instance = inputs.scene.instances[p_instance];
+	const LightView &first_view = inputs.views.front();
+	const std::vector<CasterMesh> meshes = may_have_levels
+			? list_caster_meshes(instance, inputs.light, inputs.summary.get_bounds(), disc_radius)
+			: std::vector<CasterMesh>(1, { instance.caster_mesh });
+	CountCaster caster;
+	caster.instance = p_instance;
+	caster.pose_hash = instance.get_pose_hash();
+	caster.views = find_seeing_views(inputs, p_instance);
+	caster.record.light_from_node = first_view.view_from_world * instance.world_from_node;
+	caster.record.flags = (instance.is_mirrored() ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
+			(meshes.size() > 1 ? EDGE_COUNT_CASTER_LEVEL : 0u);
+	caster.record.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
+	caster.may_cut_disc = !first_view.is_orthographic && disc_radius > 0 &&
+			compute_min_distance_m(instance, glm::inverse(first_view.view_from_world)[3]) <=
+					WIDENING * disc_radius;
+	std::vector<CountCaster> casters;
+	for (const CasterMesh &level : meshes) {
+		if (set_mesh(level, caster)) {
+			casters.push_back(caster);
+		}
+	}
+	return casters;
+}
+
+bool has_moved(const CountCaster &p_before, const CountCaster &p_caster) {
+	return p_caster.record.light_from_node != p_before.record.light_from_node ||
+			p_caster.pose_hash != p_before.pose_hash;
+}
+
+/// Whether both make the same casters for a light.
+bool is_same_caster(const InstanceSnapshot &p_before, const InstanceSnapshot &p_instance) {
+	return p_before.world_from_node == p_instance.world_from_node &&
+			p_before.caster_mesh == p_instance.caster_mesh &&
+			p_before.caster_levels == p_instance.caster_levels &&
+			p_before.get_pose_hash() == p_instance.get_pose_hash() &&
+			p_before.bounds_world.minimum == p_instance.bounds_world.minimum &&
+			p_before.bounds_world.maximum == p_instance.bounds_world.maximum;
+}
+
+bool is_collapsed(const InstanceSnapshot &p_instance) {
+	const double volume = glm::determinant(glm::dmat3(p_instance.world_from_node));
+	return volume == 0 || !std::isfinite(volume);
+}
+
+/// Sets a caster's place after all others, and adds it.
+void add_caster(const std::string &p_light, CountCaster p_caster, CountCasters &r_casters) {
+	shader::CountCasterRecord &record = p_caster.record;
+	record.first_face = r_casters.face_count;
+	record.first_word = r_casters.word_count;
+	r_casters.face_count =
+			add_checked(r_casters.face_count, p_caster.face_count, "triangles", p_light);
+	r_casters.edge_count = add_checked(r_casters.edge_count, record.edge_count, "edges", p_light);
 	r_casters.word_count += p_caster.word_count;
+	uint32_t &first = r_casters.first_casters[p_caster.instance];
+	first = std::min(first, static_cast<uint32_t>(r_casters.casters.size()));
 	r_casters.casters.push_back(std::move(p_caster));
-	return true;
+}
+
+/// Sets what some casters have and the others lack.
+void sum_up(CountCasters &r_casters) {
+	uint32_t views_with_faces = 0;
+	r_casters.may_cut_disc = false;
+	r_casters.has_levels = false;
+	for (const CountCaster &caster : r_casters.casters) {
+		views_with_faces |= caster.views;
+		r_casters.may_cut_disc |= caster.may_cut_disc;
+		r_casters.has_levels |= r_casters.instances[caster.instance].caster_levels != nullptr;
+	}
+	r_casters.empty_views = ~views_with_faces & ~0u >> (32 - r_casters.view_count);
 }
 
 } // namespace
@@ -135,24 +210,23 @@ bool add_caster(const ShadowTechnique::Inputs &p_inputs, const CasterMesh &p_lev
 bool CountCasters::has_layout_of(const CountCasters &p_other) const {
 	return std::equal(casters.begin(), casters.end(), p_other.casters.begin(),
 			p_other.casters.end(), [](const CountCaster &p_a, const CountCaster &p_b) {
-				return p_a.mesh_id == p_b.mesh_id && p_a.record.flags == p_b.record.flags;
+				return p_a.mesh == p_b.mesh && p_a.record.flags == p_b.record.flags;
 			});
 }
 
 CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
 		const std::vector<uint32_t> &p_indices, double p_disc_radius, CasterOrder &r_order) {
-	const LightView &first = p_inputs.views.front();
-	const bool is_directional = first.is_orthographic;
-	const double WIDENING = 1.01; // for rounding
-	const glm::dvec3 light_world(glm::inverse(first.view_from_world)[3]);
 	CountCasters result;
 	result.casters.reserve(p_indices.size());
 	result.disc_radius = p_disc_radius;
-	result.side_tolerance =
-			static_cast<float>(is_directional ? SIDE_TOLERANCE_COSINE
-											  : SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
-	const Bounds &scene_bounds = p_inputs.scene_bounds_world;
-	uint32_t views_with_faces = 0;
+	result.side_tolerance = static_cast<float>(p_inputs.views.front().is_orthographic
+					? SIDE_TOLERANCE_COSINE
+					: SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m);
+	result.instances = p_inputs.scene.instances;
+	result.indices = p_indices;
+	result.first_casters.assign(result.instances.size(), CountCasters::NO_CASTER);
+	result.scene_bounds_world = p_inputs.summary.get_bounds();
+	result.view_count = static_cast<uint32_t>(p_inputs.views.size());
 	uint64_t triangle_count = 0;
 	std::vector<OrderedCaster> ordered;
 	ordered.reserve(p_indices.size());
@@ -162,49 +236,119 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
 		triangle_count += count;
 		ordered.push_back({ instance.bounds_world, count }); // about one edge per triangle
 	}
-	const bool may_have_levels = triangle_count <= MAX_COUNT_WITH_LEVELS;
-	for (const uint32_t ordered_index : r_order.update(ordered, p_inputs.may_reuse)) {
+	result.may_have_levels = triangle_count <= MAX_COUNT_WITH_LEVELS;
+	const CasterMaker maker = { p_inputs, p_disc_radius, result.may_have_levels };
+	for (const uint32_t ordered_index : r_order.update(std::move(ordered), p_inputs.may_reuse)) {
 		const uint32_t index = p_indices[ordered_index];
-		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
-		if (volume == 0 || !std::isfinite(volume)) {
+		if (is_collapsed(p_inputs.scene.instances[index])) {
 			++result.collapsed_instance_count;
 			continue;
 		}
-		const std::vector<CasterMesh> meshes = may_have_levels
-				? list_caster_meshes(instance, p_inputs.light, scene_bounds, p_disc_radius)
-				: std::vector<CasterMesh>(1, { instance.caster_mesh });
-		CountCaster caster;
-		caster.pose_hash = instance.get_pose_hash();
-		caster.views = find_seeing_views(p_inputs, index);
-		caster.record.light_from_node = first.view_from_world * instance.world_from_node;
-		caster.record.flags = (volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
-				(meshes.size() > 1 ? EDGE_COUNT_CASTER_LEVEL : 0u);
-		caster.record.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
-		bool has_faces = false;
-		for (const CasterMesh &level : meshes) {
-			if (add_caster(p_inputs, level, caster, result)) {
-				has_faces = true;
-			}
-		}
-		if (has_faces) {
-			views_with_faces |= caster.views;
-			result.may_cut_disc = result.may_cut_disc ||
-					(!is_directional && p_disc_radius > 0 &&
-							compute_min_distance_m(instance, light_world) <=
-									WIDENING * p_disc_radius);
+		for (CountCaster &caster : maker.make(index)) {
+			add_caster(p_inputs.light.name, std::move(caster), result);
 		}
 	}
-	result.empty_views = ~views_with_faces & ~0u >> (32 - p_inputs.views.size());
+	sum_up(result);
 	return result;
+}
+
+std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_inputs,
+		const std::vector<uint32_t> &p_indices, const CountCasters &p_casters,
+		CasterOrder &r_order) {
+	const size_t PAGE_SIZE = SharedVector<InstanceSnapshot>::PAGE_SIZE;
+	const Bounds &before_world = p_casters.scene_bounds_world;
+	const Bounds &bounds_world = p_inputs.summary.get_bounds();
+	const bool has_same_bounds = before_world.minimum == bounds_world.minimum &&
+			before_world.maximum == bounds_world.maximum;
+	// Which levels of detail cast depends on the bounds.
+	if (p_casters.indices != p_indices || (p_casters.has_levels && !has_same_bounds)) {
+		return {};
+	}
+	const SharedVector<InstanceSnapshot> &instances = p_inputs.scene.instances;
+	const std::vector<uint32_t> pages = instances.find_changed_pages(p_casters.instances);
+	if (2 * pages.size() > instances.get_page_count()) {
+		return {};
+	}
+	std::vector<uint32_t> changed; // indices of instances
+	std::vector<std::pair<uint32_t, Bounds>> bounds;
+	for (const uint32_t page : pages) {
+		const uint32_t begin = static_cast<uint32_t>(page * PAGE_SIZE);
+		const uint32_t end = begin + static_cast<uint32_t>(instances.get_page(page).size());
+		for (auto index = std::lower_bound(p_indices.begin(), p_indices.end(), begin);
+				index != p_indices.end() && *index < end; ++index) {
+			if (is_same_caster(p_casters.instances[*index], instances[*index])) {
+				continue;
+			}
+			if (p_casters.instances[*index].caster_levels != instances[*index].caster_levels) {
+				return {};
+			}
+			changed.push_back(*index);
+			bounds.emplace_back(
+					uint32_t(index - p_indices.begin()), instances[*index].bounds_world);
+		}
+	}
+	if (!r_order.move(bounds)) {
+		return {};
+	}
+	const CasterMaker maker = { p_inputs, p_casters.disc_radius, p_casters.may_have_levels };
+	MovedCasters moved;
+	moved.instances = instances;
+	for (const uint32_t index : changed) {
+		uint32_t place = p_casters.first_casters[index];
+		std::vector<CountCaster> made;
+		if (!is_collapsed(instances[index])) {
+			made = maker.make(index);
+		}
+		if (made.empty() != (place == CountCasters::NO_CASTER)) {
+			return {};
+		}
+		for (CountCaster &caster : made) {
+			const CountCaster &before = p_casters.casters[place]; // flags tell if there are two
+			if (before.mesh != caster.mesh || before.record.flags != caster.record.flags ||
+					(caster.may_cut_disc && !p_casters.may_cut_disc)) {
+				return {};
+			}
+			caster.record.first_face = before.record.first_face;
+			caster.record.first_word = before.record.first_word;
+			if (has_moved(before, caster) || before.views != caster.views) {
+				moved.casters.emplace_back(place, std::move(caster));
+			}
+			++place;
+		}
+	}
+	return moved;
+}
+
+void MovedCasters::apply_to(CountCasters &r_casters) {
+	if (r_casters.moved.empty()) { // they were collected, or compared
+		for (CountCaster &caster : r_casters.casters) {
+			caster.is_moved = false;
+		}
+	}
+	for (const uint32_t place : r_casters.moved) {
+		r_casters.casters[place].is_moved = false;
+	}
+	r_casters.moved.clear();
+	bool has_same_sums = true;
+	for (auto &[place, caster] : casters) {
+		CountCaster &replaced = r_casters.casters[place];
+		has_same_sums = has_same_sums && replaced.views == caster.views &&
+				replaced.may_cut_disc == caster.may_cut_disc;
+		caster.is_moved = has_moved(replaced, caster);
+		replaced = std::move(caster);
+		r_casters.moved.push_back(place);
+	}
+	r_casters.instances = instances;
+	if (!has_same_sums) {
+		sum_up(r_casters);
+	}
 }
 
 void compare_casters(const CountCasters &p_before, CountCasters &r_casters) {
 	for (size_t index = 0; index < r_casters.casters.size(); ++index) {
 		CountCaster &caster = r_casters.casters[index];
 		const CountCaster &before = p_before.casters[index];
-		caster.is_moved = caster.record.light_from_node != before.record.light_from_node ||
-				caster.pose_hash != before.pose_hash;
+		caster.is_moved = has_moved(before, caster);
 	}
 }
 

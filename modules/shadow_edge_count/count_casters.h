@@ -5,6 +5,8 @@
 #include "modules/shadows/shadow_technique.h"
 
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -15,7 +17,8 @@ constexpr uint32_t MAX_CASTER_FACES = 10'000'000;
 
 /// One caster of a light, or one level of detail of it.
 struct CountCaster {
-	uint64_t mesh_id = 0;
+	std::shared_ptr<const Mesh> mesh;
+	uint32_t instance = 0; // in the scene
 	uint64_t pose_hash = 0;
 	uint32_t views = 0; // bit i: view i may see it
 	uint32_t face_count = 0;
@@ -27,6 +30,8 @@ struct CountCaster {
 	/// Its transform in light space or its pose has changed since the light's faces and edges were
 	/// last found.
 	bool is_moved = true;
+	/// Its instance's bounds come within R of the light's centre.
+	bool may_cut_disc = false;
 
 	/// Whether it is the coarse one of two levels of detail.
 	bool is_coarse() const { return record.first_half_width > 0; }
@@ -35,6 +40,8 @@ struct CountCaster {
 /// The casters of all views of a light, each once or, for a cut-out with a coarse level of detail,
 /// twice, and the sizes of all their data together.
 struct CountCasters {
+	static constexpr uint32_t NO_CASTER = ~0u;
+
 	std::vector<CountCaster> casters;
 	uint32_t face_count = 0;
 	uint32_t edge_count = 0;
@@ -42,8 +49,17 @@ struct CountCasters {
 	double disc_radius = 0;				   // R, see CountSettings
 	float side_tolerance = 0;			   // see shader::CountFindPush
 	uint32_t collapsed_instance_count = 0; // instances collapsed to a line or a point
-	bool may_cut_disc = false;			   // a caster's bounds come within R of the light's centre
+	bool may_cut_disc = false;			   // some caster's
 	uint32_t empty_views = 0;			   // bit i: no caster of view i has a face
+	bool has_levels = false;			   // of detail, in some caster's instance
+	// What they were made from.
+	SharedVector<InstanceSnapshot> instances; // of the scene
+	std::vector<uint32_t> indices;			  // of the instances that cast
+	std::vector<uint32_t> first_casters;	  // by instance: index of its first caster, NO_CASTER
+	std::vector<uint32_t> moved; // indices of the casters that apply_to() replaced last
+	Bounds scene_bounds_world;
+	bool may_have_levels = false; // there are not too many triangles
+	uint32_t view_count = 0;
 
 	/// True if both have the same meshes and flags in the same order, so that face indices stay
 	/// valid.
@@ -56,6 +72,21 @@ struct CountCasters {
 /// indices 26.
 CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
 		const std::vector<uint32_t> &p_indices, double p_disc_radius, CasterOrder &r_order);
+
+/// Casters that have moved since CountCasters were collected: their indices there, and what
+/// replaces them.
+struct MovedCasters {
+	std::vector<std::pair<uint32_t, CountCaster>> casters;
+	SharedVector<InstanceSnapshot> instances; // of the scene
+	/// Replaces the casters, and sets CountCaster::is_moved of these alone.
+	void apply_to(CountCasters &r_casters);
+};
+/// Finds what build_count_casters would return differently, if that is only where casters are.
+/// Else, or if many have moved, empty. p_casters: what it returned for the same light, views and
+/// disc radius. r_order: as it left it.
+std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_inputs,
+		const std::vector<uint32_t> &p_indices, const CountCasters &p_casters,
+		CasterOrder &r_order);
 
 /// Clears CountCaster::is_moved of casters with the same transform and pose as in p_before, which
 /// are earlier casters of the same light with the same layout.

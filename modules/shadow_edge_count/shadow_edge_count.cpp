@@ -7,6 +7,7 @@
 #include "modules/shadows/caster_pass.h"
 #include "modules/shadows/fetched_buffers.h"
 #include "modules/shadows/mask.h"
+#include "modules/shadows/scene_summary.h"
 
 #include <algorithm>
 
@@ -27,20 +28,27 @@ void check_device(const ShadowTechnique::Inputs &p_inputs) {
 	}
 }
 
-/// Equal for equal results of build_count_casters.
-uint64_t compute_casters_hash(
+/// Hashes all that the result of build_count_casters depends on, except for the casters.
+uint64_t compute_light_hash(
 		const ShadowTechnique::Inputs &p_inputs, const CountSettings &p_settings) {
 	uint64_t hash = compute_value_hash(p_settings.disc_radius, /*p_seed=*/2);
 	hash = p_inputs.light.compute_hash(hash);
 	hash = compute_value_hash(p_inputs.light.penumbra_outer_width_m, hash);
 	hash = compute_value_hash(p_inputs.light.penumbra_inner_width_m, hash);
-	for (size_t view = 0; view < p_inputs.views.size(); ++view) {
-		hash = compute_value_hash(p_inputs.casters[view].content_hash, hash);
-		hash = compute_value_hash(p_inputs.views[view].view_from_world, hash);
+	for (const LightView &view : p_inputs.views) {
+		hash = compute_value_hash(view.view_from_world, hash);
+		hash = compute_value_hash(view.half_extent, hash);
 	}
-	hash = compute_value_hash(p_inputs.scene_bounds_world.minimum, hash);
-	hash = compute_value_hash(p_inputs.scene_bounds_world.maximum, hash);
 	return compute_value_hash(p_inputs.scene.scene_size_m, hash);
+}
+
+/// Equal for equal results of build_count_casters. p_hash: of compute_light_hash.
+uint64_t compute_casters_hash(const ShadowTechnique::Inputs &p_inputs, uint64_t p_hash) {
+	for (const CasterList &casters : p_inputs.casters) {
+		p_hash = compute_value_hash(casters.content_hash, p_hash);
+	}
+	p_hash = compute_value_hash(p_inputs.summary.get_bounds().minimum, p_hash);
+	return compute_value_hash(p_inputs.summary.get_bounds().maximum, p_hash);
 }
 
 } // namespace
@@ -90,17 +98,23 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	are_casters_found = false;
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	// In a large world, what did not change is not looked through again.
-	uint64_t casters_hash = compute_casters_hash(p_inputs, settings);
+	const uint64_t light_hash = compute_light_hash(p_inputs, settings);
+	uint64_t casters_hash = compute_casters_hash(p_inputs, light_hash);
 	chosen.update(
 			p_inputs, settings.disc_radius, casters_hash, find_caster_limits(p_inputs.device));
 	casters_hash = compute_value_hash(chosen.get_revision(), casters_hash);
-	bool is_same = p_inputs.may_skip && p_inputs.may_reuse && !cached.casters.casters.empty() &&
-			cached.casters_hash == casters_hash;
+	const bool may_reuse =
+			p_inputs.may_skip && p_inputs.may_reuse && !cached.casters.casters.empty();
+	bool is_same = may_reuse && cached.casters_hash == casters_hash;
+	std::optional<MovedCasters> moved;
+	if (may_reuse && !is_same && cached.light_hash == light_hash) {
+		moved = find_moved_casters(p_inputs, chosen.get(), cached.casters, order);
+	}
 	CountCasters built;
-	if (!is_same) {
+	if (!is_same && !moved) {
 		built = build_count_casters(p_inputs, chosen.get(), settings.disc_radius, order);
 	}
-	const CountCasters &casters = is_same ? cached.casters : built;
+	const CountCasters &casters = is_same || moved ? cached.casters : built;
 	may_exceed_budget =
 			settings.has_budget() && (casters.edge_count > settings.budget || !p_inputs.may_skip);
 	may_filter = may_exceed_budget || settings.has_time_budget();
@@ -122,13 +136,15 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	const bool has_content =
 			buffers.prepare(p_inputs.device, p_inputs.light.name, choose_capacities(casters)) &&
 			cached.disc_radius == settings.disc_radius &&
-			(is_same || cached.casters.has_layout_of(casters)) &&
+			(is_same || moved || cached.casters.has_layout_of(casters)) &&
 			(!may_filter || cached.has_depth_map);
-	if (is_same && !has_content) { // meshes that were not read for some frames may be gone
+	if ((is_same || moved) &&
+			!has_content) { // meshes that were not read for some frames may be gone
 		built = build_count_casters(p_inputs, chosen.get(), settings.disc_radius, order);
 		is_same = false;
+		moved.reset();
 	}
-	if (!is_same && has_content && p_inputs.may_skip && p_inputs.may_reuse &&
+	if (!is_same && !moved && has_content && p_inputs.may_skip && p_inputs.may_reuse &&
 			cached.first_view == p_inputs.views[0]) {
 		compare_casters(cached.casters, built);
 	}
@@ -141,10 +157,13 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	if (!views.get_needed_views().empty()) {
 		p_inputs.meshes.get_shared<CountMeshPools>().upload();
 		cached.first_view = p_inputs.views[0];
-		if (!is_same) {
+		if (moved) {
+			moved->apply_to(cached.casters);
+		} else if (!is_same) {
 			cached.casters = std::move(built);
-			cached.casters_hash = casters_hash;
 		}
+		cached.casters_hash = casters_hash;
+		cached.light_hash = light_hash;
 		plan_casters(r_plan);
 	}
 	plan_filter(r_plan);

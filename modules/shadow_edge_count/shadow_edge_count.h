@@ -80,6 +80,7 @@ private:
 		double disc_radius = -1;
 		CountCasters casters;
 		uint64_t casters_hash = 0; // of what they were built from
+		uint64_t light_hash = 0;   // the same without the casters
 		bool has_depth_map = false;
 	};
 

@@ -5,6 +5,7 @@
 #include "modules/scene/mesh.h"
 #include "modules/shadows/camera_view.h"
 #include "modules/shadows/caster_pass.h"
+#include "modules/shadows/scene_summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,13 +94,14 @@ bool is_shadow_outside(const ViewPlanes &p_planes, const Bounds &p_box,
 	});
 }
 
+constexpr uint64_t MAX_EDGES_PER_FACE = 3;
+
 bool do_fit(const SceneSnapshot &p_scene, const std::vector<uint32_t> &p_indices,
 		const CasterLimits &p_limits) {
 	uint64_t face_count = 0;
 	for (const uint32_t index : p_indices) {
 		face_count += p_scene.instances[index].caster_mesh->get_triangle_count();
 	}
-	const uint64_t MAX_EDGES_PER_FACE = 3;
 	if (face_count > p_limits.face_count ||
 			face_count * MAX_EDGES_PER_FACE <= p_limits.edge_count) {
 		return face_count <= p_limits.face_count;
@@ -152,8 +154,11 @@ void ChosenCasters::update(const ShadowTechnique::Inputs &p_inputs, double p_dis
 	std::vector<uint32_t> views(p_inputs.views.size());
 	std::iota(views.begin(), views.end(), 0u);
 	std::vector<uint32_t> all = collect_casters(p_inputs, views);
+	const uint64_t triangle_count = p_inputs.summary.get_whole().caster_triangle_count;
+	const bool fits_whole = triangle_count <= p_limits.face_count &&
+			triangle_count * MAX_EDGES_PER_FACE <= p_limits.edge_count;
 	const auto fits = [&](const std::vector<uint32_t> &p_indices) {
-		return do_fit(p_inputs.scene, p_indices, p_limits);
+		return fits_whole || do_fit(p_inputs.scene, p_indices, p_limits);
 	};
 	const size_t all_count = all.size();
 	const bool has_all = !p_inputs.may_skip || !p_inputs.views.front().is_orthographic || fits(all);

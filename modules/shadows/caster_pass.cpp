@@ -53,6 +53,9 @@ void add_depth_pass(RenderGraph &r_graph, const std::string &p_name,
 
 std::vector<uint32_t> collect_casters(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_view_indices) {
+	if (p_view_indices.size() == 1) {
+		return p_inputs.casters[p_view_indices.front()].instances;
+	}
 	std::vector<uint32_t> instances;
 	for (uint32_t view : p_view_indices) {
 		const std::vector<uint32_t> &listed = p_inputs.casters[view].instances;

@@ -31,19 +31,30 @@ bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
 
 } // namespace
 
-const InstanceSnapshot *LightLimits::find_near_caster(
-		const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m) {
+const InstanceSnapshot *LightLimits::find_near_caster(const SceneSnapshot &p_scene,
+		const SceneSummary &p_summary, const LightSnapshot &p_light, double p_distance_m) {
 	const uint64_t light_hash =
 			p_light.compute_hash(compute_value_hash(p_distance_m, /*p_seed=*/1));
 	std::vector<Search> current_searches;
 	const InstanceSnapshot *found = nullptr;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		const Bounds &bounds = instance.bounds_world;
-		if (!instance.casts_shadow || bounds.is_empty() ||
-				bounds.compute_distance(p_light.position_world) >= p_distance_m ||
-				(p_light.type == LightType::SPOT && is_behind(bounds, p_light))) {
+	const auto may_be_near = [&](const Bounds &p_bounds) {
+		return !p_bounds.is_empty() &&
+				p_bounds.compute_distance(p_light.position_world) < p_distance_m &&
+				!(p_light.type == LightType::SPOT && is_behind(p_bounds, p_light));
+	};
+	std::vector<const InstanceSnapshot *> candidates;
+	for (size_t page = 0; page < p_scene.instances.get_page_count(); ++page) {
+		if (!may_be_near(p_summary.get_pages()[page].caster_bounds_world)) {
 			continue;
 		}
+		for (const InstanceSnapshot &instance : p_scene.instances.get_page(page)) {
+			if (instance.casts_shadow && may_be_near(instance.bounds_world)) {
+				candidates.push_back(&instance);
+			}
+		}
+	}
+	for (const InstanceSnapshot *candidate : candidates) {
+		const InstanceSnapshot &instance = *candidate;
 		const uint64_t hash = instance.compute_hash(light_hash);
 		const auto before = std::find_if(searches.begin(), searches.end(),
 				[&](const Search &p_search) { return p_search.hash == hash; });
@@ -57,7 +68,7 @@ const InstanceSnapshot *LightLimits::find_near_caster(
 		}
 		current_searches.push_back(search);
 		if (search.is_near) {
-			found = &instance;
+			found = candidate;
 			break;
 		}
 	}
@@ -66,15 +77,15 @@ const InstanceSnapshot *LightLimits::find_near_caster(
 }
 
 const std::vector<ExceededLimit> &LightLimits::find_exceeded(const SceneSnapshot &p_scene,
-		const LightSnapshot &p_light, const std::string &p_technique_id,
-		const ShadowLimits &p_limits) {
+		const SceneSummary &p_summary, const LightSnapshot &p_light,
+		const std::string &p_technique_id, const ShadowLimits &p_limits) {
 	exceeded.clear();
 	const std::string light = text("Light \"", p_light.name, "\": ");
 	const std::string key = p_light.name + "/" + p_technique_id;
 	if (p_light.type != LightType::DIRECTIONAL && p_light.light_size_m > 0) {
 		const double radii = p_limits.min_caster_distance_radii;
-		if (const InstanceSnapshot *caster =
-						find_near_caster(p_scene, p_light, radii * p_light.light_size_m)) {
+		if (const InstanceSnapshot *caster = find_near_caster(
+					p_scene, p_summary, p_light, radii * p_light.light_size_m)) {
 			exceeded.push_back({ key + "/near_caster",
 					text(light, "caster \"", caster->node_name,
 							"\" comes nearer to the light's centre than ", radii,
@@ -107,32 +118,18 @@ const std::vector<ExceededLimit> &LightLimits::find_exceeded(const SceneSnapshot
 	return exceeded;
 }
 
-std::string describe_scene_size_problem(const SceneSnapshot &p_scene) {
-	const InstanceSnapshot *largest = nullptr;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow &&
-				(largest == nullptr ||
-						instance.bounds_world.get_diagonal() >
-								largest->bounds_world.get_diagonal())) {
-			largest = &instance;
-		}
-	}
-	Bounds others;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow && &instance != largest) {
-			others.add(instance.bounds_world);
-		}
-	}
-	const double size_m = p_scene.scene_size_m;
-	const double others_m = others.get_diagonal();
+std::string describe_scene_size_problem(double p_scene_size_m, const SceneSummary &p_summary) {
+	const SceneSummary::Page &whole = p_summary.get_whole();
+	const double size_m = p_scene_size_m;
+	const double others_m = whole.other_caster_bounds_world.get_diagonal();
 	if (others_m > 0 && size_m > MAX_SIZE_PER_CASTERS * others_m) {
 		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
-				largest->node_name, "\" are within ", format_number(others_m),
+				whole.largest_caster->node_name, "\" are within ", format_number(others_m),
 				" m: their shadows begin ", format_number(RECEIVER_OFFSET_ROUNDING * size_m),
 				" m away from them. Set scene_size, in the scene's extras, to about ",
 				format_number(others_m), ".");
 	}
-	const double all_m = p_scene.compute_caster_bounds().get_diagonal();
+	const double all_m = whole.caster_bounds_world.get_diagonal();
 	if (all_m > MAX_CASTERS_PER_SIZE * size_m) {
 		return text("The scene's size is ", format_number(size_m),
 				" m, and its casters reach over ", format_number(all_m),

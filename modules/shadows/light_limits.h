@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/shadows/scene_summary.h"
 #include "modules/shadows/shadow_technique.h"
 
 #include <cstdint>
@@ -19,9 +20,10 @@ struct ExceededLimit {
 class LightLimits {
 public:
 	/// p_technique_id is used in the text. p_limits: ShadowTechnique::get_limits of that technique.
+	/// p_summary: of p_scene.
 	const std::vector<ExceededLimit> &find_exceeded(const SceneSnapshot &p_scene,
-			const LightSnapshot &p_light, const std::string &p_technique_id,
-			const ShadowLimits &p_limits);
+			const SceneSummary &p_summary, const LightSnapshot &p_light,
+			const std::string &p_technique_id, const ShadowLimits &p_limits);
 
 	/// Number of meshes searched since construction.
 	uint32_t get_search_count() const { return search_count; }
@@ -34,8 +36,8 @@ private:
 	};
 	/// Returns a caster with a triangle nearer to the light's centre than p_distance_m, or null.
 	/// For a spot light, casters entirely behind it are ignored.
-	const InstanceSnapshot *find_near_caster(
-			const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m);
+	const InstanceSnapshot *find_near_caster(const SceneSnapshot &p_scene,
+			const SceneSummary &p_summary, const LightSnapshot &p_light, double p_distance_m);
 
 	std::vector<Search> searches; // of the last call
 	std::vector<ExceededLimit> exceeded;
@@ -44,6 +46,7 @@ private:
 
 /// Returns why the scene size S is too large or too small for its casters, and what to do. Empty
 /// when S fits. It matters because the offset of receivers from their surfaces depends on S.
-std::string describe_scene_size_problem(const SceneSnapshot &p_scene);
+/// p_summary: of the scene's instances.
+std::string describe_scene_size_problem(double p_scene_size_m, const SceneSummary &p_summary);
 
 } // namespace gnomon

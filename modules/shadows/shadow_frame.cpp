@@ -16,40 +16,6 @@ namespace gnomon {
 
 namespace {
 
-/// Hashes everything of each instance that its shadow depends on.
-std::vector<uint64_t> hash_casters(const SceneSnapshot &p_scene) {
-	std::vector<uint64_t> hashes;
-	hashes.reserve(p_scene.instances.size());
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		uint64_t hash = instance.compute_hash(/*p_seed=*/1);
-		hash = compute_value_hash(instance.caster_mesh->id, hash);
-		hashes.push_back(compute_value_hash(instance.caster_levels != nullptr, hash));
-	}
-	return hashes;
-}
-
-/// p_hashes: from hash_casters.
-CasterList cull_casters(const SceneSnapshot &p_scene, std::span<const uint64_t> p_hashes,
-		const CasterFlags &p_casts, const LightView &p_view, bool p_may_cull) {
-	CasterList casters;
-	// Field by field: the struct has padding.
-	uint64_t hash = compute_value_hash(p_view.view_from_world, /*p_seed=*/1);
-	hash = compute_value_hash(p_view.half_extent, hash);
-	hash = compute_value_hash(p_view.size_px, hash);
-	hash = compute_value_hash(p_view.near_m, hash);
-	hash = compute_value_hash(p_view.far_m, hash);
-	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
-		const InstanceSnapshot &instance = p_scene.instances[index];
-		if (p_casts[index] == 0 || (p_may_cull && !p_view.may_see(instance))) {
-			continue;
-		}
-		casters.instances.push_back(index);
-		hash = compute_value_hash(p_hashes[index], hash);
-	}
-	casters.content_hash = hash;
-	return casters;
-}
-
 /// Bounds of the instances that cast.
 Bounds compute_bounds(const SceneSnapshot &p_scene, const CasterFlags &p_casts) {
 	Bounds bounds;
@@ -93,9 +59,9 @@ void TechniquePlan::skip_light_view(uint32_t p_view_index, const std::string &p_
 
 struct ShadowFrame::Work {
 	const SceneSnapshot &scene;
-	std::span<const uint64_t> caster_hashes; // see hash_casters
-	const LightSnapshot &snapshot_light;	 // the snapshot's own
-	const LightSnapshot &light;				 // with the technique's widths
+	const SceneSummary &summary;		 // of `scene`
+	const LightSnapshot &snapshot_light; // the snapshot's own
+	const LightSnapshot &light;			 // with the technique's widths
 	const ShadowTechniqueInfo &info;
 	const PropertyValues &properties;
 	const VisibleReceivers &lit_receivers;
@@ -114,7 +80,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		ShadowRegistry::get(options.technique_override); // throws when it is not registered
 	}
 	system.begin_frame(*scene, size_px);
-	const size_t posed_count = system.derived_scene.posed_count;
+	const size_t posed_count = system.derived_scene.summary.get_whole().posed_count;
 	const uint32_t moved_count =
 			posed_count > 0 ? system.meshes->add_deform_pass(graph, *scene, options.may_reuse) : 0;
 	if (moved_count > 0) {
@@ -203,7 +169,7 @@ void ShadowFrame::add_receivers_pass(LightShadow &r_shadow, bool p_lists_all_til
 }
 
 std::string ShadowFrame::describe_unlit(const LightSnapshot &p_light) const {
-	if (!find_lit_receivers(p_light, system.derived_camera.receivers).list.empty()) {
+	if (!system.derive_lit_receivers(p_light).list.empty()) {
 		return {};
 	}
 	return text("the camera sees no surface",
@@ -221,7 +187,7 @@ LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_de
 			"light constants", compute_light_constants(p_light, scene->camera));
 	add_receivers_pass(shadow, !options.may_skip || p_wants_debug_views);
 	plan.run("receivers");
-	const VisibleReceivers lit = find_lit_receivers(p_light, system.derived_camera.receivers);
+	const VisibleReceivers &lit = system.derive_lit_receivers(p_light);
 	if (!p_light.casts_shadow) {
 		plan.skip("shadow", "shadow_enabled is false");
 		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
@@ -282,7 +248,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.device = system.device,
 		.meshes = *system.meshes,
 		.scene = p_work.scene,
-		.scene_bounds_world = system.derived_scene.bounds_world,
+		.summary = p_work.summary,
 		.light = p_work.light,
 		.properties = p_work.properties,
 		.settings = ShadowRegistry::get_setting_values(p_work.info.id),
@@ -321,28 +287,41 @@ RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
 	return p_mask;
 }
 
-ShadowSystem::DerivedRun ShadowFrame::derive_run(const Work &p_work,
-		const ShadowTechnique &p_technique, const CasterFlags &p_casts,
-		bool p_wants_debug_views) const {
-	ShadowSystem::DerivedRun derived = { &p_work.snapshot_light, options.may_skip,
-		p_wants_debug_views,
-		/*views=*/{}, /*casters=*/{} };
-	p_technique.get_light_views(p_work.light,
-			{ p_work.scene, compute_bounds(p_work.scene, p_casts) }, p_work.properties,
-			derived.views);
-	for (LightView &view : derived.views) {
-		if (p_technique.queries_receivers_only()) {
-			fit_to_receivers(view, p_work.lit_receivers,
-					compute_fit_reach_m(view, p_work.light, p_work.scene, p_work.lit_receivers));
+void ShadowFrame::derive_run(const Work &p_work, const ShadowTechnique &p_technique,
+		const TranslucentCasters &p_translucent, const TranslucentGroup *p_group,
+		bool p_wants_debug_views, ShadowSystem::DerivedRun &r_run) const {
+	if (r_run.light == &p_work.snapshot_light && r_run.may_skip == options.may_skip &&
+			r_run.wants_debug_views == p_wants_debug_views) {
+		return;
+	}
+	r_run.light = &p_work.snapshot_light;
+	r_run.may_skip = options.may_skip;
+	r_run.wants_debug_views = p_wants_debug_views;
+	r_run.views.clear();
+	r_run.casters.clear();
+	const bool casts_all = p_translucent.is_empty();
+	const CasterFlags opaque =
+			casts_all ? CasterFlags() : find_opaque_casters(p_work.scene, p_translucent, p_group);
+	const CasterFlags &casts = casts_all ? p_work.summary.get_casters() : opaque;
+	const Bounds bounds_world =
+			casts_all ? p_work.summary.get_caster_bounds() : compute_bounds(p_work.scene, casts);
+	p_technique.get_light_views(
+			p_work.light, { p_work.scene, bounds_world }, p_work.properties, r_run.views);
+	r_run.culling.resize(r_run.views.size());
+	for (size_t index = 0; index < r_run.views.size(); ++index) {
+		LightView &view = r_run.views[index];
+		if (p_technique.queries_receivers_only() && view.is_orthographic) {
+			const Bounds seen = find_bounds_in_view(view, p_work.lit_receivers);
+			fit_to_receivers(
+					view, seen, compute_fit_reach_m(view, p_work.light, p_work.scene, seen));
 		}
-		derived.casters.push_back(
-				cull_casters(p_work.scene, p_work.caster_hashes, p_casts, view, options.may_skip));
+		r_run.casters.push_back(r_run.culling[index].update(
+				p_work.scene, p_work.summary, casts, view, options.may_skip));
 		// While debug views are shown, every view counts as having receivers, so that its map is
 		// drawn.
-		derived.casters.back().has_receivers =
+		r_run.casters.back().has_receivers =
 				p_wants_debug_views || may_view_contain_any(view, p_work.lit_receivers);
 	}
-	return derived;
 }
 
 RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowSystem::Slot &r_slot,
@@ -352,11 +331,7 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowSystem::Slot &r_s
 	const bool wants_debug_views = p_work.wants_debug_views && p_run.empty();
 	ShadowTechnique &technique = *r_slot.technique;
 	const ShadowSystem::DerivedRun &derived = r_slot.derived_run;
-	if (derived.light != &p_work.snapshot_light || derived.may_skip != options.may_skip ||
-			derived.wants_debug_views != wants_debug_views) {
-		r_slot.derived_run = derive_run(p_work, technique,
-				find_opaque_casters(p_work.scene, p_translucent, p_group), wants_debug_views);
-	}
+	derive_run(p_work, technique, p_translucent, p_group, wants_debug_views, r_slot.derived_run);
 	const std::vector<LightView> &views = derived.views;
 	const std::vector<CasterList> &casters = derived.casters;
 	const ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
@@ -423,20 +398,15 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 			p_light, ShadowRegistry::get_light_properties(choice.info->id));
 	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
 	ShadowSystem::DerivedLight &derived = slot.derived_light;
-	if (derived.light != &p_light) {
-		derived = { &p_light, scene->select_casters(p_light), /*translucent=*/{},
-			/*caster_hashes=*/{} };
-		const SceneSnapshot &selected = derived.selection ? *derived.selection : *scene;
-		derived.translucent = find_translucent_casters(selected, p_light);
-		derived.caster_hashes = hash_casters(selected);
-	}
+	system.derive_light(*scene, p_light, derived);
 	const SceneSnapshot &seen = derived.selection ? *derived.selection : *scene;
 	LightSnapshot &light = lights.emplace_back(p_light);
 	light.derive_widths(choice.info->derived_widths);
-	const Work work = { seen, derived.caster_hashes, p_light, light, *choice.info, properties,
-		p_lit, r_shadow, p_wants_debug_views };
+	const SceneSummary &summary = derived.get_summary(system.derived_scene);
+	const Work work = { seen, summary, p_light, light, *choice.info, properties, p_lit, r_shadow,
+		p_wants_debug_views };
 	for (const ExceededLimit &limit : slot.limits.find_exceeded(
-				 seen, light, choice.info->id, slot.technique->get_limits(properties))) {
+				 seen, summary, light, choice.info->id, slot.technique->get_limits(properties))) {
 		system.warn_once(limit.key, limit.warning);
 	}
 	RGTexture mask;

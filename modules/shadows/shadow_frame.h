@@ -73,7 +73,7 @@ public:
 		return system.derived_camera.receivers.list;
 	}
 	/// Of all instances.
-	const Bounds &get_scene_bounds() const { return system.derived_scene.bounds_world; }
+	const Bounds &get_scene_bounds() const { return system.derived_scene.summary.get_bounds(); }
 	/// Call before the first add_light.
 	void set_surfaces(const HostSurfaces &p_surfaces);
 	/// The surfaces that were set, with normals added when the host gave none.
@@ -111,8 +111,9 @@ private:
 	RGTexture add_technique(const Work &p_work, ShadowSystem::Slot &r_slot,
 			const TranslucentCasters &p_translucent, const TranslucentGroup *p_group,
 			const std::string &p_run);
-	ShadowSystem::DerivedRun derive_run(const Work &p_work, const ShadowTechnique &p_technique,
-			const CasterFlags &p_casts, bool p_wants_debug_views) const;
+	void derive_run(const Work &p_work, const ShadowTechnique &p_technique,
+			const TranslucentCasters &p_translucent, const TranslucentGroup *p_group,
+			bool p_wants_debug_views, ShadowSystem::DerivedRun &r_run) const;
 	RGTexture add_translucent_casters(
 			const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque);
 	RGTexture add_filters(const Work &p_work, RGTexture p_mask);

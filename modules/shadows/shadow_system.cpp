@@ -16,6 +16,17 @@ bool differ_in_camera_only(const SceneSnapshot &p_before, const SceneSnapshot &p
 			p_before.scene_size_m == p_scene.scene_size_m;
 }
 
+void add_cut_out_lines(
+		std::span<const InstanceSnapshot> p_instances, std::vector<std::string> &r_lines) {
+	for (const InstanceSnapshot &instance : p_instances) {
+		if (instance.casts_shadow && instance.cut_block_size_px > 0) {
+			r_lines.push_back(
+					text("holes of \"", instance.node_name, "\" as squares, one for each block of ",
+							instance.cut_block_size_px, " texels"));
+		}
+	}
+}
+
 } // namespace
 
 ShadowSystem::ShadowSystem(RenderingDevice &p_device, std::shared_ptr<MeshStore> p_meshes) :
@@ -77,35 +88,69 @@ void ShadowSystem::begin_frame(const SceneSnapshot &p_scene, glm::uvec2 p_size_p
 }
 
 void ShadowSystem::derive_scene(const SceneSnapshot &p_scene) {
-	warn_once("scene_size", describe_scene_size_problem(p_scene));
-	derived_scene = { p_scene, p_scene.compute_bounds(), p_scene.compute_caster_bounds(),
-		/*posed_count=*/0, /*cut_out_lines=*/{} };
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		derived_scene.posed_count += instance.pose != nullptr ? 1 : 0;
-		if (instance.casts_shadow && instance.cut_block_size_px > 0) {
-			derived_scene.cut_out_lines.push_back(
-					text("holes of \"", instance.node_name, "\" as squares, one for each block of ",
-							instance.cut_block_size_px, " texels"));
+	derived_scene.scene = p_scene;
+	derived_scene.summary.update(p_scene.instances);
+	++derived_scene.revision;
+	const SceneSummary &summary = derived_scene.summary;
+	warn_once("scene_size", describe_scene_size_problem(p_scene.scene_size_m, summary));
+	derived_scene.cut_out_lines.clear();
+	for (size_t page = 0; page < summary.get_pages().size(); ++page) {
+		if (summary.get_pages()[page].cut_block_count > 0) {
+			add_cut_out_lines(p_scene.instances.get_page(page), derived_scene.cut_out_lines);
 		}
 	}
 	derived_camera.is_valid = false;
-	for (auto &[key, slot] : slots) {
-		slot.derived_light = {};
-	}
 }
 
 void ShadowSystem::derive_camera(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
-	derived_camera = { /*is_valid=*/true, p_scene.camera.compute_hash(0), p_size_px,
-		compute_frame_constants(p_scene, derived_scene.caster_bounds_world, p_size_px),
-		find_visible_receivers(p_scene, make_shifted_camera_view(p_scene.camera, p_size_px)) };
+	const uint64_t camera_hash = p_scene.camera.compute_hash(0);
+	const LightView view = make_shifted_camera_view(p_scene.camera, p_size_px);
+	const bool is_same_view = derived_camera.camera_hash == camera_hash &&
+			derived_camera.size_px == p_size_px &&
+			derived_camera.scene_size_m == p_scene.scene_size_m;
+	derived_camera = { /*is_valid=*/true, camera_hash, p_size_px, p_scene.instances,
+		p_scene.scene_size_m,
+		compute_frame_constants(p_scene, derived_scene.summary.get_caster_bounds(), p_size_px),
+		is_same_view ? find_visible_receivers(p_scene, view, derived_camera.receivers,
+							   p_scene.instances.find_changed_pages(derived_camera.instances))
+					 : find_visible_receivers(p_scene, view),
+		/*lit_receivers=*/{} };
 	for (auto &[key, slot] : slots) {
-		slot.derived_run = {};
+		slot.derived_run.light = nullptr;
 		if (slot.derived_light.selection) {
 			auto selection = std::make_shared<SceneSnapshot>(*slot.derived_light.selection);
 			selection->camera = p_scene.camera;
 			slot.derived_light.selection = std::move(selection);
 		}
 	}
+}
+
+const VisibleReceivers &ShadowSystem::derive_lit_receivers(const LightSnapshot &p_light) {
+	const auto [entry, is_new] = derived_camera.lit_receivers.try_emplace(&p_light);
+	if (is_new) {
+		entry->second = find_lit_receivers(p_light, derived_camera.receivers);
+	}
+	return entry->second;
+}
+
+void ShadowSystem::derive_light(
+		const SceneSnapshot &p_scene, const LightSnapshot &p_light, DerivedLight &r_light) {
+	if (r_light.light == &p_light && r_light.scene_revision == derived_scene.revision) {
+		return;
+	}
+	r_light.light = &p_light;
+	r_light.scene_revision = derived_scene.revision;
+	r_light.selection =
+			r_light.casters.update(p_scene, p_light, derived_scene.summary.get_bounds());
+	if (r_light.selection) {
+		r_light.selection_summary.update(r_light.selection->instances);
+	} else {
+		r_light.selection_summary = {};
+	}
+	const SceneSummary &summary = r_light.get_summary(derived_scene);
+	r_light.translucent = summary.get_whole().has_translucent_casters
+			? find_translucent_casters(r_light.selection ? *r_light.selection : p_scene, p_light)
+			: TranslucentCasters();
 }
 
 void ShadowSystem::warn_once(const std::string &p_warning) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "modules/scene/caster_selection.h"
 #include "modules/shadows/light_limits.h"
 #include "modules/shadows/mask_filter.h"
 #include "modules/shadows/mesh_store.h"
+#include "modules/shadows/scene_summary.h"
 #include "modules/shadows/shadow_registry.h"
 #include "modules/shadows/translucent_casters.h"
+#include "modules/shadows/view_culling.h"
 #include "modules/shadows/visible_receivers.h"
 
 #include <map>
@@ -41,32 +44,42 @@ public:
 private:
 	friend class ShadowFrame;
 	// What a frame derives from its snapshot. A frame whose snapshot shares instances and lights
-	// with that of the frame before (see FrameSnapshots) uses most of it again.
+	// with that of the frame before (see FrameSnapshots) uses most of it again; one that shares
+	// some pages of instances derives what belongs to the others.
 
 	/// What does not depend on the camera.
 	struct DerivedScene {
 		/// From which it was derived. A copy, so that instances and lights that a host edits are
 		/// others.
 		std::optional<SceneSnapshot> scene;
-		Bounds bounds_world; // of all instances
-		Bounds caster_bounds_world;
-		size_t posed_count = 0;
+		SceneSummary summary;
 		std::vector<std::string> cut_out_lines; // of the plan
+		uint64_t revision = 0;					// of this all
 	};
 	struct DerivedCamera {
 		bool is_valid = false; // for this camera and size, and the DerivedScene
 		uint64_t camera_hash = 0;
 		glm::uvec2 size_px = glm::uvec2(0);
+		SharedVector<InstanceSnapshot> instances; // of the scene
+		double scene_size_m = 0;
 		shader::FrameConstants constants = {};
 		VisibleReceivers receivers; // all instances that the camera may see
+		/// Those that each light may reach; lights of DerivedScene::scene.
+		std::map<const LightSnapshot *, VisibleReceivers> lit_receivers;
 	};
 	/// Of one light; independent of the camera.
 	struct DerivedLight {
 		const LightSnapshot *light = nullptr; // of DerivedScene::scene; null: none
-		/// See SceneSnapshot::select_casters. With the frame's camera.
+		uint64_t scene_revision = 0;		  // DerivedScene::revision
+		CasterSelection casters;
+		/// What `casters` returned, with the frame's camera; null: all casters of the scene.
 		std::shared_ptr<const SceneSnapshot> selection;
+		SceneSummary selection_summary; // unused without a selection
 		TranslucentCasters translucent;
-		std::vector<uint64_t> caster_hashes; // of each instance, see hash_casters
+
+		const SceneSummary &get_summary(const DerivedScene &p_scene) const {
+			return selection ? selection_summary : p_scene.summary;
+		}
 	};
 	/// Of one run of a light's technique; depends on the camera.
 	struct DerivedRun {
@@ -75,6 +88,7 @@ private:
 		bool wants_debug_views = false;
 		std::vector<LightView> views;
 		std::vector<CasterList> casters; // of each view
+		std::vector<ViewCulling> culling;
 	};
 	/// The technique of one light, or of one group of the light's translucent casters.
 	struct Slot {
@@ -99,6 +113,9 @@ private:
 
 	void derive_scene(const SceneSnapshot &p_scene);
 	void derive_camera(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
+	const VisibleReceivers &derive_lit_receivers(const LightSnapshot &p_light);
+	void derive_light(
+			const SceneSnapshot &p_scene, const LightSnapshot &p_light, DerivedLight &r_light);
 
 	RenderingDevice &device;
 	std::shared_ptr<MeshStore> meshes;

@@ -18,6 +18,7 @@
 namespace gnomon {
 
 class MeshStore;
+class SceneSummary;
 
 /// The casters that one light view may see, culled to it.
 struct CasterList {
@@ -86,7 +87,7 @@ public:
 		RenderingDevice &device;
 		MeshStore &meshes; // GPU buffers of the casters
 		const SceneSnapshot &scene;
-		const Bounds &scene_bounds_world; // of all its instances
+		const SceneSummary &summary; // of the scene
 		/// With the technique's own derived widths (ShadowTechniqueInfo::derived_widths), unlike
 		/// the lights of `scene`.
 		const LightSnapshot &light;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 namespace gnomon {
 
@@ -112,6 +114,26 @@ double compute_margin_m(const SceneSnapshot &p_scene, const InstanceSnapshot &p_
 	return ROUNDING * distance_m + OFFSET_PER_SCENE_SIZE * p_scene.scene_size_m;
 }
 
+/// See VisibleReceiver::bounds_world. Empty when the camera does not see the instance.
+std::optional<Bounds> find_visible_part(const SceneSnapshot &p_scene,
+		const InstanceSnapshot &p_instance, const LightView &p_camera_view,
+		const ViewPlanes &p_planes) {
+	if (!p_camera_view.may_see(p_instance.bounds_world)) {
+		return {}; // the G-buffer does not draw it either
+	}
+	const double margin_m = compute_margin_m(p_scene, p_instance);
+	Bounds box = p_instance.bounds_world;
+	box.minimum -= margin_m;
+	box.maximum += margin_m;
+	Bounds bounds = compute_visible_bounds(box, p_camera_view, p_planes, p_scene.camera);
+	if (bounds.is_empty()) {
+		return {};
+	}
+	bounds.minimum -= margin_m;
+	bounds.maximum += margin_m;
+	return bounds;
+}
+
 /// True when the bounding sphere is certainly outside the cone.
 bool is_outside_cone(const LightSnapshot &p_light, const glm::dvec3 &p_centre, double p_radius_m) {
 	const glm::dvec3 to_centre = p_centre - p_light.position_world;
@@ -143,25 +165,40 @@ ViewPlanes find_view_planes(const LightView &p_view) {
 
 VisibleReceivers find_visible_receivers(
 		const SceneSnapshot &p_scene, const LightView &p_camera_view) {
+	std::vector<uint32_t> all_pages(p_scene.instances.get_page_count());
+	std::iota(all_pages.begin(), all_pages.end(), 0u);
+	return find_visible_receivers(p_scene, p_camera_view, /*p_before=*/{}, all_pages);
+}
+
+VisibleReceivers find_visible_receivers(const SceneSnapshot &p_scene,
+		const LightView &p_camera_view, const VisibleReceivers &p_before,
+		std::span<const uint32_t> p_changed_pages) {
+	const size_t PAGE_SIZE = SharedVector<InstanceSnapshot>::PAGE_SIZE;
 	const ViewPlanes planes = find_view_planes(p_camera_view);
 	VisibleReceivers receivers;
-	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
-		const InstanceSnapshot &instance = p_scene.instances[index];
-		if (!p_camera_view.may_see(instance.bounds_world)) {
-			continue; // the G-buffer does not draw it either
+	receivers.list.reserve(p_before.list.size());
+	auto before = p_before.list.begin();
+	const auto add_before = [&](size_t p_end, bool p_is_changed) {
+		for (; before != p_before.list.end() && before->instance_index < p_end; ++before) {
+			if (!p_is_changed) {
+				receivers.add(*before);
+			}
 		}
-		const double margin_m = compute_margin_m(p_scene, instance);
-		Bounds box = instance.bounds_world;
-		box.minimum -= margin_m;
-		box.maximum += margin_m;
-		Bounds bounds = compute_visible_bounds(box, p_camera_view, planes, p_scene.camera);
-		if (bounds.is_empty()) {
-			continue;
+	};
+	for (const uint32_t page : p_changed_pages) {
+		size_t index = page * PAGE_SIZE;
+		add_before(index, /*p_is_changed=*/false);
+		for (const InstanceSnapshot &instance : p_scene.instances.get_page(page)) {
+			const std::optional<Bounds> bounds =
+					find_visible_part(p_scene, instance, p_camera_view, planes);
+			if (bounds) {
+				receivers.add({ static_cast<uint32_t>(index), *bounds });
+			}
+			++index;
 		}
-		bounds.minimum -= margin_m;
-		bounds.maximum += margin_m;
-		receivers.add({ index, bounds });
+		add_before(index, /*p_is_changed=*/true);
 	}
+	add_before(p_scene.instances.size(), /*p_is_changed=*/false);
 	return receivers;
 }
 

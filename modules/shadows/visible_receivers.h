@@ -3,6 +3,7 @@
 #include "modules/shadows/light_view.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace gnomon {
@@ -41,6 +42,11 @@ ViewPlanes find_view_planes(const LightView &p_view);
 /// The instances that the camera may see.
 VisibleReceivers find_visible_receivers(
 		const SceneSnapshot &p_scene, const LightView &p_camera_view);
+/// As above, from what the same camera view saw of a scene that differs only in these pages of
+/// instances. p_before: of that scene. p_changed_pages: ascending.
+VisibleReceivers find_visible_receivers(const SceneSnapshot &p_scene,
+		const LightView &p_camera_view, const VisibleReceivers &p_before,
+		std::span<const uint32_t> p_changed_pages);
 
 /// False only when the box is certainly outside the light's range or cone, so that nothing in it
 /// receives light. The box must include the margin for rounding.

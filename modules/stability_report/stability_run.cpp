@@ -136,23 +136,23 @@ void correct_reference(
 
 MaskTask move_light(const MaskTask &p_task) {
 	auto scene = std::make_shared<SceneSnapshot>(*p_task.scene);
-	for (LightSnapshot &light : scene->lights.edit()) {
-		if (light.name != p_task.light) {
-			continue;
+	scene->lights.edit_all([&](LightSnapshot &r_light) {
+		if (r_light.name != p_task.light) {
+			return;
 		}
-		const double radius = light.get_disc_radius();
-		if (light.type == LightType::DIRECTIONAL) {
+		const double radius = r_light.get_disc_radius();
+		if (r_light.type == LightType::DIRECTIONAL) {
 			const double angle =
 					MOTION_FRACTION * (radius > 0 ? std::atan(radius) : MOTION_FRACTION);
 			const glm::dmat4 rotation =
-					glm::rotate(glm::dmat4(1.0), angle, light.world_from_light[1]);
-			light.world_from_light = glm::dmat3(rotation) * light.world_from_light;
+					glm::rotate(glm::dmat4(1.0), angle, r_light.world_from_light[1]);
+			r_light.world_from_light = glm::dmat3(rotation) * r_light.world_from_light;
 		} else {
 			const double fallback_radius = MOTION_FRACTION * scene->scene_size_m;
-			light.position_world += MOTION_FRACTION * (radius > 0 ? radius : fallback_radius) *
-					light.world_from_light[0];
+			r_light.position_world += MOTION_FRACTION * (radius > 0 ? radius : fallback_radius) *
+					r_light.world_from_light[0];
 		}
-	}
+	});
 	MaskTask moved = p_task;
 	moved.scene = scene;
 	return moved;

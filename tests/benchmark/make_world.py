@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Writes a large world: many low-poly casters on a wide ground, under a low sun, seen from eye height.
 
-    make_world.py [--out DIR] [--seed N] [--casters N] [--extent METRES] [--mesh-per-caster]
+    make_world.py [--out DIR] [--seed N] [--casters N] [--extent METRES] [--mesh-per-caster] [--moving N]
 
 Boxes, trees and rocks of 12 to 26 triangles are evenly spread over a square of --extent metres; their order in the file is
-random. With --mesh-per-caster each has a mesh of its own, else all share three. The sun has a diameter of 0.53 degrees and
+random. With --mesh-per-caster each has a mesh of its own, else all share three. With --moving, an
+animation moves N of the casters, at even distances in the file, by 3 m in 2 s. The sun has a diameter of 0.53 degrees and
 is 25 degrees above the horizon. Equal parameters write equal files. measure_world.py measures these worlds.
 """
 
@@ -15,6 +16,7 @@ import random
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "demo_project", "scenes"))
+from gltf_animation import Channel, add_animation  # noqa: E402
 from gltf_writer import Document, Mesh, quaternion_about, save_files, scale  # noqa: E402
 from shapes import make_box, make_icosphere  # noqa: E402
 
@@ -23,6 +25,8 @@ ELEVATION_DEGREES = 25.0
 EYE_M = 1.7
 CLEARING_M = 5.0  # no caster is nearer to the camera
 CASTERS = 20000
+MOTION_S = 2.0
+MOTION_M = (2.0, 1.0, 2.0)
 EXTENT_M = 2000.0
 
 
@@ -84,7 +88,7 @@ def make_caster(generator, document, materials, shared):
     return kind, mesh, size, 0.25 * size[1]
 
 
-def build_world(seed=1, caster_count=CASTERS, extent_m=EXTENT_M, has_mesh_per_caster=False):
+def build_world(seed=1, caster_count=CASTERS, extent_m=EXTENT_M, has_mesh_per_caster=False, moving_count=0):
     """Return the world as a Document."""
     generator = random.Random(seed)
     document = Document(round(extent_m * math.sqrt(2.0), 3))
@@ -97,20 +101,27 @@ def build_world(seed=1, caster_count=CASTERS, extent_m=EXTENT_M, has_mesh_per_ca
     materials = {name: document.add_material(name, color) for name, color in colors.items()}
     document.add_object("Ground", make_box((0.5 * extent_m + 20.0, 0.5, 0.5 * extent_m + 20.0)), materials["Ground"], (0.0, -0.5, 0.0))
     shared = None if has_mesh_per_caster else {}
+    channels = []
     for index in range(caster_count):
         kind, mesh, size, height = make_caster(generator, document, materials, shared)
         x = z = 0.0
         while max(abs(x), abs(z)) < CLEARING_M:
             x, z = (generator.uniform(-0.5, 0.5) * extent_m for _ in range(2))
         rotation = quaternion_about((0.0, 1.0, 0.0), generator.uniform(0.0, 2.0 * math.pi))
-        document.add_node("%s %d" % (kind, index), (x, height, z), rotation, mesh=mesh, scale=size)
+        node = document.add_node("%s %d" % (kind, index), (x, height, z), rotation, mesh=mesh, scale=size)
+        if index * moving_count // caster_count != (index + 1) * moving_count // caster_count:
+            there = tuple(a + b for a, b in zip((x, height, z), MOTION_M))
+            channels.append(Channel(node, "translation", [0.0, MOTION_S], [(x, height, z), there]))
+    if channels:
+        add_animation(document, "Drift", channels)
     return document
 
 
-def save_world(folder, seed=1, caster_count=CASTERS, extent_m=EXTENT_M, has_mesh_per_caster=False):
+def save_world(folder, seed=1, caster_count=CASTERS, extent_m=EXTENT_M, has_mesh_per_caster=False, moving_count=0):
     """Write the world's files and return the path of the .gltf."""
     stem = "world_%d_%d_%g%s" % (seed, caster_count, extent_m, "_meshes" if has_mesh_per_caster else "")
-    document = build_world(seed, caster_count, extent_m, has_mesh_per_caster)
+    stem += "_moving_%d" % moving_count if moving_count else ""
+    document = build_world(seed, caster_count, extent_m, has_mesh_per_caster, moving_count)
     save_files(document.build_files(stem), folder)
     return os.path.join(folder, stem + ".gltf")
 
@@ -125,9 +136,10 @@ def add_arguments(parser):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", default=".", help="folder")
+    parser.add_argument("--moving", type=int, default=0, help="number of casters that an animation moves")
     add_arguments(parser)
     options = parser.parse_args()
-    print(save_world(options.out, options.seed, options.casters, options.extent, options.mesh_per_caster))
+    print(save_world(options.out, options.seed, options.casters, options.extent, options.mesh_per_caster, options.moving))
 
 
 if __name__ == "__main__":

@@ -137,10 +137,10 @@ TEST_CASE("[ErrorReport] a formerly directional light is placed 1.5 S from the c
 
 TEST_CASE("[ErrorReport] child nodes of a changed light keep their world transform") {
 	SmallScene small;
-	const Bounds before = build_snapshot(small.scene, *small.camera)->instances.at(1).bounds_world;
+	const Bounds before = build_snapshot(small.scene, *small.camera)->instances[1].bounds_world;
 	const LightVariant variant = { LightType::OMNI, 0.4 };
 	const auto scene = build_variant(small.scene, *small.camera, *small.light, variant, {});
-	CHECK(glm::length(scene->instances.at(1).bounds_world.minimum - before.minimum) <
+	CHECK(glm::length(scene->instances[1].bounds_world.minimum - before.minimum) <
 			LENGTH_TOLERANCE_M);
 }
 

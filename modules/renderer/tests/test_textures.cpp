@@ -159,7 +159,8 @@ struct Square {
 				graph.upload_constants("frame", compute_frame_constants(*snapshot, size_px),
 						BufferUsage::STORAGE | BufferUsage::UNIFORM);
 		const VisibleReceiver visible[] = { { 0, snapshot->instances[0].bounds_world } };
-		const GBufferInstances instances = collect_gbuffer_instances(*snapshot, visible, size_px);
+		GBufferInstances instances;
+		instances.update(*snapshot, visible, size_px);
 		CHECK(instances.instances.size() == 1);
 		const GBuffer gbuffer =
 				add_gbuffer_pass(graph, device, meshes, materials, instances, frame);

@@ -161,7 +161,7 @@ TEST_CASE("[SceneSnapshot] bounds enclose rotated corners, camera-relative space
 	small.camera->parent_from_node =
 			glm::translate(glm::dmat4(1.0), far_away + glm::dvec3(0.125, 0, 0));
 	const auto snapshot = small.build();
-	const InstanceSnapshot &instance = snapshot->instances.at(0);
+	const InstanceSnapshot &instance = snapshot->instances[0];
 	CHECK(instance.material); // the default one, as the surface has none
 	CHECK(instance.bounds_world.minimum.x == doctest::Approx(1e9 - 1).epsilon(1e-15));
 	CHECK(instance.bounds_world.maximum.y == doctest::Approx(1.0));
@@ -181,7 +181,7 @@ TEST_CASE("[SceneSnapshot] an instance casts with another mesh, or nothing, for 
 	SceneSnapshot scene = *small.build();
 	CHECK_FALSE(scene.select_casters(scene.lights[0]));
 	const auto other = make_mesh("o", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 2, 0 } }, {}, { 0, 1, 2 });
-	InstanceSnapshot &instance = scene.instances.edit()[0];
+	InstanceSnapshot &instance = scene.instances.edit(0);
 	const uint64_t hash = instance.compute_hash(1);
 	instance.caster_meshes_of_lights = { { "Lamp", other }, { "Sun", nullptr } };
 	const auto of_lamp = scene.select_casters(scene.lights[0]);

@@ -88,6 +88,31 @@ TEST_CASE("[EdgeCount] one caster that crosses the world sorts the others two ti
 	CHECK(order.get_sort_count() <= earlier_count + 2);
 }
 
+TEST_CASE("[EdgeCount] casters that move one by one are measured, and sorted, like all at once") {
+	std::vector<OrderedCaster> casters = make_casters(2000);
+	CasterOrder order;
+	order.update(casters);
+	TestRandom random;
+	uint32_t frame_count = 0;
+	bool is_kept = true;
+	while (is_kept && frame_count < 10'000) {
+		std::vector<std::pair<uint32_t, Bounds>> moved;
+		for (int count = 0; count < 20; ++count) {
+			const auto index = static_cast<uint32_t>(random.next(0.0, 2000.0));
+			move(casters[index], { random.next(-90.0, 90.0), 0.0, random.next(-90.0, 90.0) });
+			moved.emplace_back(index, casters[index].bounds_world);
+		}
+		is_kept = order.move(moved);
+		++frame_count;
+	}
+	CHECK(frame_count > 6); // before a sixteenth has moved, nothing is measured
+	CHECK(frame_count < 10'000);
+	CHECK(order.get_sort_count() == 1);
+	order.update(casters);
+	CHECK(order.get_sort_count() == 2);
+	CHECK(order.move({}));
+}
+
 TEST_CASE("[EdgeCount] another number of casters, or no reuse, sorts them again") {
 	std::vector<OrderedCaster> casters = make_casters(1000);
 	CasterOrder order;

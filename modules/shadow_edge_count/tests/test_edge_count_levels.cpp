@@ -87,9 +87,8 @@ MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_
 		if (const auto selected = snapshot->select_casters(light)) {
 			*snapshot = *selected;
 		}
-		for (InstanceSnapshot &instance : snapshot->instances.edit()) {
-			instance.caster_levels = nullptr;
-		}
+		snapshot->instances.edit_all(
+				[](InstanceSnapshot &r_instance) { r_instance.caster_levels = nullptr; });
 	}
 	MaskRequest request;
 	request.scene = snapshot;

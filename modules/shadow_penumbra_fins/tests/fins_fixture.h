@@ -19,7 +19,7 @@ struct FinsFixture : MaskFixture {
 	/// What make_inputs needs: a scene and the views of its first light.
 	struct Frame {
 		std::shared_ptr<const SceneSnapshot> scene;
-		Bounds bounds_world; // of all instances
+		SceneSummary summary;
 		std::vector<LightView> views;
 		std::vector<CasterList> casters;
 		PropertyValues properties;
@@ -30,7 +30,7 @@ struct FinsFixture : MaskFixture {
 	Frame make_frame(const SmallScene &p_scene, uint32_t p_map_size_px, float p_margin_m = 0) {
 		Frame frame;
 		frame.scene = p_scene.snap();
-		frame.bounds_world = frame.scene->compute_bounds();
+		frame.summary.update(frame.scene->instances);
 		frame.views = build_light_views(
 				frame.scene->lights[0], *frame.scene, p_map_size_px, /*p_border_px=*/2, p_margin_m);
 		CasterList all;
@@ -43,7 +43,7 @@ struct FinsFixture : MaskFixture {
 
 	ShadowTechnique::Inputs make_inputs(const Frame &p_frame) {
 		// The passes of depth layers and fins read no textures and buffers of the frame.
-		return { *device, meshes, *p_frame.scene, p_frame.bounds_world, p_frame.scene->lights[0],
+		return { *device, meshes, *p_frame.scene, p_frame.summary, p_frame.scene->lights[0],
 			p_frame.properties, p_frame.settings, p_frame.views, p_frame.casters, glm::uvec2(1), {},
 			{}, {}, {}, {}, {},
 			/*may_skip=*/false };

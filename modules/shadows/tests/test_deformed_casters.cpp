@@ -95,17 +95,17 @@ struct TubeScene : SmallScene {
 	/// The scene with the posed tube replaced by a rigid mesh of the same shape.
 	std::shared_ptr<const SceneSnapshot> bake() const {
 		auto baked = std::make_shared<SceneSnapshot>(*snap());
-		for (InstanceSnapshot &instance : baked->instances.edit()) {
-			if (!instance.pose) {
-				continue;
+		baked->instances.edit_all([](InstanceSnapshot &r_instance) {
+			if (!r_instance.pose) {
+				return;
 			}
-			const auto whole = instance.get_posed_mesh();
+			const auto whole = r_instance.get_posed_mesh();
 			MeshAttributes attributes = whole->attributes;
 			attributes.rig = nullptr;
-			instance = make_instance(make_mesh("baked", whole->positions_node, whole->normals_node,
-											 whole->indices, attributes),
-					instance.material, instance.world_from_node, instance.node_name);
-		}
+			r_instance = make_instance(make_mesh("baked", whole->positions_node,
+											   whole->normals_node, whole->indices, attributes),
+					r_instance.material, r_instance.world_from_node, r_instance.node_name);
+		});
 		return baked;
 	}
 };
@@ -320,7 +320,7 @@ TEST_CASE("[GPU][DeformedCasters] a mesh that a vertex program bends casts as it
 			auto moved = std::make_shared<SceneSnapshot>(*scene.snap());
 			auto baked = std::make_shared<SceneSnapshot>(*moved);
 			moved->instances.push_back(make_instance(movable, nullptr, world_from_node, "Tube"));
-			moved->instances.edit().back().set_pose(slot, slot->make_pose({}, {}, "Tube", move));
+			moved->instances.edit_back().set_pose(slot, slot->make_pose({}, {}, "Tube", move));
 			std::vector<glm::vec3> positions = tube->positions_node;
 			for (size_t vertex = 0; vertex < positions.size(); ++vertex) {
 				const float along = attributes.uvs[0][vertex].x;
@@ -330,8 +330,8 @@ TEST_CASE("[GPU][DeformedCasters] a mesh that a vertex program bends casts as it
 					make_instance(make_mesh("bent", positions, {}, tube->indices), nullptr,
 							world_from_node, "Bent"));
 			// With the same bounds, maps have the same texels.
-			baked->instances.edit().back().bounds_world = moved->instances.back().bounds_world;
-			baked->instances.edit().back().caster_bounds_node =
+			baked->instances.edit_back().bounds_world = moved->instances.back().bounds_world;
+			baked->instances.edit_back().caster_bounds_node =
 					moved->instances.back().caster_bounds_node;
 			const MaskResult mask = fixture.render(make_request(moved, p_info.id));
 			double fraction = 0;

@@ -8,9 +8,15 @@ using namespace gnomon;
 
 namespace {
 
+std::string describe_problem(const SmallScene &p_scene) {
+	const auto snapshot = p_scene.snap();
+	return describe_scene_size_problem(snapshot->scene_size_m, SceneSummary(snapshot->instances));
+}
+
 std::vector<ExceededLimit> find_exceeded(const SmallScene &p_scene, const ShadowLimits &p_limits) {
 	const auto snapshot = p_scene.snap();
-	return LightLimits().find_exceeded(*snapshot, snapshot->lights[0], "some", p_limits);
+	return LightLimits().find_exceeded(
+			*snapshot, SceneSummary(snapshot->instances), snapshot->lights[0], "some", p_limits);
 }
 
 bool holds(const std::string &p_text, const std::string &p_part) {
@@ -76,16 +82,16 @@ TEST_CASE("[LightLimits] a derived width is reported with the light size that it
 
 TEST_CASE("[LightLimits] a scene size that does not fit the casters is reported") {
 	SmallScene scene;
-	CHECK(describe_scene_size_problem(*scene.snap()).empty());
+	CHECK(describe_problem(scene).empty());
 	scene.scene.scene_size_m = 2000.0; // 1000 times the box
-	CHECK(describe_scene_size_problem(*scene.snap()).empty());
+	CHECK(describe_problem(scene).empty());
 	scene.scene.scene_size_m = 40000.0;
-	std::string problem = describe_scene_size_problem(*scene.snap());
+	std::string problem = describe_problem(scene);
 	CAPTURE(problem);
 	CHECK(holds(problem, "The scene's size is 40000 m"));
 	CHECK(holds(problem, "begin 0.04 m away"));
 	scene.scene.scene_size_m = 1e-4;
-	problem = describe_scene_size_problem(*scene.snap());
+	problem = describe_problem(scene);
 	CHECK(holds(problem, "Set scene_size"));
 	CHECK(holds(problem, "at least"));
 }
@@ -97,7 +103,10 @@ TEST_CASE("[LightLimits] a caster is searched again only when it or the light mo
 	LightLimits limits; // the light is in the middle of the shade
 	const auto count_exceeded = [&](const ShadowLimits &p_limits) {
 		const auto snapshot = scene.snap();
-		return limits.find_exceeded(*snapshot, snapshot->lights[0], "some", p_limits).size();
+		return limits
+				.find_exceeded(*snapshot, SceneSummary(snapshot->instances), snapshot->lights[0],
+						"some", p_limits)
+				.size();
 	};
 	CHECK(count_exceeded({}) == 0);
 	CHECK(limits.get_search_count() == 1);

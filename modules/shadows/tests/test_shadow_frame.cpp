@@ -213,9 +213,9 @@ TEST_CASE("[GPU][Shadows] a mesh on none of a light's caster layers casts no sha
 		Light3D &other = scene.add_light("Other", p_type, { 1.2, 4.0, 0.8 }, { 0, 0.3, 0 });
 		other.properties = scene.light->properties;
 		auto snapshot = std::make_shared<SceneSnapshot>(*scene.snap());
-		snapshot->instances.edit()[1].layers = 0b10; // the box
-		snapshot->lights.edit()[0].caster_layers = 0b01;
-		snapshot->lights.edit()[1].caster_layers = 0b11;
+		snapshot->instances.edit(1).layers = 0b10; // the box
+		snapshot->lights.edit(0).caster_layers = 0b01;
+		snapshot->lights.edit(1).caster_layers = 0b11;
 		MaskRequest request;
 		request.scene = snapshot;
 		request.technique_override = p_info.id;
@@ -241,8 +241,8 @@ TEST_CASE("[GPU][Shadows] masks of frames that share instances are those of sepa
 				.material = glass;
 		// Of another light, so that the light has a selection of casters.
 		auto other_layer = std::make_shared<SceneSnapshot>(*scene.snap());
-		other_layer->instances.edit()[1].layers = 0b10;
-		other_layer->lights.edit()[0].caster_layers = 0b01;
+		other_layer->instances.edit(1).layers = 0b10;
+		other_layer->lights.edit(0).caster_layers = 0b01;
 		for (const bool has_selection : { false, true }) {
 			CAPTURE(has_selection);
 			std::shared_ptr<SceneSnapshot> shared =
@@ -254,8 +254,8 @@ TEST_CASE("[GPU][Shadows] masks of frames that share instances are those of sepa
 				shared->camera.position_world = from;
 				shared->camera.world_from_camera = glm::dmat3(pose);
 				auto separate = std::make_shared<SceneSnapshot>(*shared);
-				separate->instances.edit();
-				separate->lights.edit();
+				separate->instances.edit_all([](const InstanceSnapshot &) {});
+				separate->lights.edit_all([](const LightSnapshot &) {});
 				CHECK_FALSE(separate->instances.shares_items_with(shared->instances));
 				MaskRequest request;
 				request.technique_override = p_info.id;
@@ -269,6 +269,62 @@ TEST_CASE("[GPU][Shadows] masks of frames that share instances are those of sepa
 	});
 }
 
+TEST_CASE("[GPU][Shadows] masks of frames in which a few instances move are those of new scenes") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		use_cheap_settings(*scene.light);
+		const auto pebble = make_box_mesh("pebble", glm::vec3(0.1f));
+		for (int index = 0; index < 40; ++index) {
+			const double x = 0.37 * (index % 7) - 1.1;
+			add_mesh(scene.scene, "Pebble", pebble,
+					{ x, 0.2 + 0.01 * index, 0.3 * (index / 7) - 0.9 });
+		}
+		auto glass = std::make_shared<Material>();
+		glass->transmission = 0.5f;
+		scene.scene.root->children.back()->name = "Glass";
+		static_cast<MeshInstance3D &>(*scene.scene.root->children.back()).surfaces[0].material =
+				glass;
+		auto moved = std::make_shared<SceneSnapshot>(*scene.snap());
+		const auto move = [&](size_t p_index, const glm::dvec3 &p_by) {
+			InstanceSnapshot &instance = moved->instances.edit(p_index);
+			instance.set_transform(
+					glm::rotate(glm::translate(instance.world_from_node, p_by), 0.2, p_by));
+		};
+		std::vector<float> before;
+		for (int frame = 0; frame < 5; ++frame) {
+			CAPTURE(frame);
+			moved = std::make_shared<SceneSnapshot>(*moved);
+			if (frame == 1) {
+				move(5, { 0.1, 0.3, 0.0 });
+				move(38, { -0.2, 0.1, 0.1 });
+			} else if (frame == 2) {		// one is on another layer
+				move(1, { 0.1, 0.1, 0.2 }); // the box
+				moved->instances.edit(20).layers = 0b10;
+				moved->lights.edit(0).caster_layers = 0b01;
+			} else if (frame == 3) { // the translucent one, and one out of sight
+				move(41, { -0.3, 0.4, 0.1 });
+				move(12, { 0.0, 90.0, 0.0 });
+			} else if (frame == 4) {
+				moved->instances.edit(20).layers = 0b01;
+				moved->instances.edit(30).casts_shadow = false;
+				moved->camera.position_world.x += 0.2;
+			}
+			auto separate = std::make_shared<SceneSnapshot>(*moved);
+			separate->instances.edit_all([](const InstanceSnapshot &) {});
+			MaskRequest request;
+			request.technique_override = p_info.id;
+			request.scene = moved;
+			const MaskResult mask = fixture.render(request);
+			MaskFixture fresh;
+			request.scene = separate;
+			CHECK(fresh.render(request).visibility == mask.visibility);
+			CHECK(mask.visibility != before);
+			before = mask.visibility;
+		}
+	});
+}
+
 TEST_CASE("[GPU][Shadows] a snapshot that a host edits after a frame gets the masks of a new one") {
 	MaskFixture fixture;
 	SmallScene scene(LightType::DIRECTIONAL);
@@ -276,12 +332,12 @@ TEST_CASE("[GPU][Shadows] a snapshot that a host edits after a frame gets the ma
 	MaskRequest request;
 	request.scene = snapshot;
 	const std::vector<float> before = fixture.render(request).visibility;
-	snapshot->instances.edit()[1].casts_shadow = false; // the box
+	snapshot->instances.edit(1).casts_shadow = false; // the box
 	const std::vector<float> without_box = fixture.render(request).visibility;
 	CHECK(without_box != before);
-	snapshot->instances.edit()[1].casts_shadow = true;
+	snapshot->instances.edit(1).casts_shadow = true;
 	CHECK(fixture.render(request).visibility == before);
-	snapshot->lights.edit()[0].world_from_light = glm::dmat3(look_at({ 3, 4, -2 }, { 0, 0, 0 }));
+	snapshot->lights.edit(0).world_from_light = glm::dmat3(look_at({ 3, 4, -2 }, { 0, 0, 0 }));
 	const std::vector<float> turned = fixture.render(request).visibility;
 	CHECK(turned != before);
 	snapshot->camera.position_world.x += 0.4;

@@ -22,7 +22,7 @@ const glm::vec3 BLUE(0.125f, 0.5f, 0.75f);
 
 TranslucentCasters find_casters(const SmallScene &p_scene) {
 	const auto snapshot = p_scene.snap();
-	return find_translucent_casters(*snapshot, snapshot->lights.at(0));
+	return find_translucent_casters(*snapshot, snapshot->lights[0]);
 }
 
 /// Adds a thin horizontal pane.

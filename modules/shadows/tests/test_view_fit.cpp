@@ -34,7 +34,8 @@ struct FittedScene {
 	LightView fit(
 			const glm::dvec3 &p_center, double p_half_size_m, double p_reach_m = REACH_M) const {
 		LightView view = whole;
-		fit_to_receivers(view, make_receivers(p_center, p_half_size_m), p_reach_m);
+		fit_to_receivers(view, find_bounds_in_view(view, make_receivers(p_center, p_half_size_m)),
+				p_reach_m);
 		return view;
 	}
 };
@@ -88,7 +89,8 @@ TEST_CASE("[LightView] mostly visible views, views without receivers and spot vi
 	const LightView before =
 			build_light_views(snapshot->lights[0], *snapshot, MAP_SIZE_PX, BORDER_PX)[0];
 	view = before;
-	fit_to_receivers(view, scene.make_receivers(glm::dvec3(0.0), 0.1), 0.01);
+	fit_to_receivers(
+			view, find_bounds_in_view(view, scene.make_receivers(glm::dvec3(0.0), 0.1)), 0.01);
 	CHECK(view == before);
 }
 
@@ -104,8 +106,8 @@ TEST_CASE("[LightView] the reach grows with the light's angle and with its penum
 	// A receiver far behind all casters, along the light's direction.
 	const glm::dvec3 far_world(
 			glm::inverse(scene.whole.view_from_world) * glm::dvec4(0.0, 0.0, 10.0 * depth_m, 1.0));
-	CHECK(compute_fit_reach_m(
-				  scene.whole, light, *scene.snapshot, scene.make_receivers(far_world, 0.1)) >=
+	const Bounds far_view = find_bounds_in_view(scene.whole, scene.make_receivers(far_world, 0.1));
+	CHECK(compute_fit_reach_m(scene.whole, light, *scene.snapshot, far_view) >=
 			9.0 * depth_m * std::tan(glm::radians(1.0)));
 	light.penumbra_outer_width_m = 1.0f;
 	CHECK(compute_fit_reach_m(scene.whole, light, *scene.snapshot, /*p_receivers=*/{}) > narrow_m);
