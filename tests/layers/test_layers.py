@@ -80,7 +80,11 @@ class Tree:
         config = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(config)
         optional = getattr(config, "get_optional_dependencies", lambda: [])
-        return {"dependencies": list(config.get_dependencies()) + list(optional()), "layer": config.get_layer()}
+        return {
+            "dependencies": list(config.get_dependencies()) + list(optional()),
+            "layer": config.get_layer(),
+            "hosts": getattr(config, "get_hosts", lambda: ("program", "godot"))(),
+        }
 
     def get_text(self, path):
         if path not in self.texts:
@@ -195,6 +199,29 @@ def check_backends(tree):
         for dependency in config["dependencies"]:
             if BACKEND.fullmatch(dependency) and name not in BACKEND_USERS:
                 yield "modules/%s/config.py: lists %s; only %s may" % (name, dependency, " and ".join(BACKEND_USERS))
+
+
+def check_system_headers(tree):
+    """windows.h is included by files for Windows only, without the parts that define names such as ERROR."""
+    for path in tree.find_sources(CPP):
+        for line, _, name in tree.get_includes(path):
+            if name.lower() != "windows.h":
+                continue
+            if not path.endswith("_windows.cpp"):
+                yield "%s:%d: includes %s; only files named *_windows.cpp may" % (path, line, name)
+            elif not all("#define " + macro in tree.get_text(path) for macro in ("WIN32_LEAN_AND_MEAN", "NOGDI")):
+                yield "%s:%d: define WIN32_LEAN_AND_MEAN and NOGDI before windows.h" % (path, line)
+
+
+def check_thread_locals(tree):
+    """The add-on's modules have no thread_local: on Windows, a destructor crashes where a thread outlives the library."""
+    for path in tree.find_sources(CPP, ("modules/",)):
+        module = tree.get_module(path)
+        if "/tests/" in path or "godot" not in tree.configs.get(module, {}).get("hosts", ()):
+            continue
+        for number, line in enumerate(tree.get_text(path).splitlines(), 1):
+            if re.search(r"\bthread_local\b", line.split("//")[0]):
+                yield "%s:%d: thread_local in a module that is built for Godot" % (path, number)
 
 
 def check_test_headers(tree):
@@ -312,6 +339,8 @@ RULES = (
     check_vulkan,
     check_godot,
     check_backends,
+    check_system_headers,
+    check_thread_locals,
     check_test_headers,
     check_window_library,
     check_modules_without_device,
