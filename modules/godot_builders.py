@@ -5,7 +5,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import zipfile
 
 from SCons.Script import Action
@@ -14,7 +13,7 @@ NO_GODOT_ERROR = (
     "ERROR: no Godot was found. Set $GODOT to a Godot 4.5 or later, or have `godot` in PATH.\n"
     "demo_project/install_godot.sh sets one up on Debian 12, below build/godot_program/, which is then found."
 )
-ADDON_LIBRARY = "#demo_project/godot/addons/gnomon/bin/libgnomon.linux.x86_64.so"
+LIBRARY_FOLDER = "#demo_project/godot/addons/gnomon/bin"
 
 
 def find_godot():
@@ -22,6 +21,11 @@ def find_godot():
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     installed = os.path.join(root, "build", "godot_program", "godot")
     return os.environ.get("GODOT") or shutil.which("godot") or (installed if os.path.exists(installed) else None)
+
+
+def get_library_name(platform):
+    """Return the file name of the add-on's library, which gnomon.gdextension lists."""
+    return "libgnomon.%s%s" % (platform.name, platform.ending)
 
 
 def _dump(target, source, env):
@@ -75,8 +79,8 @@ ZIP_DATE = (2026, 1, 1, 0, 0, 0)  # of every entry, so that the same files give 
 SKIPPED = (".import", ".uid")  # files that Godot generates
 
 
-def add_zip(env):
-    """Add bin/gnomon_godot_addon.zip: the add-on's folder with its library, without debug information, and the licence. Return its node."""
+def add_zip(env, libraries):
+    """Add bin/gnomon_godot_addon.zip: the add-on's folder with these libraries, and the licence. Return its node."""
     folder = env.Dir("#demo_project/godot/" + ZIP_FOLDER).abspath
     files = []
     for root, _folders, names in os.walk(folder):
@@ -84,18 +88,14 @@ def add_zip(env):
             files += [os.path.join(root, name) for name in names if not name.endswith(SKIPPED)]
 
     def pack(target, source, env):
-        with tempfile.TemporaryDirectory() as work, zipfile.ZipFile(str(target[0]), "w", zipfile.ZIP_DEFLATED) as archive:
+        with zipfile.ZipFile(str(target[0]), "w", zipfile.ZIP_DEFLATED) as archive:
             for node in source:
                 path = node.abspath
                 inside = os.path.relpath(path, folder) if path.startswith(folder) else os.path.basename(path)
-                if path.endswith(".so"):
-                    path = shutil.copy(path, work)
-                    subprocess.run(["strip", "--strip-debug", path], check=True)
                 with open(path, "rb") as file:
                     entry = zipfile.ZipInfo(ZIP_FOLDER + "/" + inside, ZIP_DATE)
                     entry.compress_type = zipfile.ZIP_DEFLATED
                     entry.external_attr = 0o644 << 16
                     archive.writestr(entry, file.read())
 
-    sources = [ADDON_LIBRARY, "#LICENSE"] + sorted(files)
-    return env.Command("#bin/gnomon_godot_addon.zip", sources, Action(pack, "Packing $TARGET"))
+    return env.Command("#bin/gnomon_godot_addon.zip", libraries + ["#LICENSE"] + sorted(files), Action(pack, "Packing $TARGET"))

@@ -19,8 +19,6 @@ register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_mo
 import importlib.util
 import os
 import re
-import shlex
-import subprocess
 
 VERSION = "0.1.0"  # of all modules, shown to users
 REQUIRED_FILES = ("register_types.h", "SCsub", "config.py")
@@ -157,14 +155,6 @@ def format_bytes(name, data):
     return [*lines, "\t0 };"]
 
 
-def find_library(env, name):
-    """Return an entry for LIBS. For Godot it is the static library, because the user's system may lack the shared one."""
-    if not env["godot"]:
-        return name
-    command = shlex.split(env["CXX"]) + ["-print-file-name=lib%s.a" % name]
-    return env.File(subprocess.run(command, capture_output=True, text=True).stdout.strip())
-
-
 def add_builders(env, modules):
     """Calls each module's configure(), and adds the precompiled header and the method add_sources() to env."""
     env["GNOMON_MODULES"] = modules
@@ -177,6 +167,8 @@ def add_builders(env, modules):
         """Compiles the files (glob pattern or list) and appends their objects to `objects`."""
         sources = self.Glob(pattern_or_files) if isinstance(pattern_or_files, str) else pattern_or_files
         for item in sources:
+            if not self["TARGET_PLATFORM"].is_compiled(str(item)):
+                continue
             made = self.Object(item)
             self.Depends(made, self["PRECOMPILED"])
             objects.extend(made)
@@ -195,7 +187,7 @@ def add_precompiled_header(env, folder):
         header,
         Action("$CXX -x c++-header $CXXFLAGS $CCFLAGS $_CCCOMCOM -o $TARGET $SOURCE", "Precompiling $SOURCE"),
     )
-    env.Depends(env["PRECOMPILED"], copy)
+    env.Depends(env["PRECOMPILED"], [copy, *env["THIRD_PARTY"]])
     # Relative, so that a copy of the tree with its build folder rebuilds nothing (tests/removal).
     env["PRECOMPILED_PATH"] = env.File(copy).path
 

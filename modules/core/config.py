@@ -11,6 +11,5 @@ def get_description():
 
 
 def configure(env):
-    import modules_builders
-
-    env.Append(LIBS=[modules_builders.find_library(env, "stb")])  # PNG
+    if not env["godot"]:
+        env.Append(LIBS=["stb"])  # PNG
