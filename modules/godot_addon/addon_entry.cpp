@@ -1,7 +1,6 @@
 // The library's entry point: Godot calls it when it loads the add-on.
 
-#include "modules/core/error.h"
-#include "modules/core/log.h"
+#include "modules/core/log_failures.h"
 #include "modules/core/module_registry.h"
 #include "modules/godot_addon/addon_server.h"
 #include "modules/godot_addon/receiver_textures.h"
@@ -32,20 +31,20 @@ void log_to_godot(LogLevel p_level, const std::string &p_line) {
 }
 
 void start_server() {
-	try {
+	log_failures([] {
 		receiver_globals = std::make_unique<ReceiverGlobals>();
 		addon_server = std::make_unique<AddonServer>();
-	} catch (const std::exception &failure) {
-		log_error(describe_failure(failure));
-	}
+	});
 }
 
 void stop_server() {
-	addon_server.reset();
-	receiver_globals.reset();
+	log_failures([] {
+		addon_server.reset();
+		receiver_globals.reset();
+	});
 }
 
-void initialize(void *, GDExtensionInitializationLevel p_level) {
+void initialize_level(GDExtensionInitializationLevel p_level) {
 	const godot::Interface &interface = godot::get_interface();
 	if (p_level == GDEXTENSION_INITIALIZATION_EDITOR) {
 		for (const std::string &documentation :
@@ -69,12 +68,18 @@ void initialize(void *, GDExtensionInitializationLevel p_level) {
 	interface.register_main_loop_callbacks(interface.extension, &callbacks);
 }
 
+void initialize(void *, GDExtensionInitializationLevel p_level) {
+	log_failures([&] { initialize_level(p_level); });
+}
+
 void uninitialize(void *, GDExtensionInitializationLevel p_level) {
 	if (p_level == GDEXTENSION_INITIALIZATION_SCENE) {
 		stop_server();
-		unregister_caster_server();
-		unregister_shadow_node_class();
-		ModuleRegistry::uninitialize();
+		log_failures([] {
+			unregister_caster_server();
+			unregister_shadow_node_class();
+			ModuleRegistry::uninitialize();
+		});
 		set_log_sink({});
 	}
 }
@@ -83,13 +88,18 @@ void uninitialize(void *, GDExtensionInitializationLevel p_level) {
 
 } // namespace gnomon
 
-extern "C" __attribute__((visibility("default"))) GDExtensionBool gnomon_addon_init(
-		GDExtensionInterfaceGetProcAddress p_get_address, GDExtensionClassLibraryPtr p_library,
-		GDExtensionInitialization *r_initialization) {
+#ifdef _WIN32
+#define ENTRY_POINT extern "C" // exports.def exports it
+#else
+#define ENTRY_POINT extern "C" __attribute__((visibility("default")))
+#endif
+
+ENTRY_POINT GDExtensionBool gnomon_addon_init(GDExtensionInterfaceGetProcAddress p_get_address,
+		GDExtensionClassLibraryPtr p_library, GDExtensionInitialization *r_initialization) {
 	try {
 		gnomon::godot::load_interface(p_get_address, p_library);
-	} catch (const gnomon::Error &error) {
-		std::fprintf(stderr, "Gnomon: %s\n", error.what());
+	} catch (const std::exception &failure) {
+		std::fprintf(stderr, "Gnomon: %s\n", failure.what());
 		return 0;
 	}
 	r_initialization->minimum_initialization_level = GDEXTENSION_INITIALIZATION_SCENE;

@@ -55,10 +55,13 @@ const std::vector<MethodEntry> &get_methods() {
 }
 
 void *create_instance(void *, GDExtensionBool) {
-	const StringName base(BASE_NAME);
-	const StringName name(CLASS_NAME);
-	void *object = get_interface().classdb_construct_object2(base.get());
-	get_interface().object_set_instance(object, name.get(), object);
+	void *object = nullptr;
+	log_failures([&] {
+		const StringName base(BASE_NAME);
+		const StringName name(CLASS_NAME);
+		object = get_interface().classdb_construct_object2(base.get());
+		get_interface().object_set_instance(object, name.get(), object);
+	});
 	return object;
 }
 

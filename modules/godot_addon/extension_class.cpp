@@ -24,23 +24,25 @@ void call_method(void *p_entry, void *p_instance, const GDExtensionConstVariantP
 	if (p_count != expected) {
 		return;
 	}
-	std::vector<Variant> arguments;
-	for (GDExtensionInt index = 0; index < p_count; ++index) {
-		arguments.push_back(Variant::copy_of(p_arguments[index]));
-	}
 	Variant result;
-	log_failures([&] { result = entry.method(p_instance, arguments); });
+	log_failures([&] {
+		std::vector<Variant> arguments;
+		for (GDExtensionInt index = 0; index < p_count; ++index) {
+			arguments.push_back(Variant::copy_of(p_arguments[index]));
+		}
+		result = entry.method(p_instance, arguments);
+	});
 	godot::copy_built_in(BuiltInType::VARIANT, r_result, result.get());
 }
 
 void call_method_typed(void *p_entry, void *p_instance, const GDExtensionConstTypePtr *p_arguments,
 		void *r_result) {
 	const MethodEntry &entry = *static_cast<const MethodEntry *>(p_entry);
-	std::vector<Variant> arguments;
-	for (size_t index = 0; index < entry.arguments.size(); ++index) {
-		arguments.push_back(Variant::of_type(entry.arguments[index].type, p_arguments[index]));
-	}
 	log_failures([&] {
+		std::vector<Variant> arguments;
+		for (size_t index = 0; index < entry.arguments.size(); ++index) {
+			arguments.push_back(Variant::of_type(entry.arguments[index].type, p_arguments[index]));
+		}
 		const Variant result = entry.method(p_instance, arguments);
 		if (entry.result) {
 			result.store(*entry.result, r_result);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "modules/core/error.h"
-#include "modules/core/log.h"
+#include "modules/core/log_failures.h"
 #include "modules/rendering_device_godot/godot_interface.h"
 #include "modules/rendering_device_godot/godot_values.h"
 
@@ -39,14 +38,5 @@ struct PropertyTexts {
 
 /// The entry must exist until the class is unregistered.
 void register_method(const godot::StringName &p_class, const MethodEntry &p_entry);
-
-/// Calls p_function and logs its exceptions, which must not reach Godot.
-template <typename Function> void log_failures(Function p_function) {
-	try {
-		p_function();
-	} catch (const std::exception &failure) {
-		log_error(describe_failure(failure));
-	}
-}
 
 } // namespace gnomon

@@ -100,14 +100,18 @@ std::string make_range_hint(const PropertyInfo &p_info) {
 }
 
 void *create_instance(void *, GDExtensionBool p_notifies) {
-	const StringName base(BASE_NAME);
-	const StringName name(CLASS_NAME);
-	void *object = get_interface().classdb_construct_object2(base.get());
-	ShadowNode *node = new ShadowNode(object);
-	get_interface().object_set_instance(object, name.get(), node);
-	if (p_notifies) {
-		godot::Object(object).notification(NOTIFICATION_POSTINITIALIZE, /*reversed=*/false);
-	}
+	void *object = nullptr;
+	log_failures([&] {
+		const StringName base(BASE_NAME);
+		const StringName name(CLASS_NAME);
+		auto node = std::make_unique<ShadowNode>(nullptr);
+		object = get_interface().classdb_construct_object2(base.get());
+		*node = ShadowNode(object);
+		get_interface().object_set_instance(object, name.get(), node.release());
+		if (p_notifies) {
+			godot::Object(object).notification(NOTIFICATION_POSTINITIALIZE, /*reversed=*/false);
+		}
+	});
 	return object;
 }
 
@@ -116,15 +120,17 @@ void free_instance(void *, void *p_instance) {
 }
 
 void notify(void *p_instance, int32_t p_what, GDExtensionBool) {
-	if (p_what == NOTIFICATION_ENTER_TREE) {
-		nodes.push_back(&to_node(p_instance));
-		call_listener(listener);
-	} else if (p_what == NOTIFICATION_EXIT_TREE) {
-		std::erase(nodes, &to_node(p_instance));
-		if (nodes.empty()) {
-			call_listener(last_listener);
+	log_failures([&] {
+		if (p_what == NOTIFICATION_ENTER_TREE) {
+			nodes.push_back(&to_node(p_instance));
+			call_listener(listener);
+		} else if (p_what == NOTIFICATION_EXIT_TREE) {
+			std::erase(nodes, &to_node(p_instance));
+			if (nodes.empty()) {
+				call_listener(last_listener);
+			}
 		}
-	}
+	});
 }
 
 std::string read_name(const void *p_string_name) {
@@ -132,13 +138,15 @@ std::string read_name(const void *p_string_name) {
 }
 
 GDExtensionBool validate_property(void *p_instance, GDExtensionPropertyInfo *r_property) {
-	const std::string name = read_name(r_property->name);
-	const std::vector<ShadowProperty> &properties = get_shadow_properties();
-	for (size_t index = 0; index < properties.size(); ++index) {
-		if (properties[index].info.name == name && to_node(p_instance).is_hidden(index)) {
-			r_property->usage = USAGE_STORAGE; // not shown, but saved with the scene
+	log_failures([&] {
+		const std::string name = read_name(r_property->name);
+		const std::vector<ShadowProperty> &properties = get_shadow_properties();
+		for (size_t index = 0; index < properties.size(); ++index) {
+			if (properties[index].info.name == name && to_node(p_instance).is_hidden(index)) {
+				r_property->usage = USAGE_STORAGE; // not shown, but saved with the scene
+			}
 		}
-	}
+	});
 	return true;
 }
 
@@ -155,7 +163,11 @@ void call_get_warnings(void *p_instance, const GDExtensionConstTypePtr *, void *
 }
 
 GDExtensionClassCallVirtual get_virtual(void *, const void *p_name, uint32_t) {
-	return read_name(p_name) == "_get_configuration_warnings" ? &call_get_warnings : nullptr;
+	GDExtensionClassCallVirtual found = nullptr;
+	log_failures([&] {
+		found = read_name(p_name) == "_get_configuration_warnings" ? &call_get_warnings : nullptr;
+	});
+	return found;
 }
 
 Variant get_value(void *p_instance, std::span<const Variant> p_arguments) {

@@ -1,6 +1,7 @@
 #include "modules/rendering_device_godot/godot_interface.h"
 
 #include "modules/core/error.h"
+#include "modules/core/log_failures.h"
 
 #include <godot_api.gen.h>
 #include <godot_hashes.gen.h>
@@ -414,11 +415,13 @@ Callable::Callable(Function p_function) : BuiltIn(Uninitialized::UNINITIALIZED) 
 							 GDExtensionInt p_count, GDExtensionVariantPtr,
 							 GDExtensionCallError *r_error) {
 		r_error->error = GDEXTENSION_CALL_OK;
-		std::vector<Variant> arguments;
-		for (GDExtensionInt index = 0; index < p_count; ++index) {
-			arguments.push_back(Variant::copy_of(p_arguments[index]));
-		}
-		(*static_cast<Function *>(p_userdata))(arguments);
+		log_failures([&] {
+			std::vector<Variant> arguments;
+			for (GDExtensionInt index = 0; index < p_count; ++index) {
+				arguments.push_back(Variant::copy_of(p_arguments[index]));
+			}
+			(*static_cast<Function *>(p_userdata))(arguments);
+		});
 	};
 	info.free_func = [](void *p_userdata) { delete static_cast<Function *>(p_userdata); };
 	interface.callable_custom_create2(bytes, &info);

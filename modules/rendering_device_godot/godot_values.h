@@ -239,7 +239,7 @@ public:
 
 class Callable : public BuiltIn<BuiltInType::CALLABLE, 16> {
 public:
-	/// The function must not throw.
+	/// Exceptions of the function are logged.
 	using Function = std::function<void(std::span<const Variant>)>;
 	Callable() = default;
 	explicit Callable(Function p_function);
