@@ -3,6 +3,8 @@ extends EditorPlugin
 ## The add-on's editor plugin: project settings, a checkbox in the inspector of lights, and a gizmo for their size. The
 ## shadows themselves are made by the add-on's library, in the editor and in games.
 
+# As in gnomon.gdextension.
+const PLATFORMS := "Windows x86_64, Linux x86_64 and Linux arm64"
 const ENABLED := "rendering/gnomon/enabled"
 # Names, defaults and ranges as in modules/godot_addon/addon_settings.cpp, which checks the values.
 const SETTINGS: Array[Dictionary] = [
@@ -20,7 +22,7 @@ var _gizmo: EditorNode3DGizmoPlugin
 
 func _enter_tree() -> void:
 	if not ClassDB.class_exists("GnomonShadow3D"):
-		push_error("Gnomon: its library did not load. It is built for Linux on x86_64 and Godot 4.5 or later; see the messages above, and restart the editor after copying the add-on.")
+		push_error("Gnomon: its library did not load on %s %s. It is built for %s, and Godot 4.5 or later; see the messages above, and restart the editor after copying the add-on." % [OS.get_name(), Engine.get_architecture_name(), PLATFORMS])
 		return
 	for setting: Dictionary in SETTINGS.duplicate(true):
 		if setting.name.ends_with("default_technique"):
