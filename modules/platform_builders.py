@@ -19,7 +19,7 @@ MISSING_COMPILER = (
 
 
 class Platform:
-    """A system and an architecture. compiler, tools: names in PATH; tools is the prefix of strip and objcopy."""
+    """A system and an architecture. compiler, tools: names in PATH; tools is the prefix of strip, objcopy and ar."""
 
     def __init__(self, system, arch, compiler, tools, ending):
         self.system = system
@@ -32,6 +32,11 @@ class Platform:
     @property
     def name(self):
         return self.system + "." + self.arch
+
+    @property
+    def program_name(self):
+        """Return the ending of names of programs in bin/, which has those of all platforms."""
+        return self.name + (".exe" if self.system == "windows" else "")
 
     def is_compiled(self, path):
         """Return whether a source file is for this platform."""
@@ -78,13 +83,13 @@ def make_environment(env, platform):
         clone["EXPORTS"] = exports
         # Without --no-insert-timestamp, two builds of the same sources would differ.
         clone.Append(
-            LINKFLAGS=[exports.path, "-Wl,--no-insert-timestamp"] if is_windows else ["-Wl,--version-script=" + exports.path]
+            SHLINKFLAGS=[exports.path, "-Wl,--no-insert-timestamp"] if is_windows else ["-Wl,--version-script=" + exports.path]
         )
     if platform.is_host:
         return clone
     clone["BUILD_FOLDER"] += "." + platform.name
     folder = clone["BUILD_FOLDER"] + "/third_party"
-    clone.Replace(CXX=platform.compiler, SHLIBSUFFIX=platform.ending)
+    clone.Replace(CXX=platform.compiler, SHLIBSUFFIX=platform.ending, AR=platform.tools + "ar", RANLIB=platform.tools + "ranlib")
     # Not all of /usr/include: its other headers are those of this machine's C library.
     clone.Append(CCFLAGS=[("-isystem", clone.Dir(folder).path)])
     clone["THIRD_PARTY"] = clone.Command(

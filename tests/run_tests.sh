@@ -2,11 +2,11 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed drivers command_line editor demo bundle stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
+PARTS="layers scenes build docs engine embed drivers command_line editor demo bundle stability removal template sanitized fuzz_replay godot windows sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
-Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--jobs N] [--only PART]...
+Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--windows] [--jobs N] [--only PART]...
   --sanitized  also the modules that need no GPU under sanitizers, and the stored fuzzing inputs
   --full       also what --sanitized adds, sanitizers over everything, the thread sanitizer over the modules that
                need no GPU, removal of every technique in turn, a build of the smallest game, tables with 9216 light
@@ -16,10 +16,12 @@ Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--jobs N] [--only PA
                times, all stability sweeps
   --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
                build/ (1.2 GB, as root)
+  --windows    also the Godot add-on's libraries for Windows x86_64 and Linux arm64, cross-compiled, and loaded under Wine
+               and QEMU (installs both, and compilers: 1.4 GB); needs Godot as --godot does
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
                drivers command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
-               also godot; with --full also sanitized_all threads tables editor_repeats large_meshes validator
+               also godot; with --windows also windows; with --full also sanitized_all threads tables editor_repeats large_meshes validator
                fuzz soak kills extremes; only when named: blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
@@ -32,12 +34,14 @@ jobs=$(nproc 2>/dev/null || echo 1)
 is_full=no
 is_sanitized=no
 has_godot=no
+has_windows=no
 only=()
 while [ $# -gt 0 ]; do
     case $1 in
         --full) is_full=yes is_sanitized=yes ;;
         --sanitized) is_sanitized=yes ;;
         --godot) has_godot=yes ;;
+        --windows) has_windows=yes ;;
         --jobs | --only)
             if [ $# -lt 2 ]; then
                 echo "ERROR: $1 needs a value. See tests/run_tests.sh --help." >&2
@@ -65,7 +69,7 @@ while [ $# -gt 0 ]; do
     shift
 done
 
-# is_requested PART: whether the part runs. The parts godot_* are requested together, as the part godot.
+# is_requested PART: whether the part runs. The parts godot_* are requested together, as the part godot, and windows* as windows.
 is_requested() {
     local requested=$1 name
     case $requested in
@@ -75,6 +79,10 @@ is_requested() {
         godot_*)
             [ "$has_godot" = yes ] || return 1
             requested=godot
+            ;;
+        windows*)
+            [ "$has_windows" = yes ] || return 1
+            requested=windows
             ;;
     esac
     [ ${#only[@]} -eq 0 ] && return 0
@@ -95,6 +103,12 @@ if [ "$is_full" = yes ] && is_requested fuzz; then
 fi
 if [[ " ${only[*]} " == *" godot "* ]]; then
     has_godot=yes
+fi
+if [[ " ${only[*]} " == *" windows "* ]]; then
+    has_windows=yes
+fi
+if is_requested windows; then
+    packages+=("${CROSS_PACKAGES[@]}" "${CROSS_RUN_PACKAGES[@]}")
 fi
 if [[ " ${only[*]} " == *" blender "* ]]; then
     packages+=("${BLENDER_PACKAGES[@]}")
@@ -335,6 +349,10 @@ part_godot_soak() {
     # Optimised shaders (no GALLIVM_PERF): the test draws many frames with each.
     run_part "godot soak" env -u GALLIVM_PERF python3 tests/godot/test_soak.py "${options[@]}"
 }
+part_windows() {
+    run_part windows python3 tests/run_unittest.py tests/platforms/test_libraries.py tests/platforms/test_saves.py \
+        tests/godot/host/test_host.py tests/godot/test_missing_library.py
+}
 part_sanitized_all() {
     run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
         run_part "all sanitized" env ASAN_OPTIONS=detect_leaks=0 bin/gnomon_tests.release_address_undefined # Mesa leaks
@@ -391,9 +409,13 @@ part_begin=$SECONDS
 if is_requested godot_build && install_godot "$root"; then # it exports $GODOT, and $GODOT_TEMPLATE and $GODOT_RUN
     run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes || has_godot=no
 fi
+part_begin=$SECONDS
+if is_requested windows_build && install_godot "$root"; then
+    run_check "windows build" scons -Q -j"$jobs" compiledb=no addon_zip=yes bin/gnomon_godot_addon.zip platform_programs || has_windows=no
+fi
 # Long parts are first.
 run_parts sanitized godot_addon engine command_line godot_masks godot_games editor drivers godot_soak removal godot_editor \
-    stability godot_device demo bundle fuzz_replay embed docs template
+    stability godot_device demo bundle fuzz_replay windows embed docs template
 # Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
     run_parts blender

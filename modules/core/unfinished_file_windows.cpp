@@ -114,7 +114,8 @@ void UnfinishedFile::rename_to_target() {
 		const bool may_end = error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED;
 		if (!may_end || attempt == RENAME_ATTEMPT_COUNT) {
 			fail_to_write(target, error,
-					". Close the programs that have it open, or choose another location.");
+					may_end ? ". Close the programs that have it open, or choose another location."
+							: ". Choose another location.");
 		}
 		::Sleep(RENAME_WAIT_MS);
 	}
