@@ -20,12 +20,10 @@ LARGE_MESH_PACKAGES=(npm)
 # For the fuzz tests of tests/run_tests.sh --full, in addition: libFuzzer is part of clang.
 FUZZ_PACKAGES=(clang libclang-rt-14-dev)
 # To build the add-on for Windows x86_64 and Linux arm64 (scons platform=windows, scons arch=arm64) and to pack its zip, in
-# addition to BUILD_PACKAGES; 800 MB.
-CROSS_PACKAGES=(
-    g++-mingw-w64-x86-64-posix mingw-w64-tools libz-mingw-w64-dev g++-aarch64-linux-gnu
-)
-# To run what CROSS_PACKAGES build: tests/run_tests.sh --windows; 600 MB.
-CROSS_RUN_PACKAGES=(wine wine64 qemu-user-static)
+# addition to BUILD_PACKAGES; 600 MB.
+CROSS_PACKAGES=(g++-mingw-w64-x86-64-posix g++-aarch64-linux-gnu)
+# To run what they build: tests/run_tests.sh --windows; 1 GB.
+CROSS_RUN_PACKAGES=(wine64 qemu-user-static)
 # For tests/run_tests.sh --only blender, in addition; 160 MB with dependencies.
 BLENDER_PACKAGES=(blender python3-numpy)
 

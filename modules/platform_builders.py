@@ -128,4 +128,5 @@ def add_stripped(env, target, linked):
         tools + "strip --strip-unneeded -o ${TARGETS[0]} $SOURCE",
         tools + "objcopy --add-gnu-debuglink=${TARGETS[1]} ${TARGETS[0]}",
     )
-    return env.Command([target, target + ".debug"], linked, [Action(command, "Stripping $TARGET" if "strip" in command else None) for command in commands])
+    actions = [Action(command, "Stripping $TARGET" if "strip" in command else None) for command in commands]
+    return env.Command([target, target + ".debug"], linked, actions)

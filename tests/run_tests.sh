@@ -17,7 +17,7 @@ Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--windows] [--jobs N
   --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
                build/ (1.2 GB, as root)
   --windows    also the Godot add-on's libraries for Windows x86_64 and Linux arm64, cross-compiled, and loaded under Wine
-               and QEMU (installs both, and compilers: 1.4 GB); needs Godot as --godot does
+               and QEMU (installs both, and compilers: 1.6 GB); needs Godot as --godot does
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
                drivers command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
