@@ -24,7 +24,8 @@ std::string load_text_file(
 /// Writes a temporary file next to the target, syncs it to disk and renames it, so that the target
 /// is always the complete old or the complete new file, even if the process is killed. A process's
 /// first save into a folder removes the temporary files that killed processes left there. An
-/// unwritable folder or a full disk is an Error naming the path.
+/// unwritable folder or a full disk is an Error naming the path, and on Windows a target that
+/// another program has open for longer than a second.
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 
