@@ -13,8 +13,8 @@
 
 namespace gnomon {
 
-uint32_t CountCapacities::get_block_count() const {
-	return (word_count + EDGE_COUNT_WORDS_PER_BLOCK - 1) / EDGE_COUNT_WORDS_PER_BLOCK;
+uint32_t CountCapacities::get_run_count() const {
+	return (word_count + EDGE_COUNT_WORDS_PER_RUN - 1) / EDGE_COUNT_WORDS_PER_RUN;
 }
 
 CountCapacities choose_capacities(const CountCasters &p_casters) {
@@ -72,8 +72,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	faces = make(
 			"faces", p_capacities.face_count, sizeof(shader::CountFaceRecord), Format::RGBA32_UINT);
 	words = make("edge words", p_capacities.word_count, sizeof(uint32_t), Format::R32_UINT);
-	blocks =
-			make("edge blocks", p_capacities.get_block_count(), sizeof(uint32_t), Format::R32_UINT);
+	runs = make("edge runs", p_capacities.get_run_count(), sizeof(uint32_t), Format::R32_UINT);
 	edges = make(
 			"edges", p_capacities.edge_count, sizeof(shader::CountEdgeRecord), Format::RGBA32_UINT);
 	nodes = make("trees", lay_out_trees(p_capacities).node_count, sizeof(shader::CountNode),
@@ -92,7 +91,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 
 void CountBuffers::reset() {
 	for (OwnedBuffer *buffer :
-			{ &planes, &faces, &words, &blocks, &edges, &nodes, &cut_faces, &totals }) {
+			{ &planes, &faces, &words, &runs, &edges, &nodes, &cut_faces, &totals }) {
 		buffer->reset();
 	}
 	capacities = {};
@@ -101,7 +100,7 @@ void CountBuffers::reset() {
 const CountFrameBuffers &CountBuffers::import(RenderGraph &r_graph) {
 	if (!is_imported) {
 		frame = { r_graph.import_buffer(planes.get()), r_graph.import_buffer(faces.get()),
-			r_graph.import_buffer(words.get()), r_graph.import_buffer(blocks.get()),
+			r_graph.import_buffer(words.get()), r_graph.import_buffer(runs.get()),
 			r_graph.import_buffer(edges.get()), r_graph.import_buffer(nodes.get()),
 			r_graph.import_buffer(cut_faces.get()), r_graph.import_buffer(totals.get()) };
 		is_imported = true;

@@ -15,7 +15,7 @@ struct CountCapacities {
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0; // words of EDGE_COUNT_EDGES_PER_WORD edges
 	bool operator==(const CountCapacities &) const = default;
-	uint32_t get_block_count() const; // blocks of EDGE_COUNT_WORDS_PER_BLOCK words
+	uint32_t get_run_count() const; // runs of EDGE_COUNT_WORDS_PER_RUN words
 };
 
 /// Capacities for all faces and edges of the casters.
@@ -37,7 +37,7 @@ struct CountFrameBuffers {
 	RGBuffer planes;	// vec4 per face
 	RGBuffer faces;		// CountFaceRecord
 	RGBuffer words;		// one bit per edge of the casters: it may be a silhouette
-	RGBuffer blocks;	// number of set bits per block of words
+	RGBuffer runs;		// number of set bits per run of words
 	RGBuffer edges;		// CountEdgeRecord
 	RGBuffer nodes;		// CountNode, see CountTrees
 	RGBuffer cut_faces; // faces that may cut the light's disc
@@ -64,7 +64,7 @@ private:
 	OwnedBuffer planes;
 	OwnedBuffer faces;
 	OwnedBuffer words;
-	OwnedBuffer blocks;
+	OwnedBuffer runs;
 	OwnedBuffer edges;
 	OwnedBuffer nodes;
 	OwnedBuffer cut_faces;

@@ -15,9 +15,9 @@ namespace gnomon {
 
 namespace {
 
-// With more triangles, casters have no second level of detail, so that this level does not make
+// With more triangles, casters have no second LOD, so that this level does not make
 // buffers exceed the device's maximum size.
-constexpr uint64_t MAX_COUNT_WITH_LEVELS = 1'000'000;
+constexpr uint64_t MAX_COUNT_WITH_LODS = 1'000'000;
 
 const double SIDE_TOLERANCE_SIZES = 2.5e-7; // maximum shift of a plane by rounding, in S
 const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same for a directional light, as a cosine
@@ -38,15 +38,15 @@ double compute_min_distance_m(const InstanceSnapshot &p_instance, const glm::dve
 	return distance_m;
 }
 
-/// A mesh that casts an instance's shadow, one of two if the instance has levels of detail.
+/// A mesh that casts an instance's shadow, one of two if the instance has LODs.
 struct CasterMesh {
 	std::shared_ptr<const Mesh> mesh;
 	double first_half_width_m = 0; // see shader::CountCasterPush
 	double end_half_width_m = std::numeric_limits<double>::infinity();
 };
 
-/// The instance's caster mesh and, for receivers that see a wide penumbra, a coarser level of
-/// detail. Only at rest: a pose moves vertices out of the bounds of their source part.
+/// The instance's caster mesh and, for receivers that see a wide penumbra, a coarser LOD
+/// . Only at rest: a pose moves vertices out of the bounds of their source part.
 std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
 		const LightSnapshot &p_light, const Bounds &p_scene_bounds, double p_disc_radius) {
 	std::vector<CasterMesh> meshes(1, { p_instance.caster_mesh });
@@ -55,12 +55,11 @@ std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
 	}
 	const CutLevels &levels = *p_instance.caster_levels;
 	const double half_width = p_instance.compute_max_penumbra_half_width(p_light, p_scene_bounds);
-	const uint32_t level = levels.choose_level(half_width);
-	const uint32_t coarse_level = levels.choose_coarse_level(level, half_width);
-	std::shared_ptr<const Mesh> mesh =
-			coarse_level > level ? levels.get_mesh(coarse_level) : nullptr;
-	const double limit_m = levels.get_min_half_width(coarse_level) *
-			compute_max_stretch(p_instance.world_from_node);
+	const uint32_t lod = levels.choose_level(half_width);
+	const uint32_t coarse_lod = levels.choose_coarse_level(lod, half_width);
+	std::shared_ptr<const Mesh> mesh = coarse_lod > lod ? levels.get_mesh(coarse_lod) : nullptr;
+	const double limit_m =
+			levels.get_min_half_width(coarse_lod) * compute_max_stretch(p_instance.world_from_node);
 	// No penumbra of a point light is wider than the light, measured at the caster.
 	if (mesh && (p_light.type == LightType::DIRECTIONAL || limit_m < p_disc_radius)) {
 		meshes[0].end_half_width_m = limit_m;
@@ -97,7 +96,7 @@ uint32_t count_words(uint32_t p_edge_count) {
 struct CasterMaker {
 	const ShadowTechnique::Inputs &inputs;
 	double disc_radius;
-	bool may_have_levels;
+	bool may_have_lods;
 
 	/// Makes the casters of an instance, except for their places among all faces and edges, and
 	/// adds their meshes to the pools of meshes where needed. None if its meshes have no faces.
@@ -135,7 +134,7 @@ std::vector<CountCaster> CasterMaker::make(uint32_t p_instance) const {
 	const double WIDENING = 1.01; // for rounding
 	const InstanceSnapshot &instance = inputs.scene.instances[p_instance];
 	const LightView &first_view = inputs.views.front();
-	const std::vector<CasterMesh> meshes = may_have_levels
+	const std::vector<CasterMesh> meshes = may_have_lods
 			? list_caster_meshes(instance, inputs.light, inputs.summary.get_bounds(), disc_radius)
 			: std::vector<CasterMesh>(1, { instance.caster_mesh });
 	CountCaster caster;
@@ -144,7 +143,7 @@ std::vector<CountCaster> CasterMaker::make(uint32_t p_instance) const {
 	caster.views = find_seeing_views(inputs, p_instance);
 	caster.record.light_from_node = first_view.view_from_world * instance.world_from_node;
 	caster.record.flags = (instance.is_mirrored() ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
-			(meshes.size() > 1 ? EDGE_COUNT_CASTER_LEVEL : 0u);
+			(meshes.size() > 1 ? EDGE_COUNT_CASTER_LOD : 0u);
 	caster.record.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
 	caster.may_cut_disc = !first_view.is_orthographic && disc_radius > 0 &&
 			compute_min_distance_m(instance, glm::inverse(first_view.view_from_world)[3]) <=
@@ -196,11 +195,11 @@ void add_caster(const std::string &p_light, CountCaster p_caster, CountCasters &
 void sum_up(CountCasters &r_casters) {
 	uint32_t views_with_faces = 0;
 	r_casters.may_cut_disc = false;
-	r_casters.has_levels = false;
+	r_casters.has_lods = false;
 	for (const CountCaster &caster : r_casters.casters) {
 		views_with_faces |= caster.views;
 		r_casters.may_cut_disc |= caster.may_cut_disc;
-		r_casters.has_levels |= r_casters.instances[caster.instance].caster_levels != nullptr;
+		r_casters.has_lods |= r_casters.instances[caster.instance].caster_levels != nullptr;
 	}
 	r_casters.empty_views = ~views_with_faces & ~0u >> (32 - r_casters.view_count);
 }
@@ -236,8 +235,8 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
 		triangle_count += count;
 		ordered.push_back({ instance.bounds_world, count }); // about one edge per triangle
 	}
-	result.may_have_levels = triangle_count <= MAX_COUNT_WITH_LEVELS;
-	const CasterMaker maker = { p_inputs, p_disc_radius, result.may_have_levels };
+	result.may_have_lods = triangle_count <= MAX_COUNT_WITH_LODS;
+	const CasterMaker maker = { p_inputs, p_disc_radius, result.may_have_lods };
 	for (const uint32_t ordered_index : r_order.update(std::move(ordered), p_inputs.may_reuse)) {
 		const uint32_t index = p_indices[ordered_index];
 		if (is_collapsed(p_inputs.scene.instances[index])) {
@@ -261,7 +260,7 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 	const bool has_same_bounds = before_world.minimum == bounds_world.minimum &&
 			before_world.maximum == bounds_world.maximum;
 	// Which levels of detail cast depends on the bounds.
-	if (p_casters.indices != p_indices || (p_casters.has_levels && !has_same_bounds)) {
+	if (p_casters.indices != p_indices || (p_casters.has_lods && !has_same_bounds)) {
 		return {};
 	}
 	const SharedVector<InstanceSnapshot> &instances = p_inputs.scene.instances;
@@ -290,7 +289,7 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 	if (!r_order.move(bounds)) {
 		return {};
 	}
-	const CasterMaker maker = { p_inputs, p_casters.disc_radius, p_casters.may_have_levels };
+	const CasterMaker maker = { p_inputs, p_casters.disc_radius, p_casters.may_have_lods };
 	MovedCasters moved;
 	moved.instances = instances;
 	for (const uint32_t index : changed) {

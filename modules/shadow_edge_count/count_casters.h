@@ -15,7 +15,7 @@ namespace gnomon {
 /// (EDGE_COUNT_FACE_MASK) and 26 bits (COUNT_EDGE_MASK in count_box_inc.glsl).
 constexpr uint32_t MAX_CASTER_FACES = 10'000'000;
 
-/// One caster of a light, or one level of detail of it.
+/// One caster of a light, or one LOD of it.
 struct CountCaster {
 	std::shared_ptr<const Mesh> mesh;
 	uint32_t instance = 0; // in the scene
@@ -33,11 +33,11 @@ struct CountCaster {
 	/// Its instance's bounds come within R of the light's centre.
 	bool may_cut_disc = false;
 
-	/// Whether it is the coarse one of two levels of detail.
+	/// Whether it is the coarse one of two LODs.
 	bool is_coarse() const { return record.first_half_width > 0; }
 };
 
-/// The casters of all views of a light, each once or, for a cut-out with a coarse level of detail,
+/// The casters of all views of a light, each once or, for a cut-out with a coarse LOD,
 /// twice, and the sizes of all their data together.
 struct CountCasters {
 	static constexpr uint32_t NO_CASTER = ~0u;
@@ -51,14 +51,14 @@ struct CountCasters {
 	uint32_t collapsed_instance_count = 0; // instances collapsed to a line or a point
 	bool may_cut_disc = false;			   // some caster's
 	uint32_t empty_views = 0;			   // bit i: no caster of view i has a face
-	bool has_levels = false;			   // of detail, in some caster's instance
+	bool has_lods = false;			   // of detail, in some caster's instance
 	// What they were made from.
 	SharedVector<InstanceSnapshot> instances; // of the scene
 	std::vector<uint32_t> indices;			  // of the instances that cast
 	std::vector<uint32_t> first_casters;	  // by instance: index of its first caster, NO_CASTER
 	std::vector<uint32_t> moved; // indices of the casters that apply_to() replaced last
 	Bounds scene_bounds_world;
-	bool may_have_levels = false; // there are not too many triangles
+	bool may_have_lods = false; // there are not too many triangles
 	uint32_t view_count = 0;
 
 	/// True if both have the same meshes and flags in the same order, so that face indices stay

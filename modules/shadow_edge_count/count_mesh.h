@@ -21,7 +21,7 @@ struct CountMesh {
 	std::vector<shader::CountMeshFace> faces; // all, also sorted
 	/// For each connected part of the mesh that this one was cut out of: centre and radius of a
 	/// sphere around the part before the alpha test (connected by edges, whatever their winding).
-	/// All levels of detail have the same source parts, so they switch at the same distance. One
+	/// All LODs have the same source parts, so they switch at the same distance. One
 	/// sphere of radius 0 if the mesh was not cut out.
 	std::vector<glm::vec4> source_parts;
 };

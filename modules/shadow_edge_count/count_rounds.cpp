@@ -9,8 +9,8 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
-// Memory of the states between two rounds: those of 8,192 receivers with 256 points.
-constexpr uint64_t MAX_STATE_BYTES = 8192 * sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(4);
+// Memory of the states between two rounds: those of 7,168 receivers with 256 points.
+constexpr uint64_t MAX_STATE_BYTES = 7168 * sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(4);
 // Rounds that find no unfinished subgroup take a few microseconds each.
 constexpr uint64_t MAX_ROUNDS = 24;
 

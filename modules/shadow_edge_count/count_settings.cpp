@@ -76,7 +76,6 @@ shader::CountLightConstants make_count_light_constants(
 	const double depth_range_m = double(p_view.far_m) - p_view.near_m;
 	constants.disc_radius = static_cast<float>(p_disc_radius);
 	constants.depth_far_m = p_view.far_m;
-	constants.scene_size_m = static_cast<float>(p_scene_size_m);
 	constants.nearer_tolerance = static_cast<float>(NEARER_TOLERANCE *
 			(p_view.is_orthographic ? std::max(p_scene_size_m, depth_range_m / DEPTH_RANGE_DIVISOR)
 									: 1.0));

@@ -133,17 +133,17 @@ void add_edge_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 			"shadow_edge_count/mark_edges.comp",
 			{ PassBinding::read(FIND_BINDING_POINTS, p_casters.points),
 					PassBinding::read(FIND_BINDING_MESH_EDGES, p_casters.mesh_edges),
-					PassBinding::read(FIND_BINDING_PLANES, buffers.planes),
+					PassBinding::read(COUNT_BINDING_PLANES, buffers.planes),
 					PassBinding::write(FIND_BINDING_WORDS, buffers.words, Content::UPDATE),
-					PassBinding::write(FIND_BINDING_BLOCKS, buffers.blocks, Content::UPDATE) });
+					PassBinding::write(FIND_BINDING_RUNS, buffers.runs, Content::UPDATE) });
 	add_caster_pass(r_graph, p_device, p_passes, p_casters, p_listed, "list edges",
 			"shadow_edge_count/list_edges.comp",
 			{ PassBinding::read(FIND_BINDING_POINTS, p_casters.points),
 					PassBinding::read(FIND_BINDING_MESH_EDGES, p_casters.mesh_edges),
 					PassBinding::read(FIND_BINDING_WORDS, buffers.words),
-					PassBinding::read(FIND_BINDING_BLOCKS, buffers.blocks),
-					PassBinding::write(FIND_BINDING_EDGES, buffers.edges, Content::UPDATE),
-					PassBinding::write(FIND_BINDING_TOTALS, buffers.totals, Content::UPDATE) });
+					PassBinding::read(FIND_BINDING_RUNS, buffers.runs),
+					PassBinding::write(COUNT_BINDING_EDGES, buffers.edges, Content::UPDATE),
+					PassBinding::write(COUNT_BINDING_TOTALS, buffers.totals, Content::UPDATE) });
 }
 
 /// Adds a pass that finds the bounds of clusters and nodes, of all faces and edges.
@@ -153,27 +153,27 @@ void add_bound_pass(
 	const CountCapacities &capacities = p_passes.capacities;
 	const uint32_t item_count = std::max(capacities.face_count, capacities.edge_count);
 	const std::vector<PassBinding> bindings = { PassBinding::constants(
-														FIND_BINDING_LIGHT, p_passes.constants),
-		PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
-		PassBinding::write(FIND_BINDING_NODES, buffers.nodes, Content::UPDATE) };
+														COUNT_BINDING_LIGHT, p_passes.constants),
+		PassBinding::read(COUNT_BINDING_TOTALS, buffers.totals),
+		PassBinding::write(COUNT_BINDING_NODES, buffers.nodes, Content::UPDATE) };
 	std::vector<PassBinding> cluster_bindings = bindings;
-	cluster_bindings.push_back(PassBinding::read(FIND_BINDING_EDGES, buffers.edges));
-	cluster_bindings.push_back(PassBinding::read(FIND_BINDING_FACES, buffers.faces));
-	const auto get_pipeline = [&](const std::string &p_shader) {
-		return p_device.get_compute_pipeline({ p_shader, p_shader, /*constants=*/{} });
-	};
+	cluster_bindings.push_back(PassBinding::read(COUNT_BINDING_EDGES, buffers.edges));
+	cluster_bindings.push_back(PassBinding::read(COUNT_BINDING_FACES, buffers.faces));
 	std::vector<ComputeStep> steps;
 	const uint32_t tree_count = 2;
-	steps.push_back({ .pipeline = get_pipeline(choose_fetching_shader(
-							  p_device, "shadow_edge_count/bound_clusters.comp")),
-			.bindings = std::move(cluster_bindings),
-			.item_count = { count_nodes(item_count, 0), 1, tree_count } });
+	const std::string clusters =
+			choose_fetching_shader(p_device, "shadow_edge_count/bound_clusters.comp");
+	steps.push_back(
+			{ .pipeline = p_device.get_compute_pipeline({ clusters, clusters, /*constants=*/{} }),
+					.bindings = std::move(cluster_bindings),
+					.item_count = { count_nodes(item_count, 0), 1, tree_count } });
 	const uint32_t levels_per_step = 3;
 	for (uint32_t level = 1; count_nodes(item_count, level - 1) > EDGE_COUNT_NODE_WIDTH;
 			level += levels_per_step) {
-		steps.push_back({ .pipeline = get_pipeline("shadow_edge_count/bound_nodes.comp"),
+		const char *nodes = "shadow_edge_count/bound_nodes.comp";
+		steps.push_back({ .pipeline = p_device.get_compute_pipeline(
+								  { nodes, nodes, { { EDGE_COUNT_CONSTANT_FIRST_LEVEL, level } } }),
 				.bindings = bindings,
-				.push = make_push_bytes(shader::CountBoundPush{ level, 0, 0, 0 }),
 				.item_count = { count_nodes(item_count, level), 1, tree_count } });
 	}
 	add_compute_steps(r_graph, "bound clusters", std::move(steps));
@@ -209,8 +209,8 @@ void add_find_passes(
 				"shadow_edge_count/caster_faces.comp",
 				{ PassBinding::read(FIND_BINDING_POINTS, inputs.points),
 						PassBinding::read(FIND_BINDING_MESH_FACES, inputs.mesh_faces),
-						PassBinding::write(FIND_BINDING_PLANES, buffers.planes, Content::UPDATE),
-						PassBinding::write(FIND_BINDING_FACES, buffers.faces, Content::UPDATE) });
+						PassBinding::write(COUNT_BINDING_PLANES, buffers.planes, Content::UPDATE),
+						PassBinding::write(COUNT_BINDING_FACES, buffers.faces, Content::UPDATE) });
 		if (listed.group_count > 0) {
 			inputs.mesh_edges = r_graph.import_buffer(meshes.get_edges().get());
 		}
@@ -222,12 +222,11 @@ void add_find_passes(
 				p_device.get_compute_pipeline({ "list cut faces",
 						choose_fetching_shader(p_device, "shadow_edge_count/list_cut_faces.comp"),
 						/*constants=*/{} }),
-				{ PassBinding::constants(CUT_FACES_BINDING_LIGHT, p_passes.constants),
-						PassBinding::read(CUT_FACES_BINDING_FACES, buffers.faces),
+				{ PassBinding::constants(COUNT_BINDING_LIGHT, p_passes.constants),
+						PassBinding::read(COUNT_BINDING_FACES, buffers.faces),
+						PassBinding::write(COUNT_BINDING_TOTALS, buffers.totals, Content::UPDATE),
 						PassBinding::write(
-								CUT_FACES_BINDING_TOTALS, buffers.totals, Content::UPDATE),
-						PassBinding::write(
-								CUT_FACES_BINDING_LIST, buffers.cut_faces, Content::UPDATE) },
+								COUNT_BINDING_CUT_FACES, buffers.cut_faces, Content::UPDATE) },
 				{ 1, 1, 1 });
 	}
 }

@@ -17,7 +17,7 @@ namespace {
 
 // Capacity of all lists together: an average per block of pixels, and at most 23 MB at 4 bytes per
 // word. Leaves whose lists do not fit take more time, but are still exact.
-constexpr uint64_t WORDS_PER_BLOCK = 2048;
+constexpr uint64_t LIST_WORDS_PER_BLOCK = 2048;
 constexpr uint64_t MAX_LIST_WORDS = 5'700'000;
 // Every block of pixels has room for one leaf, and half of them for a second one. More are in few
 // blocks, and those whose leaves are completely lit need none.
@@ -76,12 +76,13 @@ CountShape get_shape(const CountLeafPasses &p_passes) {
 	return get_count_shape(p_passes.inputs.device, p_passes.settings.get_sample_set_count());
 }
 
-/// The specialization constants of every shader that processes leaves. p_group_size: of passes that
-/// count edges.
-std::vector<SpecializationConstant> make_pipeline_constants(
-		const CountLeafPasses &p_passes, uint32_t p_group_size = 1) {
+/// The specialization constants of every shader that processes leaves. p_group_size,
+/// p_sample_set_count: of passes that count edges.
+std::vector<SpecializationConstant> make_pipeline_constants(const CountLeafPasses &p_passes,
+		uint32_t p_group_size = 1, uint32_t p_sample_set_count = 1) {
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	return { { EDGE_COUNT_CONSTANT_SUBGROUP_SIZE, inputs.device.get_features().subgroup_size },
+		{ EDGE_COUNT_CONSTANT_SAMPLE_SETS, p_sample_set_count },
 		{ EDGE_COUNT_CONSTANT_IS_DIRECTIONAL, inputs.views.front().is_orthographic ? 1u : 0u },
 		{ EDGE_COUNT_CONSTANT_GROUP_SIZE, p_group_size },
 		{ EDGE_COUNT_CONSTANT_IS_CPU, inputs.device.get_features().runs_on_cpu ? 1u : 0u },
@@ -117,8 +118,8 @@ struct KindPass {
 /// A pass that counts edges.
 struct CountingPass {
 	const char *name;
-	const char *shader; // with 256 points, another one is chosen
-	uint32_t kind;		// EDGE_COUNT_LEAVES_*
+	const char *shader;
+	uint32_t kind; // EDGE_COUNT_LEAVES_*
 	uint32_t point_count;
 	uint32_t rungs = ~0u; // see KindPass
 	uint32_t receiver_count = BLOCK_PIXELS;
@@ -136,24 +137,27 @@ std::vector<CountingPass> list_counting_passes(const CountSettings &p_settings) 
 	const bool is_lowered = p_settings.has_time_budget() && points > few_points;
 	const uint32_t full = 1u << EDGE_COUNT_RUNG_FULL | (is_lowered ? 0 : few_points_rung);
 	std::vector<CountingPass> passes = {
-		{ "resolve smooth", "resolve_smooth", EDGE_COUNT_LEAVES_SMOOTH, points,
-				is_lowered ? full : full | few_pixels_rung, EDGE_COUNT_SMOOTH_PIXELS },
-		{ "resolve", "resolve", EDGE_COUNT_LEAVES_LISTED, points, full, BLOCK_PIXELS,
+		{ "resolve smooth", "shadow_edge_count/resolve_few_pixels.comp", EDGE_COUNT_LEAVES_SMOOTH,
+				points, is_lowered ? full : full | few_pixels_rung, EDGE_COUNT_FEW_PIXELS },
+		{ "resolve", "shadow_edge_count/resolve.comp", EDGE_COUNT_LEAVES_LISTED, points, full,
+				BLOCK_PIXELS,
 				/*may_be_unfinished=*/true },
-		{ "resolve without lists", "resolve", EDGE_COUNT_LEAVES_UNLISTED, points, full,
-				BLOCK_PIXELS, /*may_be_unfinished=*/true },
+		{ "resolve without lists", "shadow_edge_count/resolve.comp", EDGE_COUNT_LEAVES_UNLISTED,
+				points, full, BLOCK_PIXELS, /*may_be_unfinished=*/true },
 	};
 	if (is_lowered) {
-		passes.push_back({ "resolve smooth, 64 points", "resolve_smooth", EDGE_COUNT_LEAVES_SMOOTH,
-				few_points, few_points_rung | few_pixels_rung, EDGE_COUNT_SMOOTH_PIXELS,
+		passes.push_back({ "resolve smooth, 64 points", "shadow_edge_count/resolve_few_pixels.comp",
+				EDGE_COUNT_LEAVES_SMOOTH, few_points, few_points_rung | few_pixels_rung,
+				EDGE_COUNT_FEW_PIXELS,
 				/*may_be_unfinished=*/false, /*has_few_points=*/true });
-		passes.push_back({ "resolve, 64 points", "resolve", EDGE_COUNT_LEAVES_LISTED, few_points,
-				few_points_rung, BLOCK_PIXELS, /*may_be_unfinished=*/true,
-				/*has_few_points=*/true });
+		passes.push_back(
+				{ "resolve, 64 points", "shadow_edge_count/resolve.comp", EDGE_COUNT_LEAVES_LISTED,
+						few_points, few_points_rung, BLOCK_PIXELS, /*may_be_unfinished=*/true,
+						/*has_few_points=*/true });
 	}
 	if (p_settings.has_time_budget()) {
-		passes.push_back({ "resolve, 16 pixels", "resolve_coarse", EDGE_COUNT_LEAVES_LISTED,
-				few_points, few_pixels_rung, EDGE_COUNT_SMOOTH_PIXELS,
+		passes.push_back({ "resolve, 16 pixels", "shadow_edge_count/resolve_few_pixels.comp",
+				EDGE_COUNT_LEAVES_LISTED, few_points, few_pixels_rung, EDGE_COUNT_FEW_PIXELS,
 				/*may_be_unfinished=*/false, /*has_few_points=*/is_lowered });
 	}
 	return passes;
@@ -184,10 +188,13 @@ void add_kind_passes(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 	for (const KindPass &kind : p_kinds) {
 		std::vector<SpecializationConstant> constants = make_pipeline_constants(p_passes,
 				kind.receiver_count *
-						get_count_shape(inputs.device, kind.sample_set_count).lanes_per_receiver);
+						get_count_shape(inputs.device, kind.sample_set_count).lanes_per_receiver,
+				kind.sample_set_count);
 		const bool has_no_list =
 				kind.kind == EDGE_COUNT_LEAVES_UNLISTED || kind.kind == EDGE_COUNT_LEAVES_FILTERED;
 		constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, has_no_list ? 1u : 0u });
+		constants.push_back(
+				{ EDGE_COUNT_CONSTANT_IS_SMOOTH, kind.kind == EDGE_COUNT_LEAVES_SMOOTH ? 1u : 0u });
 		steps.push_back({ inputs.device.get_compute_pipeline(
 								  { kind.shader, kind.shader, std::move(constants) }),
 				{ .kind = kind.kind,
@@ -234,13 +241,11 @@ void add_solids_pass(RenderGraph &r_graph, const CountLeafPasses &p_passes,
 /// Adds the rounds that count what subgroups without iterations left have not counted.
 void add_rounds(RenderGraph &r_graph, const CountLeafPasses &p_passes, const CountLeaves &p_leaves,
 		RGTexture p_mask) {
-	std::vector<SpecializationConstant> constants =
-			make_pipeline_constants(p_passes, get_shape(p_passes).subgroup_size);
+	std::vector<SpecializationConstant> constants = make_pipeline_constants(
+			p_passes, get_shape(p_passes).subgroup_size, p_passes.settings.get_sample_set_count());
 	constants.push_back({ EDGE_COUNT_CONSTANT_HAS_NO_LIST, 1u });
-	const bool is_fine = p_passes.settings.get_sample_set_count() > 1;
-	const std::string shader = choose_fetching_shader(p_passes.inputs.device,
-			is_fine ? "shadow_edge_count/resolve_unfinished_fine.comp"
-					: "shadow_edge_count/resolve_unfinished.comp");
+	const std::string shader = choose_fetching_shader(
+			p_passes.inputs.device, "shadow_edge_count/resolve_unfinished.comp");
 	std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_leaves, p_passes.masks);
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
@@ -293,10 +298,10 @@ void add_rungs_pass(
 	const auto update = PassBuilder::Content::UPDATE;
 	add_compute_pass(r_graph, "choose rungs",
 			p_passes.inputs.device.get_compute_pipeline({ shader, shader, /*constants=*/{} }),
-			{ PassBinding::write(RUNGS_BINDING_COUNTS, p_leaves.counts, update),
-					PassBinding::write(RUNGS_BINDING_STATUS, p_leaves.status, update),
-					PassBinding::write(RUNGS_BINDING_LADDER, p_passes.ladder, update),
-					PassBinding::write(RUNGS_BINDING_ARGUMENTS, p_leaves.arguments, update) },
+			{ PassBinding::write(COUNT_BINDING_COUNTS, p_leaves.counts, update),
+					PassBinding::write(COUNT_BINDING_STATUS, p_leaves.status, update),
+					PassBinding::write(COUNT_BINDING_LADDER, p_passes.ladder, update),
+					PassBinding::write(COUNT_BINDING_ARGUMENTS, p_leaves.arguments, update) },
 			{ 1, 1, 1 }, make_push_bytes(push));
 }
 
@@ -306,7 +311,7 @@ uint32_t choose_list_capacity(glm::uvec2 p_size_px, uint32_t p_item_count) {
 	const glm::uvec2 blocks = divide_up(p_size_px, EDGE_COUNT_BLOCK_PX);
 	// Rounded to powers of two, so that the memory size seldom changes with the scene.
 	const uint64_t words =
-			std::min<uint64_t>(std::bit_ceil(std::max(p_item_count, 1u)), WORDS_PER_BLOCK);
+			std::min<uint64_t>(std::bit_ceil(std::max(p_item_count, 1u)), LIST_WORDS_PER_BLOCK);
 	return static_cast<uint32_t>(
 			std::min<uint64_t>(uint64_t(blocks.x) * blocks.y * words, MAX_LIST_WORDS));
 }
@@ -450,10 +455,8 @@ RGTexture add_count_passes(
 		if (pass.may_be_unfinished) {
 			p_leaves.rounds.bind_queue(bindings);
 		}
-		const std::string suffix = pass.point_count > EDGE_COUNT_SAMPLE_COUNT ? "_fine" : "";
 		add_pass({ .name = pass.name,
-						 .shader = choose_fetching_shader(p_passes.inputs.device,
-								 text("shadow_edge_count/", pass.shader, suffix, ".comp")),
+						 .shader = choose_fetching_shader(p_passes.inputs.device, pass.shader),
 						 .kind = pass.kind,
 						 .rungs = pass.rungs,
 						 .receiver_count = pass.receiver_count,

@@ -386,12 +386,10 @@ std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 				 "choose_rungs.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
-	for (const char *name :
-			{ "caster_faces.comp", "mark_edges.comp", "list_edges.comp", "bound_clusters.comp",
-					"list_cut_faces.comp", "find_leaves.comp", "list_leaves.comp",
-					"count_solids.comp", "resolve_smooth.comp", "resolve_smooth_fine.comp",
-					"resolve.comp", "resolve_fine.comp", "resolve_coarse.comp",
-					"resolve_unfinished.comp", "resolve_unfinished_fine.comp", "debug.comp" }) {
+	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
+				 "bound_clusters.comp", "list_cut_faces.comp", "find_leaves.comp",
+				 "list_leaves.comp", "count_solids.comp", "resolve.comp", "resolve_few_pixels.comp",
+				 "resolve_unfinished.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 		files.push_back(get_storage_variant(files.back()));
 	}

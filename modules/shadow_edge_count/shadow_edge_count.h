@@ -14,7 +14,7 @@
 //     meshes of all lights: faces 32, edges 16, vertices 16        casters of the light: 112 each
 //                         |                                              |
 //  1 caster faces ----> planes 16 n, faces 48 n <------------------------+
-//  2 mark edges ------> words: a bit an edge; blocks: 4 for 2,048 edges
+//  2 mark edges ------> words: a bit an edge; runs: 4 for 2,048 edges
 //  3 list edges ------> edges 32 e
 //  4 bound clusters --> nodes: 32 for 14 faces or edges, the two trees
 //  5 list cut faces --> cut faces 4 n, if a caster comes within R of the light's centre

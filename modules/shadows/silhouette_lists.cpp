@@ -36,7 +36,7 @@ std::vector<SilhouetteDispatch> build_dispatches(const SilhouetteCasters &p_cast
 		dispatch.edges = caster.gpu->edges.get();
 		dispatch.word_count = caster.word_count;
 		dispatch.push = { caster.light_position_node, caster.gpu->edge_count, caster.first_word,
-			caster.first_block, caster.first_in_list, static_cast<uint32_t>(dispatches.size()),
+			caster.first_run, caster.first_in_list, static_cast<uint32_t>(dispatches.size()),
 			caster.vertices_per_edge, /*padding0=*/0, /*padding1=*/0 };
 		dispatches.push_back(dispatch);
 	}
@@ -85,15 +85,16 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 			continue;
 		}
 		if (caster.gpu->edge_count > MAX_EDGE_COUNT - result.edge_count) {
-			fail_capacity("Light \"", p_inputs.light.name, "\": its casters have more than ", MAX_EDGE_COUNT,
+			fail_capacity("Light \"", p_inputs.light.name, "\": its casters have more than ",
+					MAX_EDGE_COUNT,
 					" edges, which is the most that can be listed. Let fewer meshes cast shadows.");
 		}
 		caster.first_word = result.word_count;
-		caster.first_block = result.block_count;
+		caster.first_run = result.run_count;
 		caster.first_in_list = result.edge_count;
 		caster.word_count = divide_up(caster.gpu->edge_count, SILHOUETTE_EDGES_PER_WORD);
 		result.word_count += caster.word_count;
-		result.block_count += divide_up(caster.word_count, SILHOUETTE_WORDS_PER_BLOCK);
+		result.run_count += divide_up(caster.word_count, SILHOUETTE_WORDS_PER_RUN);
 		result.edge_count += caster.gpu->edge_count;
 		result.casters.push_back(caster);
 	}
@@ -111,9 +112,9 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 	};
 	const RGBuffer words =
 			make_buffer("edge words", p_casters.word_count, sizeof(uint32_t), BufferUsage::STORAGE);
-	// For each block of edge words, the number of silhouette edges.
-	const RGBuffer blocks = make_buffer(
-			"edge blocks", p_casters.block_count, sizeof(uint32_t), BufferUsage::COPY_TARGET);
+	// For each run of edge words, the number of silhouette edges.
+	const RGBuffer runs = make_buffer(
+			"edge runs", p_casters.run_count, sizeof(uint32_t), BufferUsage::COPY_TARGET);
 	SilhouetteLists lists = p_targets;
 	if (!lists.list) {
 		lists.list = make_buffer("silhouette edges", p_casters.edge_count, sizeof(uint32_t),
@@ -123,16 +124,16 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 	}
 	const std::vector<SilhouetteDispatch> dispatches = build_dispatches(p_casters);
 	r_graph.add_pass("clear edge counts")
-			.writes(blocks, Access::COPY_WRITE)
+			.writes(runs, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
-				p_context.commands.clear_buffer(p_context.get(blocks));
+				p_context.commands.clear_buffer(p_context.get(runs));
 			});
 	const PipelineRID find_pipeline =
 			p_device.get_compute_pipeline({ "find edges", "shadows/find_edges.comp", {} });
 	PassBuilder find_pass = r_graph.add_pass("find edges");
 	p_predicates.add_to(find_pass);
 	find_pass.writes(words, Access::SHADER_WRITE_COMPUTE)
-			.writes(blocks, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
+			.writes(runs, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
 			.execute([=](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
 				commands.bind_pipeline(find_pipeline);
@@ -142,7 +143,7 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 								{ { SILHOUETTE_BINDING_POSITIONS, dispatch.positions },
 										{ SILHOUETTE_BINDING_EDGES, dispatch.edges },
 										{ SILHOUETTE_BINDING_WORDS, p_context.get(words) },
-										{ SILHOUETTE_BINDING_BLOCKS, p_context.get(blocks) } });
+										{ SILHOUETTE_BINDING_RUNS, p_context.get(runs) } });
 						commands.push_constants(dispatch.push);
 						commands.dispatch_items({ dispatch.word_count, 1, 1 });
 					});
@@ -153,14 +154,14 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 	PassBuilder list_pass = r_graph.add_pass("list edges");
 	p_predicates.add_to(list_pass);
 	list_pass.reads(words, Access::SHADER_READ_COMPUTE)
-			.reads(blocks, Access::SHADER_READ_COMPUTE)
+			.reads(runs, Access::SHADER_READ_COMPUTE)
 			.writes(lists.list, Access::SHADER_WRITE_COMPUTE)
 			.writes(lists.draws, Access::SHADER_WRITE_COMPUTE)
 			.execute([=](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
 				commands.bind_pipeline(list_pipeline);
 				commands.bind_resources({ { SILHOUETTE_BINDING_WORDS, p_context.get(words) },
-						{ SILHOUETTE_BINDING_BLOCKS, p_context.get(blocks) },
+						{ SILHOUETTE_BINDING_RUNS, p_context.get(runs) },
 						{ SILHOUETTE_BINDING_LIST, p_context.get(lists.list) },
 						{ SILHOUETTE_BINDING_DRAWS, p_context.get(lists.draws) } });
 				for (const SilhouetteDispatch &dispatch : dispatches) {

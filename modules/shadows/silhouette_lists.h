@@ -23,7 +23,7 @@ struct SilhouetteCaster {
 	// The range of its edges in the buffers that all casters share, see silhouette_shared.h.
 	uint32_t word_count = 0;
 	uint32_t first_word = 0;
-	uint32_t first_block = 0;
+	uint32_t first_run = 0;
 	uint32_t first_in_list = 0;
 };
 
@@ -31,7 +31,7 @@ struct SilhouetteCaster {
 struct SilhouetteCasters {
 	std::vector<SilhouetteCaster> casters; // ordered by instance_index
 	uint32_t word_count = 0;
-	uint32_t block_count = 0;
+	uint32_t run_count = 0;
 	uint32_t edge_count = 0;
 	uint32_t collapsed_instance_count = 0; // skipped: collapsed to a line or a point
 

@@ -1,6 +1,6 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/compute_extensions_inc.glsl"
 #include "shadow_edge_count/casters_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
@@ -8,36 +8,34 @@
 // see them (see CountFaceRecord). One invocation per face.
 layout(local_size_x = FIND_GROUP_SIZE) in;
 FETCHED_UVEC4S(FIND_BINDING_MESH_FACES, mesh_faces_buffer); // of all meshes: CountMeshFace
-layout(std430, set = 0, binding = FIND_BINDING_PLANES) writeonly buffer Planes {
+layout(std430, set = 0, binding = COUNT_BINDING_PLANES) writeonly buffer Planes {
 	vec4 planes[];
 };
-layout(std430, set = 0, binding = FIND_BINDING_FACES) writeonly buffer Faces {
+layout(std430, set = 0, binding = COUNT_BINDING_FACES) writeonly buffer Faces {
 	CountFaceRecord faces[];
 };
 
-const float FAR = 3e38;
-
 /// The distance of a leaf from which on the penumbra at a source part of the mesh
 /// has at least this half width. p_source_part: centre and radius in light space. Precise, so that the range of one
-/// level of detail ends exactly where that of the other begins. Derived in "Levels of detail" in
+/// LOD ends exactly where that of the other begins. Derived in "Levels of detail" in
 /// doc/techniques/edge_count.md.
 float find_switch_distance(vec4 p_source_part, float p_half_width) {
 	precise const float reach = p_half_width / push.disc_radius; // directional: in metres, else a fraction
 	precise const float directional_distance = p_source_part.z + p_source_part.w + reach;
 	precise const float point_light_distance = (length(p_source_part.xyz) + p_source_part.w) / (1.0 - reach);
 	if (p_half_width <= 0.0) {
-		return -FAR;
+		return -COUNT_FAR;
 	}
 	if (push.is_directional != 0u) {
-		return reach < FAR ? directional_distance : FAR;
+		return reach < COUNT_FAR ? directional_distance : COUNT_FAR;
 	}
-	return reach < 1.0 ? point_light_distance : FAR;
+	return reach < 1.0 ? point_light_distance : COUNT_FAR;
 }
 
 /// The distances of the leaves that see the face, see CountFaceRecord.
 vec2 find_distances(CountCasterRecord p_caster, uint p_source_part) {
-	if ((p_caster.flags & EDGE_COUNT_CASTER_LEVEL) == 0u) {
-		return vec2(-FAR, FAR);
+	if ((p_caster.flags & EDGE_COUNT_CASTER_LOD) == 0u) {
+		return vec2(-COUNT_FAR, COUNT_FAR);
 	}
 	const vec4 part_node = FETCH_VEC4(points_buffer, p_caster.first_source_part + p_source_part);
 	precise const vec3 center = (p_caster.light_from_node * vec4(part_node.xyz, 1.0)).xyz;

@@ -6,16 +6,16 @@
 // where it was while it is within the limit, and only moves back when the cost there leaves a margin, so that a cost
 // near the limit does not change the mask in each frame.
 layout(local_size_x = 1) in;
-layout(std430, set = 0, binding = RUNGS_BINDING_COUNTS) buffer Counts {
+layout(std430, set = 0, binding = COUNT_BINDING_COUNTS) buffer Counts {
 	uint counts[]; // EDGE_COUNT_COUNT_*
 };
-layout(std430, set = 0, binding = RUNGS_BINDING_STATUS) buffer Status {
+layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
 	uint status[]; // EDGE_COUNT_STATUS_*
 };
-layout(std430, set = 0, binding = RUNGS_BINDING_LADDER) buffer Ladder {
+layout(std430, set = 0, binding = COUNT_BINDING_LADDER) buffer Ladder {
 	uint last_ladder; // of the frame before
 };
-layout(std430, set = 0, binding = RUNGS_BINDING_ARGUMENTS) buffer Arguments {
+layout(std430, set = 0, binding = COUNT_BINDING_ARGUMENTS) buffer Arguments {
 	uint arguments[]; // EDGE_COUNT_ARGUMENT_WORDS for each dispatch
 };
 layout(push_constant) uniform Push {

@@ -13,26 +13,6 @@
 
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-/// The axes of a leaf in light space, see CountLeaf.
-struct CountFrame {
-	vec3 x;
-	vec3 y;
-	vec3 z;
-};
-
-/// The frame with this z axis (unit), from the light to the receivers. (Duff et al. 2017, "Building an Orthonormal
-/// Basis, Revisited", listing 3.) A directional light has the axes of light space.
-CountFrame make_count_frame(vec3 p_axis) {
-	if (IS_DIRECTIONAL) {
-		return CountFrame(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
-	}
-	const float sign_z = p_axis.z >= 0.0 ? 1.0 : -1.0;
-	const float a = -1.0 / (sign_z + p_axis.z);
-	const float b = p_axis.x * p_axis.y * a;
-	return CountFrame(vec3(1.0 + sign_z * p_axis.x * p_axis.x * a, sign_z * b, -sign_z * p_axis.x),
-			vec3(b, sign_z + p_axis.y * p_axis.y * a, -p_axis.y), p_axis);
-}
-
 /// (x', y', w) of a point in light space. Its z must be above 0, except for a directional light.
 vec3 warp_to_frame(CountFrame p_frame, float p_depth_far_m, vec3 p_point) {
 	const vec3 r = vec3(dot(p_frame.x, p_point), dot(p_frame.y, p_point), dot(p_frame.z, p_point));
@@ -47,8 +27,6 @@ struct CountBounds {
 	vec2 range; // of w - slope.(x', y')
 	vec2 w_range;
 };
-
-const float COUNT_FAR = 3e38;
 
 CountBounds make_count_bounds() {
 	const vec2 none = vec2(COUNT_FAR, -COUNT_FAR);
@@ -74,10 +52,6 @@ CountBounds choose_flatter(CountBounds p_bounds) {
 	bounds.slope = is_flat ? bounds.slope : vec2(0.0);
 	bounds.range = is_flat ? bounds.range : bounds.w_range;
 	return bounds;
-}
-
-bool is_count_bounds_empty(CountBounds p_bounds) {
-	return p_bounds.minimum.x > p_bounds.maximum.x;
 }
 
 CountBounds unpack_count_bounds(CountLeaf p_leaf) {
@@ -111,68 +85,57 @@ float find_tilt(float p_radius, vec3 p_normal, float p_min, float p_longest) {
 	return p_radius * sqrt(max(dot(p_normal, p_normal) - along * along, 0.0));
 }
 
-/// `above` of a point light: from the receivers' plane; if that is not flat or is tilted too much towards the disc,
-/// from a plane across the frame's axis; if that fails too, 1, which d never exceeds.
-vec4 find_above(float p_radius, CountFrame p_frame, CountBounds p_bounds, vec2 p_w_range) {
-	// At a height h above the receivers' plane, an edge is out of reach from R h / (1 - 2 tilt) on, in the direction in
-	// which the plane rises.
-	const float MAX_TILT = 0.25;
-	const vec2 far = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
-	const float min_w = p_w_range.x;
-	const float longest = min_w > 0.0 ? sqrt(1.0 + dot(far, far)) / min_w : 1e37;
-	// The receivers' plane w = slope.(x', y') + range.x is n.P = 1. No receiver has n.P > 1, so n.q <= 1 - d + d tilt.
-	const vec3 own_normal = p_bounds.slope.x * p_frame.x + p_bounds.slope.y * p_frame.y +
-			p_bounds.range.x * p_frame.z;
-	const float own_min = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(min_w, 1e-37);
-	const float own_tilt = find_tilt(p_radius, own_normal, own_min, longest);
-	const vec3 across_normal = min_w * p_frame.z;
-	const float across_tilt =
-			find_tilt(p_radius, across_normal, min_w / max(p_w_range.y, 1e-37), longest);
-	if (min_w > 0.0 && own_tilt < MAX_TILT) {
-		return vec4(-own_normal, 1.0) / (1.0 - own_tilt);
-	}
-	if (min_w > 0.0 && across_tilt < MAX_TILT) {
-		return vec4(-across_normal, 1.0) / (1.0 - across_tilt);
-	}
-	return vec4(vec3(0.0), 1.0);
-}
-
-/// `below` of a point light: from the receivers' plane if possible, else a value below any d.
-vec4 find_below(float p_radius, CountFrame p_frame, CountBounds p_bounds, vec2 p_w_range) {
-	const vec2 far = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
-	const float longest = sqrt(1.0 + dot(far, far)) / max(p_w_range.x, 1e-37);
-	// As in find_above: n.P >= minimum for all receivers, so n.q >= (1 - d) minimum - d tilt.
-	const vec3 normal = p_bounds.slope.x * p_frame.x + p_bounds.slope.y * p_frame.y +
-			p_bounds.range.x * p_frame.z;
-	const float minimum = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(p_w_range.x, 1e-37);
-	const float tilt = find_tilt(p_radius, normal, minimum, longest);
-	return p_w_range.x > 0.0 && minimum > 0.0 ? vec4(-normal, minimum) / (minimum + tilt)
-											: vec4(vec3(0.0), -COUNT_FAR);
-}
-
 /// CountBox::smooth_fraction: the d from which on the projection of an edge onto the disc moves by at most
 /// CountLightConstants::interpolation, in R, from the middle of the box to its border. If a receiver moves by h across
 /// the light's direction, the projection moves by h (1 - d) / d. If it moves along that direction by a fraction f of
 /// its distance, the projection moves by less than f R / d. Directional: by h / d and, with f in metres, by f R / d.
-float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
+float find_smooth_fraction(CountLightConstants p_light, CountBounds p_bounds) {
 	const float half_size = 0.5 * length(p_bounds.maximum - p_bounds.minimum);
-	const float half_range = 0.5 * (p_w_range.y - p_w_range.x);
+	const float half_range = 0.5 * (p_bounds.w_range.y - p_bounds.w_range.x);
 	const float inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
-	const float inverse_w = 1.0 / max(p_w_range.x, 1e-37);
+	const float inverse_w = 1.0 / max(p_bounds.w_range.x, 1e-37);
 	const float most = p_light.interpolation;
-	const bool is_known = most > 0.0 && (IS_DIRECTIONAL || p_w_range.x > 0.0);
+	const bool is_known = most > 0.0 && (IS_DIRECTIONAL || p_bounds.w_range.x > 0.0);
 	const float across = half_size * inverse_radius * (IS_DIRECTIONAL ? 1.0 : inverse_w);
 	const float along = half_range * (IS_DIRECTIONAL ? 1.0 : inverse_w);
 	return is_known ? (across + along) / (IS_DIRECTIONAL ? most : most + across) : COUNT_FAR;
 }
 
-/// `above` of a directional light, whose d is in metres.
-vec4 find_above_directional(float p_radius, float p_depth_far_m, CountBounds p_bounds, vec2 p_w_range) {
-	const float MAX_TILT = 0.25; // see find_above
-	const float tilt = p_radius * length(p_bounds.slope);
-	return tilt < MAX_TILT
-			? vec4(-p_bounds.slope, -1.0, p_depth_far_m - p_bounds.range.x) / (1.0 - tilt)
-			: vec4(0.0, 0.0, -1.0, p_depth_far_m - p_w_range.x);
+// At a height h above the receivers' plane, an edge is out of reach from R h / (1 - 2 tilt) on, in the direction in which
+// the plane rises.
+const float MAX_TILT = 0.25;
+
+/// `above` and `below` of a directional light, whose d is in metres.
+void bound_directional_fraction(CountBounds p_bounds, inout CountBox r_box) {
+	const float tilt = r_box.radius * length(p_bounds.slope);
+	r_box.above = tilt < MAX_TILT ? vec4(-p_bounds.slope, -1.0, r_box.depth_far_m - p_bounds.range.x) / (1.0 - tilt)
+								  : vec4(0.0, 0.0, -1.0, r_box.depth_far_m - p_bounds.w_range.x);
+	r_box.below = vec4(-p_bounds.slope, -1.0, r_box.depth_far_m - p_bounds.range.y) / (1.0 + tilt);
+}
+
+/// `above` and `below` of a point light. They are from the receivers' plane. If that is not flat or is tilted too much
+/// towards the disc, `above` is from a plane across the frame's axis; if that fails too, 1, which d never exceeds. Where no
+/// plane is possible, `below` is a value below any d.
+void bound_fraction(CountBounds p_bounds, inout CountBox r_box) {
+	const vec2 far = max(abs(p_bounds.minimum), abs(p_bounds.maximum));
+	const float min_w = p_bounds.w_range.x;
+	const bool is_known = min_w > 0.0;
+	const float longest = is_known ? sqrt(1.0 + dot(far, far)) / min_w : 1e37;
+	// The receivers' plane w = slope.(x', y') + range.x is n.P = 1. No receiver has n.P > 1, so n.q <= 1 - d + d tilt. All
+	// have n.P >= minimum, so n.q >= (1 - d) minimum - d tilt.
+	const vec3 normal = p_bounds.slope.x * r_box.frame.x + p_bounds.slope.y * r_box.frame.y +
+			p_bounds.range.x * r_box.frame.z;
+	const float minimum = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(min_w, 1e-37);
+	const float tilt = find_tilt(r_box.radius, normal, minimum, longest);
+	const vec3 across = min_w * r_box.frame.z;
+	const float across_tilt = find_tilt(r_box.radius, across, min_w / max(p_bounds.w_range.y, 1e-37), longest);
+	r_box.above = vec4(vec3(0.0), 1.0);
+	if (is_known && tilt < MAX_TILT) {
+		r_box.above = vec4(-normal, 1.0) / (1.0 - tilt);
+	} else if (is_known && across_tilt < MAX_TILT) {
+		r_box.above = vec4(-across, 1.0) / (1.0 - across_tilt);
+	}
+	r_box.below = is_known && minimum > 0.0 ? vec4(-normal, minimum) / (minimum + tilt) : vec4(vec3(0.0), -COUNT_FAR);
 }
 
 /// p_radius: R; 0 for tests of what may be between the receivers and the light's centre. p_distance: of the leaf.
@@ -192,25 +155,21 @@ CountBox make_count_box(CountLightConstants p_light, float p_radius, CountFrame 
 	box.depth_far_m = p_light.depth_far_m;
 	box.distance = p_distance;
 	box.is_wide = p_is_wide;
-	const vec2 w_range = p_bounds.w_range;
+	box.smooth_fraction = p_is_wide ? COUNT_FAR : find_smooth_fraction(p_light, p_bounds);
 	const vec2 minimum = box.center - box.half_size;
 	const vec2 maximum = box.center + box.half_size;
 	const vec3 x = p_frame.x;
 	const vec3 y = p_frame.y;
 	const vec3 z = p_frame.z;
-	box.smooth_fraction = p_is_wide ? COUNT_FAR : find_smooth_fraction(p_light, p_bounds, w_range);
 	if (IS_DIRECTIONAL) {
-		box.above = find_above_directional(p_radius, p_light.depth_far_m, p_bounds, w_range);
-		box.below = vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.y) /
-				(1.0 + p_radius * length(p_bounds.slope));
+		bound_directional_fraction(p_bounds, box);
 		box.margin = MARGIN * (length(max(abs(minimum), abs(maximum))) + p_light.depth_far_m);
 		box.outside[0] = vec4(x, -maximum.x);
 		box.outside[1] = vec4(-x, minimum.x);
 		box.outside[2] = vec4(y, -maximum.y);
 		box.outside[3] = vec4(-y, minimum.y);
 	} else {
-		box.above = find_above(p_radius, p_frame, p_bounds, w_range);
-		box.below = find_below(p_radius, p_frame, p_bounds, w_range);
+		bound_fraction(p_bounds, box);
 		box.margin = MARGIN;
 		box.outside[0] = vec4((x - maximum.x * z) * inversesqrt(1.0 + maximum.x * maximum.x), 0.0);
 		box.outside[1] = vec4((minimum.x * z - x) * inversesqrt(1.0 + minimum.x * minimum.x), 0.0);
@@ -228,11 +187,6 @@ float find_linear(vec4 p_function, vec3 p_point) {
 	return dot(p_function.xyz, p_point) + p_function.w;
 }
 
-/// True if faces or edges of the node are of the level of detail that the box's receivers see.
-bool is_in_distance_range(CountBox p_box, CountNode p_node) {
-	return p_box.distance >= p_node.center_first_distance.w && p_box.distance < p_node.half_size_end_distance.w;
-}
-
 /// False if nothing in the node can be between a receiver of the box and a point of the disc that its radius describes.
 bool is_node_in_reach(CountBox p_box, CountNode p_node) {
 	const vec3 center = p_node.center_first_distance.xyz;
@@ -242,7 +196,7 @@ bool is_node_in_reach(CountBox p_box, CountNode p_node) {
 		is_in_reach = is_in_reach &&
 				find_linear(p_box.outside[i], center) - dot(abs(p_box.outside[i].xyz), half_size) <= p_box.margin;
 	}
-	return is_in_distance_range(p_box, p_node) && (is_in_reach || p_box.is_wide);
+	return is_in_distance_range(p_box.distance, p_node) && (is_in_reach || p_box.is_wide);
 }
 
 /// Lower bound of the distance of the box's receivers from the plane through the light's centre and an edge, divided by

@@ -11,7 +11,7 @@ vec3 normalize_side(vec3 p_side) {
 	return size > 0.0 ? normalize(p_side / size) : vec3(0.0);
 }
 
-/// The unit vector along p_normal without its part along p_axis (unit). 0 if nothing remains.
+/// The unit vector along p_normal without its component along p_axis (unit). 0 if nothing remains.
 vec3 make_perpendicular(vec3 p_normal, vec3 p_axis) {
 	const vec3 rest = p_normal - dot(p_normal, p_axis) * p_axis;
 	const float length_rest = length(rest);

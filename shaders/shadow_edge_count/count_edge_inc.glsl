@@ -9,32 +9,22 @@
 /// The counts of a receiver so far.
 struct CountState {
 	int solid_count; // between the receiver and the light's centre
+	uint edge_count; // edges that were counted
 	// Signed area of the disc behind edges, in AREA_UNIT of the disc's area: a sum of integers, so that it does not depend
 	// on the order of the edges. It wraps around, but the sum of all is below 512 discs.
 	int area;
 	int surplus;	 // to subtract from all counters: subtracting at some points is done by adding at all others
 	PointCounters counters0;
-#if COUNT_SAMPLE_SET_COUNT == 4
-	PointCounters counters1;
+	PointCounters counters1; // of the other sample sets; unused if there is one, and on GPUs
 	PointCounters counters2;
 	PointCounters counters3;
-#endif
 };
 
 const float AREA_UNIT = 1.0 / 4194304.0; // 2^-22
 
 CountState make_count_state(int p_solid_count) {
-	CountState state;
-	state.solid_count = p_solid_count;
-	state.area = 0;
-	state.surplus = 0;
-	state.counters0 = make_point_counters();
-#if COUNT_SAMPLE_SET_COUNT == 4
-	state.counters1 = state.counters0;
-	state.counters2 = state.counters0;
-	state.counters3 = state.counters0;
-#endif
-	return state;
+	const PointCounters zero = make_point_counters();
+	return CountState(p_solid_count, 0u, 0, 0, zero, zero, zero, zero);
 }
 
 /// Two regions of the light's disc, component by component. Each is beyond a line, and between two directions
@@ -139,13 +129,13 @@ void count_sectors(CountSectors p_sectors, inout CountState r_state) {
 	const uvec4 first0 = load_count_masks(p_sectors.mask_index.x, 0u);
 	const uvec4 second0 = load_count_masks(p_sectors.mask_index.y, 0u);
 	count_sample_set(p_sectors, first0.xy, second0.xy, 0u, r_state.counters0);
-#if COUNT_SAMPLE_SET_COUNT == 4
-	const uvec4 first1 = load_count_masks(p_sectors.mask_index.x, 1u);
-	const uvec4 second1 = load_count_masks(p_sectors.mask_index.y, 1u);
-	count_sample_set(p_sectors, first0.zw, second0.zw, 1u, r_state.counters1);
-	count_sample_set(p_sectors, first1.xy, second1.xy, 2u, r_state.counters2);
-	count_sample_set(p_sectors, first1.zw, second1.zw, 3u, r_state.counters3);
-#endif
+	if (SETS_PER_LANE == 4u) {
+		const uvec4 first1 = load_count_masks(p_sectors.mask_index.x, 1u);
+		const uvec4 second1 = load_count_masks(p_sectors.mask_index.y, 1u);
+		count_sample_set(p_sectors, first0.zw, second0.zw, 1u, r_state.counters1);
+		count_sample_set(p_sectors, first1.xy, second1.xy, 2u, r_state.counters2);
+		count_sample_set(p_sectors, first1.zw, second1.zw, 3u, r_state.counters3);
+	}
 }
 
 /// Moves the ends of two segments of (X, d), component by component, along them until d is in p_min..p_max. The result
@@ -160,19 +150,26 @@ void cut_count_offsets(vec2 p_other_x, vec2 p_other_y, vec2 p_inverse, float p_m
 	r_d = d;
 }
 
-/// The regions of the light beyond two edges, each from p_a to p_b in light space. p_weights: the edges' weights as
-/// seen by the receiver; if one is 0, its region is empty.
-CountSectors find_edge_sectors(CountReceiver p_receiver, vec3 p_a0, vec3 p_b0, vec3 p_a1, vec3 p_b1, ivec2 p_weights) {
-	const vec3 a0 = count_offset(p_receiver, p_a0);
-	const vec3 b0 = count_offset(p_receiver, p_b0);
-	const vec3 a1 = count_offset(p_receiver, p_a1);
-	const vec3 b1 = count_offset(p_receiver, p_b1);
+/// An edge from a to b in light space, and its weight as seen by the receiver; 0: none.
+struct CountedEdge {
+	vec3 a;
+	vec3 b;
+	int weight;
+};
+
+/// The regions of the light beyond two edges. That of an edge with weight 0 is empty.
+CountSectors find_edge_sectors(CountReceiver p_receiver, CountedEdge p_first, CountedEdge p_second) {
+	const vec3 a0 = count_offset(p_receiver, p_first.a);
+	const vec3 b0 = count_offset(p_receiver, p_first.b);
+	const vec3 a1 = count_offset(p_receiver, p_second.a);
+	const vec3 b1 = count_offset(p_receiver, p_second.b);
+	const ivec2 weights = ivec2(p_first.weight, p_second.weight);
 	const bvec2 are_left = bvec2(is_count_left(a0.xy, b0.xy), is_count_left(a1.xy, b1.xy));
 	// Cut off what is not nearer to the light than the receiver, and what is behind the light.
 	const float minimum = p_receiver.min_d;
-	const float maximum = p_receiver.max_d;
-	const bvec2 are_valid = bvec2(p_weights.x != 0 && max(a0.z, b0.z) > minimum && min(a0.z, b0.z) < maximum,
-			p_weights.y != 0 && max(a1.z, b1.z) > minimum && min(a1.z, b1.z) < maximum);
+	const float maximum = MAX_D;
+	const bvec2 are_valid = bvec2(weights.x != 0 && max(a0.z, b0.z) > minimum && min(a0.z, b0.z) < maximum,
+			weights.y != 0 && max(a1.z, b1.z) > minimum && min(a1.z, b1.z) < maximum);
 	vec2 a_x = vec2(a0.x, a1.x);
 	vec2 a_y = vec2(a0.y, a1.y);
 	vec2 a_d = vec2(a0.z, a1.z);
@@ -187,19 +184,10 @@ CountSectors find_edge_sectors(CountReceiver p_receiver, vec3 p_a0, vec3 p_b0, v
 	const vec2 scale_a = b_d * inverse;
 	const vec2 scale_b = a_d * inverse;
 	const DiscEdges edges = DiscEdges(a_x * scale_a, a_y * scale_a, b_x * scale_b, b_y * scale_b);
-	const bvec2 are_reversed = lessThan(p_weights, ivec2(0));
+	const bvec2 are_reversed = lessThan(weights, ivec2(0));
 	return make_count_sectors(DiscEdges(mix(edges.a_x, edges.b_x, are_reversed), mix(edges.a_y, edges.b_y, are_reversed),
 									  mix(edges.b_x, edges.a_x, are_reversed), mix(edges.b_y, edges.a_y, are_reversed)),
-			notEqual(are_reversed, are_left), abs(p_weights), are_valid);
-}
-
-/// As cut_count_offsets, bit for bit, for one end of one segment.
-vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_min, float p_max) {
-	vec2 x = vec2(p_end.x);
-	vec2 y = vec2(p_end.y);
-	vec2 d = vec2(p_end.z);
-	cut_count_offsets(vec2(p_other.x), vec2(p_other.y), vec2(1.0 / (p_other.z - p_end.z)), p_min, p_max, x, y, d);
-	return vec3(x.x, y.x, d.x);
+			notEqual(are_reversed, are_left), abs(weights), are_valid);
 }
 
 /// The line along which a face crosses the disc's plane: it bounds the face's shadow, as an edge does. All faces
@@ -210,9 +198,7 @@ CountSectors find_cut_sectors(
 	const vec3 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz));
 	const vec3 b = count_offset(p_receiver, uintBitsToFloat(p_face.b_first_distance.xyz));
 	const vec3 c = count_offset(p_receiver, uintBitsToFloat(p_face.c_end_distance.xyz));
-	const float minimum = p_receiver.min_d;
-	const float maximum = p_receiver.max_d;
-	const bvec3 is_in = lessThan(vec3(a.z, b.z, c.z), vec3(maximum));
+	const bvec3 is_in = lessThan(vec3(a.z, b.z, c.z), vec3(MAX_D));
 	const bool is_in_front = is_count_in_front(p_plane, p_receiver.position);
 	const bool is_counted = p_face.a_kind.w != 0u || is_in_front == p_uses_front_faces;
 	// The sides on which the outline, in winding order, leaves the space in front of the disc, and enters it. Each is
@@ -221,19 +207,24 @@ CountSectors find_cut_sectors(
 	const bool leaves_b = is_in.y && !is_in.z;
 	const bool enters_a = !is_in.x && is_in.y;
 	const bool enters_b = !is_in.y && is_in.z;
-	const vec3 leave = cut_count_offset(
-			leaves_a ? b : (leaves_b ? c : a), leaves_a ? a : (leaves_b ? b : c), minimum, maximum);
-	const vec3 enter = cut_count_offset(
-			enters_a ? a : (enters_b ? b : c), enters_a ? b : (enters_b ? c : a), minimum, maximum);
+	const vec3 leave = leaves_a ? b : (leaves_b ? c : a);
+	const vec3 before = leaves_a ? a : (leaves_b ? b : c);
+	const vec3 enter = enters_a ? a : (enters_b ? b : c);
+	const vec3 after = enters_a ? b : (enters_b ? c : a);
+	vec2 x = vec2(leave.x, enter.x);
+	vec2 y = vec2(leave.y, enter.y);
+	vec2 d = vec2(leave.z, enter.z);
+	cut_count_offsets(vec2(before.x, after.x), vec2(before.y, after.y), 1.0 / (vec2(before.z, after.z) - d),
+			p_receiver.min_d, MAX_D, x, y, d);
 	// This decides on which side of the line the light's centre is, by the same test as count_crossings, so that both
 	// agree.
 	const bool is_between = is_in_front != is_count_light_in_front(p_plane);
-	const vec2 from = (is_in_front ? leave.xy : enter.xy) * p_receiver.inverse_radius;
-	const vec2 to = (is_in_front ? enter.xy : leave.xy) * p_receiver.inverse_radius;
+	const vec2 ends_x = (is_in_front ? x : x.yx) * p_receiver.inverse_radius;
+	const vec2 ends_y = (is_in_front ? y : y.yx) * p_receiver.inverse_radius;
 	const bool is_valid =
 			is_counted && any(is_in) && !all(is_in) && is_in_distance_range(p_receiver.leaf_distance, p_face);
 	// The second of the two edges is unused.
-	const DiscEdges edges = DiscEdges(vec2(from.x), vec2(from.y), vec2(to.x), vec2(to.y));
+	const DiscEdges edges = DiscEdges(ends_x.xx, ends_y.xx, ends_x.yy, ends_y.yy);
 	return make_count_sectors(edges, bvec2(is_between), ivec2(1), bvec2(is_valid, false));
 }
 
@@ -243,35 +234,40 @@ int count_weight(vec3 p_receiver, vec4 p_plane0, vec4 p_plane1, CountEdgeKind p_
 			p_kind.is_inconsistent != is_count_in_front(p_plane1, p_receiver), p_kind);
 }
 
-/// Sums over the points of the light.
-struct CountSums {
-	int hidden; // points whose count is above 0
-	int count;	// sum of all counts
-	CountChanges changes;
-};
-
 void add_sample_set(PointCounters p_counters, int p_added, inout CountSums r_sums) {
 	const PointCounters sums = add_to_all(p_counters, p_added);
 	const uvec2 is_hidden = find_hidden(sums);
 	r_sums.hidden += count_points(is_hidden);
 	r_sums.count += sum_points(sums);
-	const CountChanges changes = sum_changes(sums, is_hidden ^ rotate_points(is_hidden));
-	r_sums.changes.square += changes.square;
-	r_sums.changes.product += changes.product;
-}
-
-bool has_overlap(CountState p_state, int p_added) {
-	bool overlaps = has_overlap(add_to_all(p_state.counters0, p_added));
-#if COUNT_SAMPLE_SET_COUNT == 4
-	overlaps = overlaps || has_overlap(add_to_all(p_state.counters1, p_added)) ||
-			has_overlap(add_to_all(p_state.counters2, p_added)) || has_overlap(add_to_all(p_state.counters3, p_added));
-#endif
-	return overlaps;
+	add_changes(sums, is_hidden ^ rotate_points(is_hidden), r_sums);
 }
 
 /// What to add to the counters of all points.
 int find_added(CountState p_state) {
 	return clamp(p_state.solid_count, 0, COUNT_MAX_SOLIDS) - p_state.surplus;
+}
+
+/// Whether casters overlap at a point of the invocation's sample sets.
+bool has_overlap(CountState p_state) {
+	const int added = find_added(p_state);
+	return has_overlap(add_to_all(p_state.counters0, added)) ||
+			(SETS_PER_LANE == 4u &&
+					(has_overlap(add_to_all(p_state.counters1, added)) ||
+							has_overlap(add_to_all(p_state.counters2, added)) ||
+							has_overlap(add_to_all(p_state.counters3, added))));
+}
+
+/// The sums over the invocation's sample sets.
+CountSums add_sample_sets(CountState p_state) {
+	const int added = find_added(p_state);
+	CountSums sums = CountSums(0, 0, 0, 0);
+	add_sample_set(p_state.counters0, added, sums);
+	if (SETS_PER_LANE == 4u) {
+		add_sample_set(p_state.counters1, added, sums);
+		add_sample_set(p_state.counters2, added, sums);
+		add_sample_set(p_state.counters3, added, sums);
+	}
+	return sums;
 }
 
 /// Visibility from all counts, 0..1. If no more than one solid hides the light, the areas alone are
@@ -280,29 +276,13 @@ int find_added(CountState p_state) {
 /// changes visibility, by linear regression over pairs of neighbouring points. It is k in "Counting" in
 /// doc/techniques/edge_count.md. p_sums: of all sample sets; needed only if p_overlaps.
 float find_visibility(CountState p_state, bool p_overlaps, CountSums p_sums) {
-	const float fraction = 1.0 / float(EDGE_COUNT_SAMPLE_COUNT * COUNT_SAMPLE_SET_COUNT);
+	const float fraction = 1.0 / float(uint(EDGE_COUNT_SAMPLE_COUNT) * SAMPLE_SET_COUNT);
 	const int solids = clamp(p_state.solid_count, 0, COUNT_MAX_SOLIDS);
 	const float mean = float(solids) + float(p_state.area) * AREA_UNIT;
-	const float regression_slope = float(p_sums.changes.product) / float(max(p_sums.changes.square, 1));
+	const float regression_slope = float(p_sums.product) / float(max(p_sums.square, 1));
 	const float by_points =
 			1.0 - float(p_sums.hidden) * fraction - regression_slope * (mean - float(p_sums.count) * fraction);
 	return clamp(p_overlaps ? by_points : 1.0 - mean, 0.0, 1.0);
-}
-
-/// Visibility from the counts of all sample sets.
-float count_resolve(CountState p_state) {
-	const int added = find_added(p_state);
-	const bool overlaps = has_overlap(p_state, added);
-	CountSums sums = CountSums(0, 0, CountChanges(0, 0));
-	if (overlaps) {
-		add_sample_set(p_state.counters0, added, sums);
-#if COUNT_SAMPLE_SET_COUNT == 4
-		add_sample_set(p_state.counters1, added, sums);
-		add_sample_set(p_state.counters2, added, sums);
-		add_sample_set(p_state.counters3, added, sums);
-#endif
-	}
-	return find_visibility(p_state, overlaps, sums);
 }
 
 #endif

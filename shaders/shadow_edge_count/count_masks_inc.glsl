@@ -8,10 +8,12 @@
 
 const float COUNT_PI = 3.14159265358979;
 
-// Number of sets of 64 points: 1, or 4 for 256 points. The results of all sets are averaged.
-#ifndef COUNT_SAMPLE_SET_COUNT
-#define COUNT_SAMPLE_SET_COUNT 1
-#endif
+/// Number of sets of 64 points: 1, or 4 for 256 points. The results of all sets are averaged.
+layout(constant_id = EDGE_COUNT_CONSTANT_SAMPLE_SETS) const uint SAMPLE_SET_COUNT = 1u;
+/// Invocations, called lanes, that share the sample sets of a receiver.
+layout(constant_id = EDGE_COUNT_CONSTANT_IS_CPU) const bool IS_CPU = true;
+const uint LANES_PER_RECEIVER = IS_CPU ? 1u : SAMPLE_SET_COUNT;
+const uint SETS_PER_LANE = SAMPLE_SET_COUNT / LANES_PER_RECEIVER;
 
 /// Loads the masks of sample sets 2 p_pair (in x, y) and 2 p_pair + 1 (in z, w). p_index: see find_count_mask_indices.
 uvec4 load_count_masks(uint p_index, uint p_pair);
@@ -62,7 +64,7 @@ vec2 find_count_angles(vec2 p_x, vec2 p_y) {
 /// ordered by angle, one in each of 64 equal sectors. In a sector the points of all sets are evenly spaced, see
 /// DiscMasks.
 int find_count_sector(float p_angle, uint p_sample_set) {
-	return int(p_angle - (float(p_sample_set) + 0.5) / float(COUNT_SAMPLE_SET_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
+	return int(p_angle - (float(p_sample_set) + 0.5) / float(SAMPLE_SET_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
 }
 
 /// Mask of the points with an index below p_index, 0..63.
@@ -199,14 +201,18 @@ uvec2 subtract_rotated(uvec2 p_plane, inout uvec2 r_borrow) {
 	return difference;
 }
 
-/// Changes of the count from each point k to point k + 2: sums over all points.
-struct CountChanges {
-	int square;	 // of squares of changes
-	int product; // of absolute changes where exactly one of the two points is hidden
+/// Sums over the points of the light.
+struct CountSums {
+	int hidden; // points whose count is above 0
+	int count; // sum of all counts
+	// Changes of the count from each point k to point k + 2: the sum of their squares, and that of their absolute values where
+	// exactly one of the two points is hidden. Changes by more than 15 count as 15.
+	int square;
+	int product;
 };
 
-/// Changes by more than 15 count as 15. p_hidden_differs: bit k is set if exactly one of points k and k + 2 is hidden.
-CountChanges sum_changes(PointCounters p_sums, uvec2 p_hidden_differs) {
+/// Adds the changes of one sample set. p_hidden_differs: bit k is set if exactly one of points k and k + 2 is hidden.
+void add_changes(PointCounters p_sums, uvec2 p_hidden_differs, inout CountSums r_sums) {
 	uvec2 borrow = uvec2(0u);
 	const uvec2 d0 = subtract_rotated(p_sums.bit0, borrow);
 	const uvec2 d1 = subtract_rotated(p_sums.bit1, borrow);
@@ -231,15 +237,13 @@ CountChanges sum_changes(PointCounters p_sums, uvec2 p_hidden_differs) {
 	s1 |= is_large;
 	s2 |= is_large;
 	s3 |= is_large;
-	CountChanges changes;
 	// Expanded: the sum over all points of (s0 + 2 s1 + 4 s2 + 8 s3)^2, with bits s0 to s3.
-	changes.square = count_points(s0) + 4 * (count_points(s1) + count_points(s0 & s1)) +
+	r_sums.square += count_points(s0) + 4 * (count_points(s1) + count_points(s0 & s1)) +
 			8 * count_points(s0 & s2) +
 			16 * (count_points(s2) + count_points(s0 & s3) + count_points(s1 & s2)) +
 			32 * count_points(s1 & s3) + 64 * (count_points(s3) + count_points(s2 & s3));
-	changes.product = count_points(s0 & p_hidden_differs) + 2 * count_points(s1 & p_hidden_differs) +
+	r_sums.product += count_points(s0 & p_hidden_differs) + 2 * count_points(s1 & p_hidden_differs) +
 			4 * count_points(s2 & p_hidden_differs) + 8 * count_points(s3 & p_hidden_differs);
-	return changes;
 }
 
 #endif

@@ -7,12 +7,12 @@
 
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform image2D mask_image;
 
-/// The solids on the way of a receiver whose mask is not written yet. All invocations must be active.
-CountSolids find_solids(CountSubject p_subject) {
+/// The solids on the way of a receiver whose mask is not written yet, see pack_solids. All invocations must be active.
+int find_solids(CountSubject p_subject) {
 	if (IS_CPU) {
-		return make_count_solids(count_subject_crossings(p_subject));
+		return pack_solids(count_subject_crossings(p_subject));
 	}
-	return unpack_solids(p_subject.is_receiver ? imageLoad(mask_image, p_subject.pixel).x : 0.0);
+	return int(p_subject.is_receiver ? imageLoad(mask_image, p_subject.pixel).x : 0.0);
 }
 
 #endif

@@ -34,12 +34,9 @@ const uint SMOOTH_SIDE = 4u; // number of the rows and columns of a smooth leaf 
 
 /// These rows and columns: 0, 2, 5 and 7. They are symmetric about the middle and include the outermost ones, so that
 /// nothing is extrapolated.
-uint find_smooth_line(uint p_index) {
-	return 2u * p_index + (p_index > 1u ? 1u : 0u);
-}
-
 uvec2 find_smooth_pixel(uint p_index) {
-	return uvec2(find_smooth_line(p_index % SMOOTH_SIDE), find_smooth_line(p_index / SMOOTH_SIDE));
+	const uvec2 line = uvec2(p_index % SMOOTH_SIDE, p_index / SMOOTH_SIDE);
+	return 2u * line + uvec2(greaterThan(line, uvec2(1u)));
 }
 
 /// Index of the set bit that has p_rank set bits below it. 0 if there are not so many.
@@ -58,17 +55,9 @@ uint find_set_bit(uvec2 p_bits, uint p_rank) {
 	return (is_high ? 32u : 0u) + min(index, 31u);
 }
 
-/// A pixel's receiver.
-struct CountPoint {
-	vec3 position; // light space
-	float offset_fraction; // how far it was moved off its surface, as a fraction of the maximum
-};
-
-/// The pixel must have a receiver, see is_receiver_pixel.
-CountPoint load_count_point(ivec2 p_pixel) {
-	const ReceiverPixel pixel = load_receiver(frame_copy, p_pixel);
-	return CountPoint((light_from_camera * vec4(pixel.position, 1.0)).xyz,
-			pixel.offset_m / frame_copy.max_receiver_offset_m);
+/// p_position: camera-relative.
+vec3 find_light_position(vec3 p_position) {
+	return (light_from_camera * vec4(p_position, 1.0)).xyz;
 }
 
 #endif

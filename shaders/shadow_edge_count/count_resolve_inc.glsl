@@ -16,7 +16,7 @@ layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = f
 
 // A texel has the masks of one sample set, or of two.
 uvec4 load_count_masks(uint p_index, uint p_pair) {
-	return texelFetch(masks_buffer, int(p_index * uint((COUNT_SAMPLE_SET_COUNT + 1) / 2) + p_pair));
+	return texelFetch(masks_buffer, int(p_index * ((SAMPLE_SET_COUNT + 1u) / 2u) + p_pair));
 }
 
 // The work of a subgroup is bounded, see EDGE_COUNT_MAX_ITERATIONS: it stops after the slice of edges at which
@@ -38,75 +38,54 @@ void note_inner_loop(bool p_is_unfinished) {
 // its own slice. There is a slice for every four invocations, the smallest size of a subgroup; on GPUs for every eight.
 const uint SLICE_SIZE = 64u;
 shared uint chosen_edges[SLICE_SIZE * gl_WorkGroupSize.x / (IS_CPU ? 4u : 8u)];
+uint chosen_count; // in the slice
 
-/// The results of one pixel.
-struct CountPixel {
-	ivec2 pixel;
-	bool is_receiver; // false: the others are meaningless
-	uint edge_count; // edges that its receiver counted
-	float visibility;
-	int solid_count; // between the receiver and the light's centre
-	bool is_unfinished; // some edges were not counted: no iterations were left
-};
-
-/// State of collecting the edges that a box's receivers may need.
-struct CountChoice {
-	uint next; // where to continue: index in the list, or without lists a packed cursor in the tree
-	uint count; // of edges in the slice
-};
 const uint CURSOR_LEVEL_SHIFT = 28u; // of a packed cursor; below are bits of the index
-const uint CURSOR_AT_END = 0xffffffffu;
-const uint CURSOR_AT_START = 0xfffffffeu;
+const uint CURSOR_AT_END = 0x80000000u; // flag, above all levels
 
 uint pack_cursor(TreeCursor p_cursor) {
-	return p_cursor.is_at_end ? CURSOR_AT_END : p_cursor.level << CURSOR_LEVEL_SHIFT | p_cursor.index;
+	return (p_cursor.is_at_end ? CURSOR_AT_END : 0u) | p_cursor.level << CURSOR_LEVEL_SHIFT | p_cursor.index;
 }
 
-TreeCursor unpack_cursor(CountTree p_tree, uint p_packed) {
-	const TreeCursor start = start_cursor(p_tree);
-	const uint mask = (1u << CURSOR_LEVEL_SHIFT) - 1u;
-	return p_packed == CURSOR_AT_START || p_packed == CURSOR_AT_END
-			? TreeCursor(start.level, start.index, start.is_at_end || p_packed == CURSOR_AT_END)
-			: TreeCursor(p_packed >> CURSOR_LEVEL_SHIFT, p_packed & mask, false);
+TreeCursor unpack_cursor(uint p_packed) {
+	return TreeCursor((p_packed & ~CURSOR_AT_END) >> CURSOR_LEVEL_SHIFT, p_packed & (1u << CURSOR_LEVEL_SHIFT) - 1u,
+			p_packed >= CURSOR_AT_END);
 }
 
 /// Each invocation tests one edge, and appends it to the slice if the box's receivers may need it. p_entry: the edge's
 /// list entry.
-void choose_edge(CountBox p_box, uint p_entry, bool p_is_valid, inout CountChoice r_choice) {
+void choose_edge(CountBox p_box, uint p_entry, bool p_is_valid) {
 	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
 	const bool is_chosen = p_is_valid &&
 			is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
 	const uvec4 chosen = subgroup_ballot(is_chosen);
 	if (is_chosen) {
-		chosen_edges[gl_SubgroupID * SLICE_SIZE + r_choice.count + subgroupBallotExclusiveBitCount(chosen)] =
-				p_entry;
+		chosen_edges[gl_SubgroupID * SLICE_SIZE + chosen_count + subgroupBallotExclusiveBitCount(chosen)] = p_entry;
 	}
-	r_choice.count += subgroupBallotBitCount(chosen);
+	chosen_count += subgroupBallotBitCount(chosen);
 }
 
-bool has_choice_room(CountChoice p_choice, uint p_more) {
-	return p_choice.count + p_more <= SLICE_SIZE;
+bool has_slice_room(uint p_more) {
+	return chosen_count + p_more <= SLICE_SIZE;
 }
 
-/// Collects edges from the leaf's list, from p_first on. Ends when the slice may be full, or no iterations are left.
-/// p_first_word: of the list. p_end: its number of entries.
-CountChoice choose_from_list(uint p_first, uint p_first_word, uint p_end, CountBox p_box) {
-	CountChoice choice = CountChoice(p_first, 0u);
+/// Collects edges from the leaf's list. Ends when the slice may be full, or no iterations are left. p_first_word: of the list.
+/// p_end: its number of entries. r_next: the next one.
+void choose_from_list(uint p_first_word, uint p_end, CountBox p_box, inout uint r_next) {
 	do {
-		const uint index = choice.next + gl_SubgroupInvocationID;
+		const uint index = r_next + gl_SubgroupInvocationID;
 		const bool is_valid = index < p_end;
 		const uint entry = FETCH_UINT(lists_buffer, is_valid ? int(min(p_first_word + index, light.list_capacity - 1u)) : 0);
 		const bool is_edge = (entry & COUNT_EDGE_MASK) < light.max_edge_count;
 		note_fault(is_valid && !is_edge, EDGE_COUNT_FAULT_LIST);
-		choose_edge(p_box, is_valid && is_edge ? entry : 0u, is_valid && is_edge, choice);
-		choice.next += SUBGROUP_SIZE;
+		choose_edge(p_box, is_valid && is_edge ? entry : 0u, is_valid && is_edge);
+		r_next += SUBGROUP_SIZE;
 		++iteration_count;
-	} while (choice.next < p_end && has_choice_room(choice, SUBGROUP_SIZE) && has_iterations_left());
-	return choice;
+	} while (r_next < p_end && has_slice_room(SUBGROUP_SIZE) && has_iterations_left());
 }
 
 /// Adds the edges of a cluster.
-void choose_from_cluster(CountBox p_box, uint p_cluster, uint p_edge_count, bool p_is_valid, inout CountChoice r_choice) {
+void choose_from_cluster(CountBox p_box, uint p_cluster, uint p_edge_count, bool p_is_valid) {
 	const uint size = uint(EDGE_COUNT_CLUSTER_SIZE);
 	uint first = 0u;
 	// One iteration if a subgroup has 16 invocations or more.
@@ -115,20 +94,19 @@ void choose_from_cluster(CountBox p_box, uint p_cluster, uint p_edge_count, bool
 		const uint edge = p_cluster * size + index;
 		const bool is_valid = p_is_valid && index < size && edge < p_edge_count;
 		const bool is_seen = is_valid && is_in_distance_range(p_box.distance, load_count_edge(is_valid ? edge : 0u));
-		choose_edge(p_box, is_valid ? edge : 0u, is_seen, r_choice);
+		choose_edge(p_box, is_valid ? edge : 0u, is_seen);
 		first += SUBGROUP_SIZE;
 		++iteration_count;
 	} while (first < size);
 	note_inner_loop(first < size);
 }
 
-/// Collects edges from the tree, from a packed cursor on. Ends when the slice may be full, or no iterations are left.
+/// Collects edges from the tree. r_next: a packed cursor. Ends when the slice may be full, or no iterations are left.
 /// Each step moves the cursor forward in a tree whose size is limited, whatever its nodes have, so the loop ends.
-CountChoice choose_from_tree(uint p_first, CountBox p_box) {
+void choose_from_tree(CountBox p_box, inout uint r_next) {
 	const CountTree tree = make_count_tree(/*p_has_faces=*/false);
 	const uint width = min(uint(EDGE_COUNT_NODE_WIDTH), SUBGROUP_SIZE); // nodes that are tested together
-	TreeCursor cursor = unpack_cursor(tree, p_first);
-	CountChoice choice = CountChoice(p_first, 0u);
+	TreeCursor cursor = unpack_cursor(r_next);
 	do {
 		// The rest of the cursor's siblings.
 		const uint first = cursor.index - cursor.index % width;
@@ -140,21 +118,20 @@ CountChoice choose_from_tree(uint p_first, CountBox p_box) {
 		const bool is_any = subgroupBallotBitCount(needed) != 0u;
 		cursor.index = is_any ? first + subgroupBallotFindLSB(needed) : cursor.index;
 		const bool is_cluster = is_any && cursor.level == 0u;
-		choose_from_cluster(p_box, cursor.index, tree.item_count, is_cluster, choice);
+		choose_from_cluster(p_box, cursor.index, tree.item_count, is_cluster);
 		if (is_any && !is_cluster) {
 			descend_cursor(cursor);
 		} else if (!cursor.is_at_end) {
 			advance_cursor(tree, is_any ? cursor.index + 1u : first + width, cursor);
 		}
 		++iteration_count;
-	} while (!cursor.is_at_end && has_choice_room(choice, uint(EDGE_COUNT_CLUSTER_SIZE)) && has_iterations_left());
-	choice.next = pack_cursor(cursor);
-	return choice;
+	} while (!cursor.is_at_end && has_slice_room(uint(EDGE_COUNT_CLUSTER_SIZE)) && has_iterations_left());
+	r_next = pack_cursor(cursor);
 }
 
-/// False if the part of the edge between the receiver and the disc cannot change which part of the
-/// disc is hidden. The tolerances exceed the rounding errors of find_edge_sectors, so that no edge
-/// with an effect is rejected. p_to_light: see CountReceiver.
+/// False if what the edge has between the receiver and the disc cannot change what is hidden of the disc. The tolerances
+/// exceed the rounding errors of find_edge_sectors, so that no edge with an effect is rejected. p_to_light: see
+/// CountReceiver.
 bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const float ROUNDING = 4e-6;
 	const float radius = 1.001 * light.disc_radius;
@@ -183,29 +160,28 @@ bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	return !is_outside_disc && !is_beyond && !is_below && !is_above;
 }
 
+/// The sums over the lanes of a receiver.
+ivec4 add_lanes(ivec4 p_values) {
+	ivec4 sums = p_values;
+	for (uint i = 1u; i < LANES_PER_RECEIVER; i <<= 1u) {
+		sums += subgroupShuffleXor(sums, i);
+	}
+	return sums;
+}
+
 #include "shadow_edge_count/count_slice_cpu_inc.glsl"
 #include "shadow_edge_count/count_slice_gpu_inc.glsl"
 
-/// Counts the edges of a slice for each receiver. p_count: number of edges. r_edge_count: is increased by the number that
-/// the receiver counted.
-void count_slice(uint p_count, CountSubject p_subject, inout CountState r_state, inout uint r_edge_count) {
-	if (IS_CPU) {
-		count_slice_on_cpu(p_count, p_subject, r_state, r_edge_count);
-	} else {
-		count_slice_on_gpu(p_count, p_subject, r_state, r_edge_count);
-	}
-}
-
 /// The state before any edge is counted: the solids before the light's centre, and the lines along which faces cut the
 /// disc. p_is_counted: false for receivers whose count is not needed.
-CountState start_count(CountSubject p_subject, CountSolids p_solids, bool p_is_counted) {
+CountState start_count(CountSubject p_subject, int p_solids, bool p_is_counted) {
 	const CountReceiver receiver = p_subject.receiver;
-	CountState state = make_count_state(p_solids.count);
+	CountState state = make_count_state(unpack_solid_count(p_solids));
 	const uint cut_face_count = p_subject.is_receiver && p_is_counted ? find_cut_face_count() : 0u;
 	for (uint i = 0u; i < cut_face_count; ++i) {
-		const uint face = load_cut_face(i);
+		const uint face = FETCH_UINT(cut_faces_buffer, i);
 		const CountSectors sectors =
-				find_cut_sectors(receiver, load_count_face(face), load_count_plane(face), p_solids.is_light_inside);
+				find_cut_sectors(receiver, load_count_face(face), load_count_plane(face), (p_solids & 1) != 0);
 		if (IS_CPU) {
 			count_sectors(sectors, state);
 		} else {
@@ -216,64 +192,64 @@ CountState start_count(CountSubject p_subject, CountSolids p_solids, bool p_is_c
 	return state;
 }
 
-/// How far a subgroup has counted its receivers' edges.
-struct CountProgress {
-	bool waits; // edges of the invocation's receiver remain to be counted
-	uint next;	// see CountChoice
-};
-
-CountProgress start_progress(CountSubject p_subject) {
-	return CountProgress(p_subject.is_receiver, HAS_NO_LIST ? CURSOR_AT_START : 0u);
+/// Where counting starts: an index in the list, or without lists a packed cursor in the tree.
+uint find_first_choice() {
+	return HAS_NO_LIST ? pack_cursor(start_cursor(make_count_tree(/*p_has_faces=*/false))) : 0u;
 }
 
-/// Counts edges until all are counted, or no iterations are left. r_edge_count: is increased by the number of edges that
-/// the receiver counted.
-void count_edges(CountSubject p_subject, inout CountState r_state, inout CountProgress r_progress,
-		inout uint r_edge_count) {
-	const CountBox box = make_uniform_box(make_count_box(light, light.disc_radius,
-			make_count_frame(p_subject.leaf.axis_distance.xyz),
-			find_receiver_bounds(p_subject.warped, p_subject.is_receiver), p_subject.leaf.axis_distance.w,
-			is_wide_leaf(p_subject.leaf)));
-	const bool is_any = subgroup_any(r_progress.waits);
+/// Counts edges until all are counted, or no iterations are left. r_next: where to continue, see find_first_choice. Returns
+/// true if edges remain, which is the same for all invocations of the subgroup.
+bool count_edges(CountSubject p_subject, inout uint r_next, inout CountState r_state) {
+	const CountBox box = make_leaf_box(
+			p_subject.leaf, find_receiver_bounds(p_subject.warped, p_subject.is_receiver), light.disc_radius);
+	const bool is_any = subgroup_any(p_subject.is_receiver);
 	const CountLeafResult result = p_subject.result;
 	const uint first_word = result.first_word + result.silhouette_count + result.face_count;
 	// The list has each edge once at most.
 	note_fault(!HAS_NO_LIST && is_any && result.edge_count > light.max_edge_count, EDGE_COUNT_FAULT_LIST);
 	const uint end = HAS_NO_LIST ? CURSOR_AT_END : (is_any ? min(result.edge_count, light.max_edge_count) : 0u);
-	uint next = HAS_NO_LIST && !is_any ? CURSOR_AT_END : r_progress.next;
+	r_next = HAS_NO_LIST && !is_any ? CURSOR_AT_END : r_next;
 	do {
-		CountChoice choice;
+		chosen_count = 0u;
 		if (HAS_NO_LIST) {
-			choice = choose_from_tree(next, box);
+			choose_from_tree(box, r_next);
 		} else {
-			choice = choose_from_list(next, first_word, end, box);
+			choose_from_list(first_word, end, box, r_next);
 		}
-		next = choice.next;
 		sync_subgroup_memory();
-		count_slice(choice.count, p_subject, r_state, r_edge_count);
+		if (IS_CPU) {
+			count_slice_on_cpu(chosen_count, p_subject, r_state);
+		} else {
+			count_slice_on_gpu(chosen_count, p_subject, r_state);
+		}
 		sync_subgroup_memory();
 		++iteration_count;
-	} while (next < end && has_iterations_left());
-	const bool is_done = next >= end;
-	note_fault(!is_done && has_iterations_left(), EDGE_COUNT_FAULT_LOOP);
-	r_progress.waits = r_progress.waits && !is_done;
-	r_progress.next = next;
+	} while (r_next < end && has_iterations_left());
+	const bool is_unfinished = r_next < end;
+	note_fault(is_unfinished && has_iterations_left(), EDGE_COUNT_FAULT_LOOP);
+	return is_unfinished;
 }
 
-CountPixel make_count_pixel(CountSubject p_subject, CountState p_state, CountProgress p_progress, uint p_edge_count) {
-	const float visibility = IS_CPU ? count_resolve(p_state) : resolve_lanes(p_state);
-	return CountPixel(p_subject.pixel, p_subject.is_receiver, p_edge_count, visibility, p_state.solid_count,
-			p_progress.waits);
+/// The visibility of a receiver whose edges are all counted.
+float find_visibility(CountState p_state) {
+	const ivec4 totals = add_lanes(ivec4(p_state.area, has_overlap(p_state) ? 1 : 0, 0, 0));
+	CountSums sums = CountSums(0, 0, 0, 0);
+	if (totals.y > 0 || !IS_CPU) { // llvmpipe alone saves time by the branch
+		sums = add_sample_sets(p_state);
+	}
+	const ivec4 counts = add_lanes(ivec4(sums.hidden, sums.count, sums.square, sums.product));
+	CountState state = p_state;
+	state.area = totals.x;
+	return find_visibility(state, totals.y > 0, CountSums(counts.x, counts.y, counts.z, counts.w));
 }
 
-/// Each invocation counts the edges of one receiver and computes its visibility.
-CountPixel count_pixel(CountSubject p_subject, CountSolids p_solids) {
+/// Each invocation counts the edges of one receiver. r_is_unfinished: some were not counted, as no iterations were left.
+CountState count_receiver(CountSubject p_subject, int p_solids, out bool r_is_unfinished) {
 	CountState state = start_count(p_subject, p_solids, true);
-	CountProgress progress = start_progress(p_subject);
-	uint edge_count = 0u;
-	count_edges(p_subject, state, progress, edge_count);
+	uint next = find_first_choice();
+	r_is_unfinished = count_edges(p_subject, next, state);
 	report_subgroup_status();
-	return make_count_pixel(p_subject, state, progress, edge_count);
+	return state;
 }
 
 #endif

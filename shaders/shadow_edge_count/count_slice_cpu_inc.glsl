@@ -164,16 +164,9 @@ CountEdgeMasks test_round(uint p_first, uint p_count, CountReceiver p_receiver, 
 	return edge_masks;
 }
 
-/// An edge to be counted, and its weight as seen by the receiver; 0: none.
-struct NextEdge {
-	vec3 a;
-	vec3 b;
-	int weight;
-};
-
 /// Removes the next edge from r_left, the edges that remain to be counted, and returns it. Its weight is 0 if none is
 /// left.
-NextEdge find_next_edge(LoadedRound p_loaded, CountEdgeMasks p_edge_masks, inout uint r_left) {
+CountedEdge find_next_edge(LoadedRound p_loaded, CountEdgeMasks p_edge_masks, inout uint r_left) {
 	const bool is_valid = r_left != 0u;
 	const uint slot = uint(findLSB(r_left)) & 31u;
 	r_left &= r_left - 1u;
@@ -188,18 +181,16 @@ NextEdge find_next_edge(LoadedRound p_loaded, CountEdgeMasks p_edge_masks, inout
 		edge = select_edge((slot & 2u * BATCH_SIZE) != 0u, edge, other);
 	}
 	const int weight = (p_edge_masks.is_twice >> slot & 1u) != 0u ? 2 : 1;
-	return NextEdge(edge.a, edge.b,
+	return CountedEdge(edge.a, edge.b,
 			is_valid ? ((p_edge_masks.is_negative >> slot & 1u) != 0u ? -weight : weight) : 0);
 }
 
 /// Counts the next two edges of each invocation's receiver.
 void count_two(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks p_edge_masks, inout uint r_left,
 		inout CountState r_state) {
-	const NextEdge first = find_next_edge(p_loaded, p_edge_masks, r_left);
-	const NextEdge second = find_next_edge(p_loaded, p_edge_masks, r_left);
-	count_sectors(find_edge_sectors(
-						  p_receiver, first.a, first.b, second.a, second.b, ivec2(first.weight, second.weight)),
-			r_state);
+	const CountedEdge first = find_next_edge(p_loaded, p_edge_masks, r_left);
+	const CountedEdge second = find_next_edge(p_loaded, p_edge_masks, r_left);
+	count_sectors(find_edge_sectors(p_receiver, first, second), r_state);
 }
 
 /// Counts the edges of a round that each invocation's receiver has to count.
@@ -219,7 +210,7 @@ void count_round(LoadedRound p_loaded, CountReceiver p_receiver, CountEdgeMasks 
 	note_inner_loop(i < max_count);
 }
 
-void count_slice_on_cpu(uint p_count, CountSubject p_subject, inout CountState r_state, inout uint r_edge_count) {
+void count_slice_on_cpu(uint p_count, CountSubject p_subject, inout CountState r_state) {
 	const LoadedEdge none = LoadedEdge(COUNT_ADDS_NOTHING << COUNT_PACKED_WEIGHT_SHIFT, vec3(0.0), vec3(0.0));
 	LoadedRound loaded = LoadedRound(none, none, none, none);
 	uint first = 0u;
@@ -228,7 +219,7 @@ void count_slice_on_cpu(uint p_count, CountSubject p_subject, inout CountState r
 		CountEdgeMasks edge_masks = test_round(first, count, p_subject.receiver, loaded);
 		edge_masks.own = p_subject.is_receiver ? edge_masks.own : 0u;
 		count_round(loaded, p_subject.receiver, edge_masks, r_state);
-		r_edge_count += uint(bitCount(edge_masks.own));
+		r_state.edge_count += uint(bitCount(edge_masks.own));
 		first += ROUND_SIZE;
 		iteration_count += TEST_ITERATIONS + 1u;
 	} while (first < p_count);

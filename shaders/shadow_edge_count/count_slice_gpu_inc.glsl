@@ -9,22 +9,6 @@ uint find_lane() {
 	return gl_SubgroupInvocationID % LANES_PER_RECEIVER;
 }
 
-uvec2 or_lanes(uvec2 p_bits) {
-	uvec2 bits = p_bits;
-	for (uint i = 1u; i < LANES_PER_RECEIVER; i <<= 1u) {
-		bits |= subgroupShuffleXor(bits, i);
-	}
-	return bits;
-}
-
-ivec4 add_lanes(ivec4 p_values) {
-	ivec4 sums = p_values;
-	for (uint i = 1u; i < LANES_PER_RECEIVER; i <<= 1u) {
-		sums += subgroupShuffleXor(sums, i);
-	}
-	return sums;
-}
-
 /// Edges of a slice that a receiver has to count, one bit each.
 struct OwnEdges {
 	uvec2 all;
@@ -56,23 +40,18 @@ OwnEdges find_own_edges(uint p_count, CountSubject p_subject) {
 			own.is_twice |= abs(weight) == 2 ? bit : uvec2(0u);
 		}
 	}
-	return OwnEdges(or_lanes(own.all), or_lanes(own.is_negative), or_lanes(own.is_twice));
+	// No two lanes have the same bit.
+	const uvec4 bits = uvec4(add_lanes(ivec4(own.all, own.is_negative)));
+	return OwnEdges(bits.xy, bits.zw, uvec2(add_lanes(ivec4(own.is_twice, 0, 0)).xy));
 }
 
-/// An edge to be counted, and its weight as seen by the receiver; 0: none.
-struct OwnEdge {
-	vec3 a;
-	vec3 b;
-	int weight;
-};
-
 /// The edge with p_rank own ones before it.
-OwnEdge load_own_edge(OwnEdges p_own, uint p_count, uint p_rank) {
+CountedEdge load_own_edge(OwnEdges p_own, uint p_count, uint p_rank) {
 	const bool is_valid = p_rank < p_count;
 	const uint slot = is_valid ? find_set_bit(p_own.all, p_rank) : 0u;
 	const CountEdgeRecord edge = load_count_edge(chosen_edges[gl_SubgroupID * SLICE_SIZE + slot] & COUNT_EDGE_MASK);
 	const int weight = has_bit(p_own.is_twice, slot) ? 2 : 1;
-	return OwnEdge(uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz),
+	return CountedEdge(uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz),
 			is_valid ? (has_bit(p_own.is_negative, slot) ? -weight : weight) : 0);
 }
 
@@ -86,7 +65,6 @@ void count_lane_sectors(CountSectors p_sectors, inout CountState r_state) {
 	count_sample_set(p_sectors, is_odd ? first.zw : first.xy, is_odd ? second.zw : second.xy, lane, r_state.counters0);
 }
 
-#if COUNT_SAMPLE_SET_COUNT == 4
 /// The sectors that two lanes have found as their first ones, without their area: those whose numbers differ by the bits
 /// p_other and p_other + 1.
 CountSectors load_lane_sectors(CountSectors p_sectors, uint p_other) {
@@ -106,49 +84,31 @@ CountSectors load_lane_sectors(CountSectors p_sectors, uint p_other) {
 	sectors.twice = make_bit_masks(notEqual(bits & 4u, uvec2(0u)));
 	return sectors;
 }
-#endif
 
-void count_slice_on_gpu(uint p_count, CountSubject p_subject, inout CountState r_state, inout uint r_edge_count) {
+void count_slice_on_gpu(uint p_count, CountSubject p_subject, inout CountState r_state) {
 	const OwnEdges own = find_own_edges(p_count, p_subject);
 	const uint count = uint(bitCount(own.all.x) + bitCount(own.all.y));
 	const uint max_count = subgroup_max(count);
-	r_edge_count += count;
-#if COUNT_SAMPLE_SET_COUNT == 4
-	// Each lane finds the sectors of one edge at a time: two would take more registers. Lanes count two at a time.
-	for (uint first = 0u; first < max_count; first += LANES_PER_RECEIVER) {
-		const OwnEdge edge = load_own_edge(own, count, first + find_lane());
-		const CountSectors sectors =
-				find_edge_sectors(p_subject.receiver, edge.a, edge.b, edge.a, edge.b, ivec2(edge.weight, 0));
-		r_state.area += round_area(sectors);
-		for (uint other = 0u; other < LANES_PER_RECEIVER; other += 2u) {
-			count_lane_sectors(load_lane_sectors(sectors, other), r_state);
+	r_state.edge_count += count;
+	if (SAMPLE_SET_COUNT == 4u) {
+		// Each lane finds the sectors of one edge at a time: two would take more registers. Lanes count two at a time.
+		for (uint first = 0u; first < max_count; first += LANES_PER_RECEIVER) {
+			const CountedEdge edge = load_own_edge(own, count, first + find_lane());
+			const CountSectors sectors = find_edge_sectors(p_subject.receiver, edge, CountedEdge(edge.a, edge.b, 0));
+			r_state.area += round_area(sectors);
+			for (uint other = 0u; other < LANES_PER_RECEIVER; other += 2u) {
+				count_lane_sectors(load_lane_sectors(sectors, other), r_state);
+			}
+		}
+	} else {
+		for (uint first = 0u; first < max_count; first += 2u) {
+			const CountSectors sectors = find_edge_sectors(p_subject.receiver, load_own_edge(own, count, first),
+					load_own_edge(own, count, first + 1u));
+			r_state.area += round_area(sectors);
+			count_lane_sectors(sectors, r_state);
 		}
 	}
-#else
-	for (uint first = 0u; first < max_count; first += 2u) {
-		const OwnEdge edge0 = load_own_edge(own, count, first);
-		const OwnEdge edge1 = load_own_edge(own, count, first + 1u);
-		const CountSectors sectors = find_edge_sectors(
-				p_subject.receiver, edge0.a, edge0.b, edge1.a, edge1.b, ivec2(edge0.weight, edge1.weight));
-		r_state.area += round_area(sectors);
-		count_lane_sectors(sectors, r_state);
-	}
-#endif
 	iteration_count += p_count;
-}
-
-/// Visibility from the counts of a receiver's lanes.
-float resolve_lanes(CountState p_state) {
-	const int added = find_added(p_state);
-	const PointCounters sums = add_to_all(p_state.counters0, added);
-	CountSums own = CountSums(0, 0, CountChanges(0, 0));
-	add_sample_set(p_state.counters0, added, own);
-	const ivec4 counts = add_lanes(ivec4(own.hidden, own.count, own.changes.square, own.changes.product));
-	const ivec4 others = add_lanes(ivec4(p_state.area, has_overlap(sums) ? 1 : 0, 0, 0));
-	CountState state = p_state;
-	state.area = others.x;
-	return find_visibility(
-			state, others.y > 0, CountSums(counts.x, counts.y, CountChanges(counts.z, counts.w)));
 }
 
 #endif

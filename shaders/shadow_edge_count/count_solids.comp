@@ -1,10 +1,6 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_vote : require
+#include "common/compute_extensions_inc.glsl"
 #include "shadow_edge_count/count_solids_inc.glsl"
 
 // Counts the solids between a leaf's receivers and the light's centre. Leaves without edges are resolved thereby: a
@@ -20,14 +16,14 @@ void main() {
 	const bool is_smooth = push.kind == uint(EDGE_COUNT_LEAVES_SMOOTH);
 	const uint invocation = gl_LocalInvocationIndex;
 	const CountLeaf group_leaf = leaves[leaf];
-	const uint pixel = is_smooth ? find_pixel_index(find_smooth_pixel(invocation % uint(EDGE_COUNT_SMOOTH_PIXELS)))
+	const uint pixel = is_smooth ? find_pixel_index(find_smooth_pixel(invocation % uint(EDGE_COUNT_FEW_PIXELS)))
 								 : find_set_bit(group_leaf.pixels_flags.xy, invocation);
-	const uint count = is_smooth ? uint(EDGE_COUNT_SMOOTH_PIXELS) : count_leaf_pixels(group_leaf);
+	const uint count = is_smooth ? uint(EDGE_COUNT_FEW_PIXELS) : count_leaf_pixels(group_leaf);
 	const CountSubject subject = load_subject(leaf, pixel, is_valid && invocation < count);
-	const CountSolids solids = make_count_solids(count_subject_crossings(subject));
+	const int solids = pack_solids(count_subject_crossings(subject));
 	const bool is_plain = push.kind == uint(EDGE_COUNT_LEAVES_PLAIN);
 	if (subject.is_receiver) {
-		imageStore(mask_image, subject.pixel, vec4(is_plain ? float(solids.count == 0) : pack_solids(solids)));
+		imageStore(mask_image, subject.pixel, vec4(is_plain ? float(unpack_solid_count(solids) == 0) : float(solids)));
 	}
 	report_subgroup_status();
 }

@@ -4,7 +4,6 @@
 
 #include "shadow_edge_count/count_subject_inc.glsl"
 #include "shadow_edge_count/count_sweep_inc.glsl"
-#include "shadow_edge_count/uniform_box_inc.glsl"
 
 /// A word of the leaf's lists. p_index: from the leaf's first word on.
 uint load_list_word(CountSubject p_subject, uint p_index) {
@@ -78,15 +77,14 @@ void add_face_changes(
 }
 
 /// The faces on a receiver's way to the light's centre. All invocations must be active.
-CountCrossings count_subject_crossings(CountSubject p_subject) {
+ivec3 count_subject_crossings(CountSubject p_subject) {
 	const vec3 anchor = p_subject.leaf.anchor_block.xyz;
 	const vec3 position = p_subject.receiver.position;
 	const CountReceiver anchor_receiver = make_count_receiver(light, anchor, p_subject.leaf.axis_distance.w);
-	const CountFrame frame = make_count_frame(p_subject.leaf.axis_distance.xyz);
 	CountBounds bounds = find_receiver_bounds(p_subject.warped, p_subject.is_receiver);
-	add_to_bounds(warp_to_frame(frame, light.depth_far_m, anchor), true, bounds);
-	const CountBox hull = make_uniform_box(make_count_box(
-			light, 0.0, frame, bounds, p_subject.leaf.axis_distance.w, is_wide_leaf(p_subject.leaf)));
+	add_to_bounds(
+			warp_to_frame(make_count_frame(p_subject.leaf.axis_distance.xyz), light.depth_far_m, anchor), true, bounds);
+	const CountBox hull = make_leaf_box(p_subject.leaf, bounds, 0.0);
 	const Sweep sweep = make_sweep(anchor, position);
 	ivec3 changes = ivec3(0);
 	bool is_undecided = false;
@@ -94,12 +92,11 @@ CountCrossings count_subject_crossings(CountSubject p_subject) {
 	add_face_changes(p_subject, hull, sweep, changes, is_undecided);
 	const bool is_anchor = position == anchor;
 	const bool needs_ray = p_subject.is_receiver && (p_subject.result.needs_rays != 0u || (is_undecided && !is_anchor));
-	const CountCrossings along_ray = count_along_ray(p_subject.receiver, needs_ray);
+	const ivec3 along_ray = count_along_ray(p_subject.receiver, needs_ray);
 	ray_count += needs_ray && gl_SubgroupInvocationID % LANES_PER_RECEIVER == 0u ? 1u : 0u;
-	const ivec3 found = ivec3(p_subject.result.back_facing, p_subject.result.light_facing, p_subject.result.double_sided) +
-			(is_anchor ? ivec3(0) : changes);
-	return CountCrossings(needs_ray ? along_ray.back_facing : found.x, needs_ray ? along_ray.light_facing : found.y,
-			needs_ray ? along_ray.double_sided : found.z);
+	const CountLeafResult result = p_subject.result;
+	const ivec3 of_anchor = ivec3(result.back_facing, result.light_facing, result.double_sided);
+	return needs_ray ? along_ray : of_anchor + (is_anchor ? ivec3(0) : changes);
 }
 
 #endif

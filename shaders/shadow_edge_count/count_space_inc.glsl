@@ -9,7 +9,7 @@
 /// The light is directional. A constant, since software drivers would execute the code for other lights too.
 layout(constant_id = EDGE_COUNT_CONSTANT_IS_DIRECTIONAL) const bool IS_DIRECTIONAL = false;
 
-const float COUNT_MAX_D = 3e38; // no limit
+const float COUNT_FAR = 3e38; // beyond all distances
 
 /// A receiver in light space, and the light's disc, which is turned to face it.
 struct CountReceiver {
@@ -22,44 +22,44 @@ struct CountReceiver {
 	vec3 to_light; // towards the light, of length 1 / distance; directional: a unit vector
 	float inverse_radius; // 1 / R; a light with R = 0 has no penumbra, and no edges are counted
 	float min_d;		  // edges count only where d is above this: nearer to the light than the receiver
-	float max_d;		  // and where d is below this: in front of the light
-	float near_light_limit;	  // points with a larger dot(to_light, point) are nearer to the light than to the receiver
-	float leaf_distance;	  // see CountLeaf; selects levels of detail
+	float leaf_distance;	  // see CountLeaf; selects LODs
 };
+
+/// Edges count only where d is below this: in front of the light.
+const float MAX_D = IS_DIRECTIONAL ? COUNT_FAR : 1.0;
 
 float count_cross(vec2 p_a, vec2 p_b) {
 	precise const float result = p_a.x * p_b.y - p_a.y * p_b.x;
 	return result;
 }
 
+/// Three axes in light space.
+struct CountFrame {
+	vec3 x;
+	vec3 y;
+	vec3 z;
+};
+
+/// The frame with this z axis (unit), from the light to receivers. (Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited", listing 3.) A directional light has the axes of light space.
+CountFrame make_count_frame(vec3 p_axis) {
+	if (IS_DIRECTIONAL) {
+		return CountFrame(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
+	}
+	const float sign_z = p_axis.z >= 0.0 ? 1.0 : -1.0;
+	const float a = -1.0 / (sign_z + p_axis.z);
+	const float b = p_axis.x * p_axis.y * a;
+	return CountFrame(vec3(1.0 + sign_z * p_axis.x * p_axis.x * a, sign_z * b, -sign_z * p_axis.x),
+			vec3(b, sign_z + p_axis.y * p_axis.y * a, -p_axis.y), p_axis);
+}
+
 /// p_position must not be the light's centre.
 CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position, float p_leaf_distance) {
-	CountReceiver receiver;
-	receiver.position = p_position;
-	receiver.leaf_distance = p_leaf_distance;
-	receiver.inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
-	receiver.min_d = p_light.nearer_tolerance;
-	if (IS_DIRECTIONAL) {
-		receiver.disc_x = vec3(1.0, 0.0, 0.0);
-		receiver.disc_y = vec3(0.0, 1.0, 0.0);
-		receiver.to_light = vec3(0.0, 0.0, -1.0);
-		receiver.near_light_limit = COUNT_MAX_D;
-		receiver.max_d = COUNT_MAX_D;
-		return receiver;
-	}
-	// An orthonormal basis (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3):
-	// disc_x x disc_y points from the light to the receiver.
 	const float square = max(dot(p_position, p_position), 1e-37);
-	const vec3 n = p_position * inversesqrt(square);
-	const float sign_z = n.z >= 0.0 ? 1.0 : -1.0;
-	const float a = -1.0 / (sign_z + n.z);
-	const float b = n.x * n.y * a;
-	receiver.disc_x = vec3(1.0 + sign_z * n.x * n.x * a, sign_z * b, -sign_z * n.x);
-	receiver.disc_y = vec3(b, sign_z + n.y * n.y * a, -n.y);
-	receiver.to_light = -p_position / square;
-	receiver.near_light_limit = -0.5;
-	receiver.max_d = 1.0;
-	return receiver;
+	// disc_x x disc_y points from the light to the receiver.
+	const CountFrame frame = make_count_frame(p_position * inversesqrt(square));
+	return CountReceiver(p_position, frame.x, frame.y, IS_DIRECTIONAL ? vec3(0.0, 0.0, -1.0) : -p_position / square,
+			1.0 / max(p_light.disc_radius, 1e-37), p_light.nearer_tolerance, p_leaf_distance);
 }
 
 /// (X, d) of a point. Equal points give equal bits, so that all tests of an edge's side agree. Points nearer to the
@@ -70,7 +70,7 @@ vec3 count_offset(CountReceiver p_receiver, vec3 p_point) {
 		return vec3(o.xy, -o.z);
 	}
 	precise const float from_light = dot(p_receiver.to_light, p_point);
-	const bool is_near_light = from_light > p_receiver.near_light_limit;
+	const bool is_near_light = from_light > -0.5;
 	precise const vec3 offset = vec3(is_near_light ? p_point.x : o.x, is_near_light ? p_point.y : o.y,
 			is_near_light ? p_point.z : o.z);
 	precise const float x =
@@ -96,11 +96,16 @@ bool is_count_in_front(vec4 p_plane, vec3 p_point) {
 	return side > 0.0;
 }
 
-/// True if the face is of the level of detail that receivers of a leaf at this distance
+/// True if the face is of the LOD that receivers of a leaf at this distance
 /// see, see CountFaceRecord.
 bool is_in_distance_range(float p_leaf_distance, CountFaceRecord p_face) {
 	return p_leaf_distance >= uintBitsToFloat(p_face.b_first_distance.w) &&
 			p_leaf_distance < uintBitsToFloat(p_face.c_end_distance.w);
+}
+
+/// As for a face, for all that is in a node.
+bool is_in_distance_range(float p_leaf_distance, CountNode p_node) {
+	return p_leaf_distance >= p_node.center_first_distance.w && p_leaf_distance < p_node.half_size_end_distance.w;
 }
 
 /// True if the light's centre is in front of the face.

@@ -2,7 +2,6 @@
 #ifndef COUNT_SUBJECT_INC_GLSL
 #define COUNT_SUBJECT_INC_GLSL
 
-#include "shadow_edge_count/count_classify_inc.glsl"
 #include "shadow_edge_count/count_status_inc.glsl"
 #include "shadow_edge_count/light_items_inc.glsl"
 #include "shadow_edge_count/resolve_leaf_inc.glsl"
@@ -18,13 +17,13 @@ layout(std430, set = 0, binding = COUNT_BINDING_STATUS) buffer Status {
 layout(constant_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
 /// Active invocations of a subgroup: a work group may be smaller than the device's subgroups.
 const uint SUBGROUP_SIZE = FULL_SUBGROUP_SIZE < gl_WorkGroupSize.x ? FULL_SUBGROUP_SIZE : gl_WorkGroupSize.x;
+#include "shadow_edge_count/leaf_box_inc.glsl"
 #include "shadow_edge_count/plane_fit_inc.glsl"
 
 /// A leaf, and the receiver of it that an invocation processes.
 struct CountSubject {
 	CountLeaf leaf;
 	CountLeafResult result;
-	uint leaf_index;
 	ivec2 pixel;
 	bool is_receiver; // false: the leaf has fewer
 	vec3 warped; // in the leaf's frame; meaningless if the leaf is wide
@@ -36,17 +35,19 @@ CountSubject load_subject(uint p_leaf, uint p_pixel, bool p_is_receiver) {
 	CountSubject subject;
 	subject.leaf = leaves[p_leaf];
 	subject.result = results[p_leaf];
-	subject.leaf_index = p_leaf;
 	subject.pixel = find_image_pixel(subject.leaf, p_pixel);
 	subject.is_receiver = p_is_receiver;
-	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0.0);
+	vec3 position = vec3(0.0, 0.0, 1.0);
+	float offset_m = 0.0;
 	if (p_is_receiver) {
-		point = load_count_point(subject.pixel);
+		const ReceiverPixel pixel = load_receiver(frame_copy, subject.pixel);
+		position = find_light_position(pixel.position);
+		offset_m = pixel.offset_m;
 	}
-	subject.warped = warp_to_frame(make_count_frame(subject.leaf.axis_distance.xyz), light.depth_far_m, point.position);
-	subject.receiver = make_count_receiver(light, point.position, subject.leaf.axis_distance.w);
+	subject.receiver = make_count_receiver(light, position, subject.leaf.axis_distance.w);
 	// Edges of the receiver's own surface are about as far below it as it was moved.
-	subject.receiver.min_d *= point.offset_fraction;
+	subject.receiver.min_d *= offset_m / frame_copy.max_receiver_offset_m;
+	subject.warped = warp_to_frame(make_count_frame(subject.leaf.axis_distance.xyz), light.depth_far_m, position);
 	return subject;
 }
 

@@ -1,7 +1,7 @@
 // The numbers of faces between a receiver and the light's centre, from those of another receiver of the leaf, the anchor.
 //
 // Sweep the way to the light's centre O from the anchor A to the receiver P. The number of crossed faces of one kind
-// (see CountCrossings; it depends on which side of a face O is, so it is the same for A and P) changes
+// (see count_crossings_inc.glsl; it depends on which side of a face O is, so it is the same for A and P) changes
 // - where the triangle (O, A, P) meets an edge of such a face. Those of the edge's two faces cancel each other unless
 //   the edge is a silhouette as seen from O, or a boundary;
 // - where A-P crosses a face.
@@ -12,17 +12,14 @@
 #ifndef COUNT_SWEEP_INC_GLSL
 #define COUNT_SWEEP_INC_GLSL
 
+#include "shadow_edge_count/count_classify_inc.glsl"
 #include "shadow_edge_count/count_crossings_inc.glsl"
+#include "shadow_edge_count/count_status_inc.glsl"
 #include "shadow_edge_count/light_items_inc.glsl"
 
 /// The sign of a value, or 0 if it is not certain. p_error: bound of the value's rounding error.
 int find_certain_sign(float p_value, float p_error) {
 	return p_value > p_error ? 1 : (p_value < -p_error ? -1 : 0);
-}
-
-/// Changes of CountCrossings: (back_facing, light_facing, double_sided).
-ivec3 make_change(bool p_is_double_sided, bool p_is_light_in_front, int p_by) {
-	return p_is_double_sided ? ivec3(0, 0, p_by) : (p_is_light_in_front ? ivec3(0, p_by, 0) : ivec3(p_by, 0, 0));
 }
 
 /// The change across an edge, for a receiver that has the light's centre to the left of it (is_count_left); 0 if the
@@ -31,8 +28,8 @@ ivec3 find_edge_change(CountEdgeRecord p_edge) {
 	const CountEdgeKind kind = make_count_kind(p_edge.a_face0.w, p_edge.b_face1.w);
 	const bool is_front0 = is_count_light_in_front(load_count_plane0(p_edge));
 	const bool is_front1 = is_count_light_in_front(load_count_plane1(p_edge));
-	const ivec3 first = make_change(kind.is_double_sided, is_front0, is_front0 ? -1 : 1);
-	const ivec3 second = make_change(kind.is_double_sided, is_front1, kind.is_inconsistent == is_front1 ? -1 : 1);
+	const ivec3 first = make_crossings(kind.is_double_sided, is_front0, is_front0 ? -1 : 1);
+	const ivec3 second = make_crossings(kind.is_double_sided, is_front1, kind.is_inconsistent == is_front1 ? -1 : 1);
 	return first + (kind.has_face1 ? second : ivec3(0));
 }
 
@@ -44,8 +41,8 @@ int find_left_sign(CountReceiver p_receiver, vec3 p_a, vec3 p_b) {
 	const vec2 a = count_offset(p_receiver, p_a).xy;
 	const vec2 b = count_offset(p_receiver, p_b).xy;
 	// The lengths of which count_offset computes dot products.
-	const float length_a = min(length(p_a - p_receiver.position), IS_DIRECTIONAL ? COUNT_MAX_D : length(p_a));
-	const float length_b = min(length(p_b - p_receiver.position), IS_DIRECTIONAL ? COUNT_MAX_D : length(p_b));
+	const float length_a = min(length(p_a - p_receiver.position), IS_DIRECTIONAL ? COUNT_FAR : length(p_a));
+	const float length_b = min(length(p_b - p_receiver.position), IS_DIRECTIONAL ? COUNT_FAR : length(p_b));
 	return find_certain_sign(count_cross(a, b), SWEEP_ROUNDING * (length_a * length(b) + length_b * length(a)));
 }
 
@@ -121,7 +118,7 @@ ivec3 find_face_change(vec3 p_anchor, vec3 p_receiver, Sweep p_sweep, CountFaceR
 	r_is_undecided = r_is_undecided || (!is_apart && !is_certain);
 	const bool is_light_in_front = is_count_light_in_front(p_plane);
 	return is_apart ? ivec3(0)
-					: make_change(p_face.a_kind.w != 0u, is_light_in_front, (to > 0) != is_light_in_front ? 1 : -1);
+					: make_crossings(p_face.a_kind.w != 0u, is_light_in_front, (to > 0) != is_light_in_front ? 1 : -1);
 }
 
 /// True if the way from a point to the light's centre may meet a node's box.
@@ -144,25 +141,24 @@ bool is_node_on_way(vec3 p_point, CountNode p_node) {
 }
 
 /// Tests all faces on the way to the light's centre. Invocations with p_is_active false return 0.
-CountCrossings count_along_ray(CountReceiver p_receiver, bool p_is_active) {
+ivec3 count_along_ray(CountReceiver p_receiver, bool p_is_active) {
 	const CountTree tree = make_count_tree(/*p_has_faces=*/true);
 	TreeCursor cursor = start_cursor(tree);
-	CountCrossings found = CountCrossings(0, 0, 0);
+	ivec3 found = ivec3(0);
 	// Each node is tested once at most: there are fewer than 1.25 for each cluster.
 	uint steps_left = 2u * find_node_count(tree.item_count, 0u) + uint(EDGE_COUNT_MAX_LEVELS);
 	cursor.is_at_end = cursor.is_at_end || !p_is_active;
 	while (!cursor.is_at_end && steps_left > 0u) {
 		const CountNode node = load_count_node(tree, cursor.level, cursor.index);
-		const bool is_met = is_node_on_way(p_receiver.position, node) &&
-				p_receiver.leaf_distance >= node.center_first_distance.w &&
-				p_receiver.leaf_distance < node.half_size_end_distance.w;
+		const bool is_met =
+				is_node_on_way(p_receiver.position, node) && is_in_distance_range(p_receiver.leaf_distance, node);
 		const uint first = cursor.index * uint(EDGE_COUNT_CLUSTER_SIZE);
 		const uint end = is_met && cursor.level == 0u ? min(first + uint(EDGE_COUNT_CLUSTER_SIZE), tree.item_count) : 0u;
 		for (uint face = first; face < end; ++face) {
 			const vec4 plane = load_count_plane(face);
 			const bool is_in_front = is_count_in_front(plane, p_receiver.position);
 			if (is_in_front != is_count_light_in_front(plane)) {
-				count_face(p_receiver, load_count_face(face), is_in_front, found);
+				found += count_face(p_receiver, load_count_face(face), is_in_front);
 			}
 		}
 		if (is_met && cursor.level > 0u) {

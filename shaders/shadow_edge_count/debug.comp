@@ -1,10 +1,6 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_vote : require
+#include "common/compute_extensions_inc.glsl"
 #include "shadow_edge_count/count_resolve_inc.glsl"
 
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DArray
@@ -17,12 +13,13 @@ void main() {
 	bool is_valid;
 	const uint leaf = find_group_leaf(is_valid);
 	const CountSubject subject = load_group_subject(leaf, is_valid);
-	const CountPixel pixel = count_pixel(subject, make_count_solids(count_subject_crossings(subject)));
-	if (!pixel.is_receiver) {
+	const int solids = pack_solids(count_subject_crossings(subject));
+	bool is_unfinished; // never: there is no limit of iterations
+	const CountState state = count_receiver(subject, solids, is_unfinished);
+	if (!subject.is_receiver) {
 		return;
 	}
-	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_EDGES), vec4(pixel.edge_count));
-	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_SOLIDS),
-			vec4(max(pixel.solid_count, 0)));
-	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_LEAVES), vec4(push.kind));
+	imageStore(debug_image, ivec3(subject.pixel, EDGE_COUNT_DEBUG_EDGES), vec4(state.edge_count));
+	imageStore(debug_image, ivec3(subject.pixel, EDGE_COUNT_DEBUG_SOLIDS), vec4(max(unpack_solid_count(solids), 0)));
+	imageStore(debug_image, ivec3(subject.pixel, EDGE_COUNT_DEBUG_LEAVES), vec4(push.kind));
 }

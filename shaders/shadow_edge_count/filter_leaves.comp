@@ -1,8 +1,7 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/compute_extensions_inc.glsl"
 #include "common/pcss_inc.glsl"
-#include "shadow_edge_count/count_classify_inc.glsl"
 #include "shadow_edge_count/resolve_leaf_inc.glsl"
 
 // Resolves leaves that have more edges than CountLightConstants::budget with percentage-closer soft

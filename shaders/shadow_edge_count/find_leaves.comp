@@ -1,17 +1,7 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_vote : require
-#include "shadow_edge_count/count_classify_inc.glsl"
-#include "shadow_edge_count/count_status_inc.glsl"
-#define WRITES_LEAVES
-#include "shadow_edge_count/leaf_tests_inc.glsl"
-
-#define LIT_TILES_BINDING MAP_RESOLVE_BINDING_TILES
-#include "common/lit_tiles_inc.glsl"
+#include "common/compute_extensions_inc.glsl"
+#include "shadow_edge_count/shadow_edge_count_shared.h"
 
 // Divides the receivers of each block of pixels into leaves, and computes their bounds. Leaves to which no node of the
 // highest level of a tree may matter are lit, and are not written. One subgroup per block.
@@ -19,8 +9,12 @@ layout(local_size_x_id = EDGE_COUNT_CONSTANT_SUBGROUP_SIZE) in;
 
 const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
+#define WRITES_LEAVES
+#include "shadow_edge_count/leaf_tests_inc.glsl"
 #include "shadow_edge_count/dispatches_inc.glsl"
 #include "shadow_edge_count/plane_fit_inc.glsl"
+#define LIT_TILES_BINDING MAP_RESOLVE_BINDING_TILES
+#include "common/lit_tiles_inc.glsl"
 
 const uint PIXEL_COUNT = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
 const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
@@ -45,7 +39,7 @@ vec2 load_receivers(uvec2 p_block, out float r_distances[PIXELS_PER_INVOCATION])
 		r_distances[i] = 0.0;
 		slices[i] = NO_SLICE;
 		if (is_receiver) {
-			positions[i] = load_count_point(pixel).position;
+			positions[i] = find_light_position(load_receiver(frame_copy, pixel).position);
 			r_distances[i] = distance(positions[i], light_from_camera[3].xyz);
 			slices[i] = 0u;
 			camera_range = vec2(min(camera_range.x, r_distances[i]), max(camera_range.y, r_distances[i]));

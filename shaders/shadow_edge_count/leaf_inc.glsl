@@ -17,12 +17,6 @@ bool is_wide_leaf(CountLeaf p_leaf) {
 	return (p_leaf.pixels_flags.z & EDGE_COUNT_LEAF_IS_WIDE) != 0u;
 }
 
-/// The block's position in the image, in blocks.
-uvec2 find_leaf_block(CountLeaf p_leaf) {
-	const uint block = floatBitsToUint(p_leaf.anchor_block.w);
-	return uvec2(block % light.block_count.x, block / light.block_count.x);
-}
-
 /// The number of the leaf's receivers.
 uint count_leaf_pixels(CountLeaf p_leaf) {
 	return uint(bitCount(p_leaf.pixels_flags.x) + bitCount(p_leaf.pixels_flags.y));

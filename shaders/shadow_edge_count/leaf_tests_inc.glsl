@@ -1,10 +1,9 @@
-// Which nodes of the trees may matter to a leaf.
+// Which nodes of the trees may matter to a leaf. Include it after SUBGROUP_SIZE is defined.
 #ifndef LEAF_TESTS_INC_GLSL
 #define LEAF_TESTS_INC_GLSL
 
 #include "shadow_edge_count/count_sweep_inc.glsl"
-#include "shadow_edge_count/leaf_inc.glsl"
-#include "shadow_edge_count/uniform_box_inc.glsl"
+#include "shadow_edge_count/leaf_box_inc.glsl"
 
 // The leaf, set by prepare_leaf_tests.
 vec3 anchor;
@@ -16,12 +15,10 @@ vec3 shaft_minimum; // of the receivers and the light
 vec3 shaft_maximum;
 
 void prepare_leaf_tests(CountLeaf p_leaf) {
-	const CountFrame frame = make_count_frame(p_leaf.axis_distance.xyz);
 	const CountBounds bounds = unpack_count_bounds(p_leaf);
-	const float distance_m = p_leaf.axis_distance.w;
 	anchor = p_leaf.anchor_block.xyz;
-	box = make_uniform_box(make_count_box(light, light.disc_radius, frame, bounds, distance_m, is_wide_leaf(p_leaf)));
-	hull_box = make_uniform_box(make_count_box(light, 0.0, frame, bounds, distance_m, is_wide_leaf(p_leaf)));
+	box = make_leaf_box(p_leaf, bounds, light.disc_radius);
+	hull_box = make_leaf_box(p_leaf, bounds, 0.0);
 	hull_minimum = p_leaf.minimum_w.xyz;
 	hull_maximum = p_leaf.maximum_w.xyz;
 	const vec3 reach = IS_DIRECTIONAL ? vec3(COUNT_FAR) : vec3(light.disc_radius);
@@ -41,7 +38,7 @@ bool may_have_faces(CountNode p_node) {
 			dot(abs(hull_box.below.xyz), p_node.half_size_end_distance.xyz);
 	const bool is_between = overlaps(p_node, hull_minimum, hull_maximum) && is_node_in_reach(hull_box, p_node) &&
 			lowest <= hull_box.margin;
-	return is_in_distance_range(hull_box, p_node) && (hull_box.is_wide || is_between || is_node_on_way(anchor, p_node));
+	return is_in_distance_range(hull_box.distance, p_node) && (hull_box.is_wide || is_between || is_node_on_way(anchor, p_node));
 }
 
 /// False if no edge of the node matters to any receiver of the leaf.

@@ -1,18 +1,18 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/compute_extensions_inc.glsl"
 #include "common/ordered_list_inc.glsl"
 #include "shadow_edge_count/caster_edges_inc.glsl"
 
 // Writes the marked edges of all casters to the light's list, in the casters' order and in mesh order, so that no sum
 // depends on scheduling. One invocation per word. That of the last word writes the total number of edges.
-layout(local_size_x = FIND_GROUP_SIZE) in; // EDGE_COUNT_WORDS_PER_BLOCK
+layout(local_size_x = FIND_GROUP_SIZE) in; // EDGE_COUNT_WORDS_PER_RUN
 FETCHED_UINTS(FIND_BINDING_WORDS, words_buffer);
-FETCHED_UINTS(FIND_BINDING_BLOCKS, block_counts_buffer);
-layout(std430, set = 0, binding = FIND_BINDING_EDGES) writeonly buffer Edges {
+FETCHED_UINTS(FIND_BINDING_RUNS, run_counts_buffer);
+layout(std430, set = 0, binding = COUNT_BINDING_EDGES) writeonly buffer Edges {
 	CountEdgeRecord edges[];
 };
-layout(std430, set = 0, binding = FIND_BINDING_TOTALS) writeonly buffer Totals {
+layout(std430, set = 0, binding = COUNT_BINDING_TOTALS) writeonly buffer Totals {
 	uint totals[];
 };
 
@@ -20,8 +20,8 @@ uint load_list_word(uint p_index) {
 	return FETCH_UINT(words_buffer, p_index);
 }
 
-uint load_list_block(uint p_index) {
-	return FETCH_UINT(block_counts_buffer, p_index);
+uint load_list_run(uint p_index) {
+	return FETCH_UINT(run_counts_buffer, p_index);
 }
 
 CountEdgeRecord make_record(CountCasterRecord p_caster, CountMeshEdge p_edge) {
@@ -36,11 +36,11 @@ CountEdgeRecord make_record(CountCasterRecord p_caster, CountMeshEdge p_edge) {
 
 void main() {
 	const CountWorkGroup group = load_work_group();
-	const uint block = group.index == NO_GROUP ? 0u : group.index;
-	const uint first_word = block * uint(EDGE_COUNT_WORDS_PER_BLOCK);
+	const uint run = group.index == NO_GROUP ? 0u : group.index;
+	const uint first_word = run * uint(EDGE_COUNT_WORDS_PER_RUN);
 	const uint word_index = min(first_word + gl_LocalInvocationID.x, push.item_count);
-	// Counts the edges of all preceding blocks: there is one list for all casters.
-	uint index = find_list_index(uint(FIND_GROUP_SIZE), 0u, block, first_word, word_index);
+	// Counts the edges of all preceding runs: there is one list for all casters.
+	uint index = find_list_index(uint(FIND_GROUP_SIZE), 0u, run, first_word, word_index);
 	if (group.index == NO_GROUP || word_index >= push.item_count) {
 		return;
 	}

@@ -1,13 +1,7 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_vote : require
-#include "shadow_edge_count/count_classify_inc.glsl"
-#include "shadow_edge_count/count_status_inc.glsl"
-#include "shadow_edge_count/leaf_tests_inc.glsl"
+#include "common/compute_extensions_inc.glsl"
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/rungs_inc.glsl"
 
 // Finds for each leaf what is between its receivers and the light: the faces that its anchor's way to the light's centre
@@ -39,8 +33,7 @@ layout(constant_id = EDGE_COUNT_CONSTANT_IS_CPU) const bool IS_CPU = true;
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_RUNGS) const bool HAS_RUNGS = false;
 const uint GROUP_SIZE = gl_WorkGroupSize.x; // each work group is one subgroup
 const uint SUBGROUP_SIZE = GROUP_SIZE;
-#include "common/subgroup_inc.glsl"
-#include "common/work_rows_inc.glsl"
+#include "shadow_edge_count/leaf_tests_inc.glsl"
 #include "shadow_edge_count/dispatches_inc.glsl"
 
 const uint WIDTH = uint(EDGE_COUNT_NODE_WIDTH);
@@ -69,20 +62,20 @@ shared uint entries[MAX_SHARED_ENTRIES];
 shared uint silhouettes[MAX_SILHOUETTES];
 shared uint local_faces[MAX_LOCAL_FACES];
 uint entry_count;
-uint silhouette_count;
-uint local_face_count;
+uint silhouette_count = 0u;
+uint local_face_count = 0u;
 
 CountReceiver anchor_receiver;
-CountCrossings crossings; // of the anchor; each invocation has those of its faces
-float min_fraction; // of the entries, see find_min_fraction
+ivec3 crossings = ivec3(0); // of the anchor; each invocation has those of its faces
+float min_fraction = COUNT_FAR; // of the entries, see find_min_fraction
 // A leaf that needs more iterations than this gets no lists: its receivers walk through the trees themselves, in rounds
 // (EDGE_COUNT_MAX_ITERATIONS). The limit is that of a CPU driver, see there. Two walks through the edges are possible, and
 // the margin covers the iterations between two tests of the limit.
 const uint MAX_ITERATIONS = 40000u;
-uint iteration_count;
-bool is_incomplete; // some walk did not reach its end
+uint iteration_count = 0u;
+bool is_incomplete = false; // some walk did not reach its end
 // Where the second walk writes; the first one keeps what fits.
-bool writes_lists;
+bool writes_lists = false;
 uint first_entry;
 
 /// Appends p_value to a list in shared memory, which has r_count items and room for p_capacity; others are only counted.
@@ -101,7 +94,7 @@ void open_next_nodes(CountTree p_tree, bool p_has_faces) {
 	const uint parent_count = min(open_count, MAX_PARENTS);
 	const uint first_parent = open_count - parent_count;
 	// One iteration, unless a subgroup has fewer invocations than a node has children.
-	uint item = gl_SubgroupInvocationID;
+	const uint item = gl_SubgroupInvocationID;
 	uint next_count = first_parent;
 	// All parents are read before their slots are written.
 	uint parents[MAX_PARENTS * WIDTH / GROUP_SIZE];
@@ -139,7 +132,7 @@ void test_face(uint p_face, bool p_is_valid) {
 	const bool is_seen = p_is_valid && is_in_distance_range(hull_box.distance, face);
 	const bool is_in_front = is_count_in_front(plane, anchor);
 	if (is_seen && is_in_front != is_count_light_in_front(plane)) {
-		count_face(anchor_receiver, face, is_in_front, crossings);
+		crossings += count_face(anchor_receiver, face, is_in_front);
 	}
 	const bool is_local = is_seen && is_local_face(hull_box, face, plane) && is_face_within_bounds(face);
 	APPEND(local_faces, p_face, is_local, MAX_LOCAL_FACES, local_face_count)
@@ -260,45 +253,31 @@ void walk_tree(bool p_has_faces) {
 		lists[p_first + i] = p_list[i]; \
 	}
 
-/// Where a leaf's lists are, see CountLeafResult.
-struct ListRange {
-	uint first_word;
-	uint silhouette_count; // that are listed
-	uint face_count;
-	bool is_listed;	 // there was room
-	bool needs_rays; // the lists of silhouettes and faces are not complete
-};
-
-/// Reserves room for the lists, and copies those that are in shared memory. Sets first_entry.
-ListRange write_shared_lists(bool p_is_elected) {
+/// Reserves room for the lists, and copies those that are in shared memory. Sets first_entry. r_is_listed: there was room.
+/// The result has no crossings.
+CountLeafResult write_shared_lists(bool p_is_elected, out bool r_is_listed) {
 	// A walk that writes a long list of entries takes as many iterations as the first one.
 	is_incomplete = is_incomplete || (entry_count > MAX_SHARED_ENTRIES && 2u * iteration_count > MAX_ITERATIONS);
 	const bool are_short = silhouette_count <= MAX_SILHOUETTES && local_face_count <= MAX_LOCAL_FACES;
-	ListRange range = ListRange(0u, are_short ? silhouette_count : 0u, are_short ? local_face_count : 0u, false, false);
-	const uint word_count = is_incomplete ? 0u : entry_count + range.silhouette_count + range.face_count;
+	const uint word_count =
+			is_incomplete ? 0u : entry_count + (are_short ? silhouette_count + local_face_count : 0u);
+	uint first_word = 0u;
 	if (p_is_elected && word_count > 0u) {
-		range.first_word = atomicAdd(counts[EDGE_COUNT_COUNT_LIST_WORDS], word_count);
+		first_word = atomicAdd(counts[EDGE_COUNT_COUNT_LIST_WORDS], word_count);
 	}
-	range.first_word = subgroupBroadcastFirst(range.first_word);
+	first_word = subgroupBroadcastFirst(first_word);
 	// Above the capacity, the sum of all words may wrap around, but that of a leaf does not.
-	range.is_listed = !is_incomplete && range.first_word < light.list_capacity &&
-			word_count <= light.list_capacity - range.first_word;
-	range.is_listed = range.is_listed || (word_count == 0u && !is_incomplete);
-	range.silhouette_count = range.is_listed ? range.silhouette_count : 0u;
-	range.face_count = range.is_listed ? range.face_count : 0u;
-	range.needs_rays = !are_short || !range.is_listed;
-	first_entry = range.first_word + range.silhouette_count + range.face_count;
-	COPY_LIST(silhouettes, range.silhouette_count, range.first_word)
-	COPY_LIST(local_faces, range.face_count, range.first_word + range.silhouette_count)
-	const uint copied_count = range.is_listed && entry_count <= MAX_SHARED_ENTRIES ? entry_count : 0u;
+	r_is_listed = !is_incomplete && (word_count == 0u ||
+			(first_word < light.list_capacity && word_count <= light.list_capacity - first_word));
+	const bool has_all = are_short && r_is_listed;
+	const CountLeafResult result = CountLeafResult(first_word, has_all ? silhouette_count : 0u,
+			has_all ? local_face_count : 0u, r_is_listed ? entry_count : 0u, 0, 0, 0, has_all ? 0u : 1u);
+	first_entry = first_word + result.silhouette_count + result.face_count;
+	COPY_LIST(silhouettes, result.silhouette_count, first_word)
+	COPY_LIST(local_faces, result.face_count, first_word + result.silhouette_count)
+	const uint copied_count = entry_count <= MAX_SHARED_ENTRIES ? result.edge_count : 0u;
 	COPY_LIST(entries, copied_count, first_entry)
-	return range;
-}
-
-/// Sums over the subgroup, of numbers of faces.
-CountCrossings sum_subgroup_crossings(CountCrossings p_own) {
-	return CountCrossings(int(subgroup_add(uint(p_own.back_facing))), int(subgroup_add(uint(p_own.light_facing))),
-			int(subgroup_add(uint(p_own.double_sided))));
+	return result;
 }
 
 /// Adds the leaf's counts and faults to the status buffer.
@@ -321,8 +300,11 @@ const uint MAX_SMOOTH_EDGES = uint(EDGE_COUNT_MAX_ITERATIONS) / 2u; // an edge n
 uint add_leaf_cost(CountLeaf p_leaf, uint p_kind) {
 	const bool is_smooth = p_kind == uint(EDGE_COUNT_LEAVES_SMOOTH);
 	const bool is_extreme = p_kind == uint(EDGE_COUNT_LEAVES_UNLISTED) || entry_count > MAX_SMOOTH_EDGES;
-	const uint cost = find_leaf_cost(is_smooth ? uint(EDGE_COUNT_SMOOTH_PIXELS) : count_leaf_pixels(p_leaf), entry_count);
-	const uint cost_class = is_extreme ? uint(EDGE_COUNT_COST_EXTREME) : find_cost_class(cost);
+	const uint receiver_count = is_smooth ? uint(EDGE_COUNT_FEW_PIXELS) : count_leaf_pixels(p_leaf);
+	const uint pixels = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
+	const uint cost = (receiver_count * (entry_count + uint(EDGE_COUNT_COST_OF_RECEIVER)) + pixels - 1u) / pixels;
+	const uint cost_class =
+			is_extreme ? uint(EDGE_COUNT_COST_EXTREME) : min(uint(findMSB(cost)), uint(EDGE_COUNT_COST_EXTREME) - 1u);
 	atomicAdd(counts[uint(EDGE_COUNT_COUNT_COSTS) + cost_class], cost);
 	atomicAdd(counts[uint(EDGE_COUNT_COUNT_COST_LEAVES) + cost_class], 1u);
 	return cost_class;
@@ -339,42 +321,35 @@ void main() {
 	const CountLeaf leaf = leaves[leaf_index];
 	prepare_leaf_tests(leaf);
 	anchor_receiver = make_count_receiver(light, anchor, leaf.axis_distance.w);
-	crossings = CountCrossings(0, 0, 0);
-	min_fraction = COUNT_FAR;
-	silhouette_count = 0u;
-	local_face_count = 0u;
-	writes_lists = false;
-	iteration_count = 0u;
-	is_incomplete = false;
 	walk_tree(/*p_has_faces=*/true);
-	crossings = sum_subgroup_crossings(crossings);
+	crossings = ivec3(subgroup_add(uint(crossings.x)), subgroup_add(uint(crossings.y)), subgroup_add(uint(crossings.z)));
 	const bool is_elected = subgroupElect();
-	ListRange range = ListRange(0u, 0u, 0u, false, false);
-	bool walks_again;
+	CountLeafResult result;
+	bool is_listed;
 	do { // a loop, so that there is one copy of the code of a walk
 		entry_count = 0u;
 		walk_tree(/*p_has_faces=*/false);
 		if (!writes_lists) {
-			range = write_shared_lists(is_elected);
+			result = write_shared_lists(is_elected, is_listed);
 		}
-		walks_again = !writes_lists && range.is_listed && entry_count > MAX_SHARED_ENTRIES;
-		writes_lists = walks_again;
-	} while (walks_again);
+		writes_lists = !writes_lists && is_listed && entry_count > MAX_SHARED_ENTRIES;
+	} while (writes_lists);
 	const bool are_all_far = subgroup_all(min_fraction >= box.smooth_fraction);
 	const bool is_smooth = (leaf.pixels_flags.z & EDGE_COUNT_LEAF_IS_SMOOTH) != 0u && local_face_count == 0u &&
 			// A line along which a face cuts the disc moves as the disc turns to face other receivers.
-			find_cut_face_count() == 0u && are_all_far && entry_count <= MAX_SMOOTH_EDGES && !range.needs_rays;
+			find_cut_face_count() == 0u && are_all_far && entry_count <= MAX_SMOOTH_EDGES && result.needs_rays == 0u;
 	write_status(is_elected);
 	if (is_elected) {
 		const bool is_even = silhouette_count + local_face_count == 0u; // the same number of solids
 		const bool has_no_edges = entry_count == 0u && find_cut_face_count() == 0u && !is_incomplete;
 		uint kind = uint(is_smooth ? EDGE_COUNT_LEAVES_SMOOTH : EDGE_COUNT_LEAVES_LISTED);
-		kind = range.is_listed ? kind : uint(EDGE_COUNT_LEAVES_UNLISTED);
+		kind = is_listed ? kind : uint(EDGE_COUNT_LEAVES_UNLISTED);
 		kind = entry_count > light.budget ? uint(EDGE_COUNT_LEAVES_FILTERED) : kind;
 		kind = has_no_edges ? uint(is_even ? EDGE_COUNT_LEAVES_DARK : EDGE_COUNT_LEAVES_PLAIN) : kind;
-		results[leaf_index] = CountLeafResult(range.first_word, range.silhouette_count, range.face_count,
-				range.is_listed ? entry_count : 0u, crossings.back_facing, crossings.light_facing, crossings.double_sided,
-				range.needs_rays ? 1u : 0u);
+		result.back_facing = crossings.x;
+		result.light_facing = crossings.y;
+		result.double_sided = crossings.z;
+		results[leaf_index] = result;
 		const bool has_cost = HAS_RUNGS && (kind == uint(EDGE_COUNT_LEAVES_LISTED) ||
 				kind == uint(EDGE_COUNT_LEAVES_UNLISTED) || kind == uint(EDGE_COUNT_LEAVES_SMOOTH));
 		const uint cost_class = has_cost ? add_leaf_cost(leaf, kind) : 0u;

@@ -1,21 +1,21 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/compute_extensions_inc.glsl"
 #include "shadow_edge_count/caster_edges_inc.glsl"
 #include "shadow_edge_count/count_classify_inc.glsl"
 
 // Marks the edges of the casters that receivers may have to count. Each invocation writes one word of 32
-// edges, and each work group counts the marked edges of its block.
-layout(local_size_x = FIND_GROUP_SIZE) in; // EDGE_COUNT_WORDS_PER_BLOCK
-FETCHED_VEC4S(FIND_BINDING_PLANES, planes_buffer);
+// edges, and each work group counts the marked edges of its run.
+layout(local_size_x = FIND_GROUP_SIZE) in; // EDGE_COUNT_WORDS_PER_RUN
+FETCHED_VEC4S(COUNT_BINDING_PLANES, planes_buffer);
 layout(std430, set = 0, binding = FIND_BINDING_WORDS) writeonly buffer Words {
 	uint words[];
 };
-layout(std430, set = 0, binding = FIND_BINDING_BLOCKS) writeonly buffer Blocks {
-	uint block_counts[];
+layout(std430, set = 0, binding = FIND_BINDING_RUNS) writeonly buffer Runs {
+	uint run_counts[];
 };
 
-shared uint block_count;
+shared uint edge_count;
 
 int find_side(CountCasterRecord p_caster, uint p_face) {
 	const uint face = p_caster.first_face + (p_face & EDGE_COUNT_FACE_MASK);
@@ -38,10 +38,10 @@ bool may_be_silhouette(CountCasterRecord p_caster, CountMeshEdge p_edge) {
 void main() {
 	const CountWorkGroup group = load_work_group();
 	if (gl_LocalInvocationID.x == 0u) {
-		block_count = 0u;
+		edge_count = 0u;
 	}
 	barrier();
-	const uint word_index = group.index * uint(EDGE_COUNT_WORDS_PER_BLOCK) + gl_LocalInvocationID.x;
+	const uint word_index = group.index * uint(EDGE_COUNT_WORDS_PER_RUN) + gl_LocalInvocationID.x;
 	if (group.index != NO_GROUP && word_index < push.item_count) {
 		const CountCasterRecord caster = load_caster(find_caster(group, /*p_is_word=*/true, word_index));
 		const uint first = (word_index - caster.first_word) * uint(EDGE_COUNT_EDGES_PER_WORD);
@@ -51,10 +51,10 @@ void main() {
 			word |= may_be_silhouette(caster, load_mesh_edge(caster, first + i)) ? 1u << i : 0u;
 		}
 		words[word_index] = word;
-		atomicAdd(block_count, uint(bitCount(word)));
+		atomicAdd(edge_count, uint(bitCount(word)));
 	}
 	barrier();
 	if (gl_LocalInvocationID.x == 0u && group.index != NO_GROUP) {
-		block_counts[group.index] = block_count;
+		run_counts[group.index] = edge_count;
 	}
 }

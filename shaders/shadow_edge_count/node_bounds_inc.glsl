@@ -3,16 +3,9 @@
 #define NODE_BOUNDS_INC_GLSL
 
 #include "common/work_rows_inc.glsl"
-#include "shadow_edge_count/node_levels_inc.glsl"
-#include "shadow_edge_count/shadow_edge_count_shared.h"
+#include "shadow_edge_count/light_trees_inc.glsl"
 
-layout(std140, set = 0, binding = FIND_BINDING_LIGHT) restrict readonly buffer Light {
-	CountLightConstants light;
-};
-layout(std430, set = 0, binding = FIND_BINDING_TOTALS) readonly buffer Totals {
-	uint totals[];
-};
-layout(std430, set = 0, binding = FIND_BINDING_NODES) buffer Nodes {
+layout(std430, set = 0, binding = COUNT_BINDING_NODES) buffer Nodes {
 	CountNode nodes[];
 };
 
@@ -51,16 +44,6 @@ CountNode pack_node(NodeBounds p_bounds) {
 	const vec3 half_size = max(p_bounds.maximum - center, center - p_bounds.minimum);
 	return CountNode(vec4(center, p_bounds.distances.x),
 			vec4(WIDENING * half_size + CENTER_ROUNDING * abs(center), p_bounds.distances.y));
-}
-
-/// The number of faces, or of edges, of the light.
-uint find_item_count(bool p_has_faces) {
-	return p_has_faces ? light.face_count : min(totals[EDGE_COUNT_TOTAL_EDGES], light.max_edge_count);
-}
-
-/// The index in `nodes` of the first node of a level.
-uint find_first_node(bool p_has_faces, uint p_level) {
-	return p_has_faces ? light.face_levels[p_level / 4u][p_level % 4u] : light.edge_levels[p_level / 4u][p_level % 4u];
 }
 
 #endif

@@ -1,7 +1,6 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/count_classify_inc.glsl"
+#include "common/compute_extensions_inc.glsl"
 #include "shadow_edge_count/resolve_leaf_inc.glsl"
 
 // Writes the mask of leaves whose receivers are all dark.

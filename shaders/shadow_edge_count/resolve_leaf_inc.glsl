@@ -9,8 +9,6 @@
 // In one dimension: with two, llvmpipe fills subgroups only up to the size in x.
 #ifdef COUNTS_EDGES
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
-layout(constant_id = EDGE_COUNT_CONSTANT_IS_CPU) const bool IS_CPU = true;
-const uint LANES_PER_RECEIVER = IS_CPU ? 1u : uint(COUNT_SAMPLE_SET_COUNT); // invocations
 #else
 layout(local_size_x = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX) in;
 const uint LANES_PER_RECEIVER = 1u;
@@ -56,7 +54,9 @@ uint find_group_leaf(out bool r_is_valid) {
 
 /// The position in the image of a pixel of the leaf's block. p_index: for find_pixel_in_block.
 ivec2 find_image_pixel(CountLeaf p_leaf, uint p_index) {
-	return ivec2(find_leaf_block(p_leaf) * uint(EDGE_COUNT_BLOCK_PX) + find_pixel_in_block(p_index));
+	const uint block = floatBitsToUint(p_leaf.anchor_block.w);
+	const uvec2 position = uvec2(block % light.block_count.x, block / light.block_count.x);
+	return ivec2(position * uint(EDGE_COUNT_BLOCK_PX) + find_pixel_in_block(p_index));
 }
 
 #endif

@@ -19,14 +19,4 @@ uint find_rung(uint p_class, uint p_ladder, uint p_first_rung) {
 	return p_class == uint(EDGE_COUNT_COST_EXTREME) && rung > p_first_rung ? uint(EDGE_COUNT_RUNG_FILTERED) : rung;
 }
 
-/// p_receiver_count: that are counted.
-uint find_leaf_cost(uint p_receiver_count, uint p_edge_count) {
-	const uint receivers = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
-	return (p_receiver_count * (p_edge_count + uint(EDGE_COUNT_COST_OF_RECEIVER)) + receivers - 1u) / receivers;
-}
-
-uint find_cost_class(uint p_cost) {
-	return min(uint(max(findMSB(p_cost), 0)), uint(EDGE_COUNT_COST_EXTREME) - 1u);
-}
-
 #endif

@@ -28,9 +28,9 @@ struct SHARED_ALIGN CountEdgeRecord {
 SHARED_SIZE(CountEdgeRecord, 32);
 
 /// The vertices of a face. Fetched as 3 x RGBA32_UINT. Planes of faces have a separate buffer,
-/// which edges read too. The face and its edges exist only for receivers whose leaf's distance is in
-/// first_distance <= distance < end_distance: other receivers see another level of detail of the
-/// cut-out caster.
+/// which edges read too. The face and its edges exist only for receivers whose leaf's distance is
+/// in first_distance <= distance < end_distance: other receivers see another LOD of the cut-out
+/// caster.
 struct SHARED_ALIGN CountFaceRecord {
 	uvec4 a_kind;			// float bits of the position; 0 or EDGE_COUNT_DOUBLE_SIDED
 	uvec4 b_first_distance; // float bits
@@ -56,27 +56,12 @@ SHARED_SIZE(CountNode, 32);
 // Levels of a tree: 16 * 8 * 8^6 is more than 10 million, so the highest level has at most 8 nodes.
 #define EDGE_COUNT_MAX_LEVELS 7
 
-// mark_edges.comp sets one bit per edge, 32 per word, and counts the set bits per block of 64
+// mark_edges.comp sets one bit per edge, 32 per word, and counts the set bits per run of 64
 // words. From these counts list_edges.comp computes each edge's index, so that the list is in the
 // casters' order and in mesh order. A caster's edges begin with a new word, but not with a new
-// block.
+// run.
 #define EDGE_COUNT_EDGES_PER_WORD 32
-#define EDGE_COUNT_WORDS_PER_BLOCK 64
-
-// Bindings of the passes that find faces and edges.
-#define FIND_BINDING_POINTS 0
-#define FIND_BINDING_MESH_FACES 1
-#define FIND_BINDING_MESH_EDGES 2
-#define FIND_BINDING_PLANES 3
-#define FIND_BINDING_FACES 4
-#define FIND_BINDING_WORDS 5
-#define FIND_BINDING_BLOCKS 6
-#define FIND_BINDING_EDGES 7
-#define FIND_BINDING_TOTALS 8
-#define FIND_BINDING_NODES 9
-#define FIND_BINDING_LIGHT 10
-#define FIND_BINDING_CASTERS 11
-#define FIND_BINDING_GROUPS 12
+#define EDGE_COUNT_WORDS_PER_RUN 64
 
 /// An edge between welded vertices, from a to b in the winding order of its first face.
 struct SHARED_ALIGN CountMeshEdge {
@@ -118,8 +103,8 @@ struct SHARED_ALIGN CountCasterRecord {
 	uint first_mesh_edge;
 	uint first_vertex;
 	uint first_source_part;
-	// EDGE_COUNT_CASTER_LEVEL: half widths of the penumbra at a source part (see CountMeshFace), in
-	// metres, from which receivers see this level of detail, and from which they see the next one.
+	// EDGE_COUNT_CASTER_LOD: half widths of the penumbra at a source part (see CountMeshFace), in
+	// metres, from which receivers see this LOD, and from which they see the next one.
 	float first_half_width;
 	float end_half_width;
 	float scale; // largest stretch of a length by light_from_node
@@ -155,12 +140,13 @@ struct SHARED_ALIGN CountFindPush {
 SHARED_SIZE(CountFindPush, 32);
 #define EDGE_COUNT_SOURCE_PART_MASK 0x00ffffffu
 #define EDGE_COUNT_CASTER_MIRRORED 1u // light_from_node has a negative determinant
-#define EDGE_COUNT_CASTER_LEVEL 2u	  // one of two levels of detail of a cut-out caster
+#define EDGE_COUNT_CASTER_LOD 2u	  // one of two LODs (levels of detail) of a cut-out caster
 
 // Each block of 8 x 8 pixels has leaves: groups of its receivers.
 #define EDGE_COUNT_BLOCK_PX 8
 // Specialization constants.
 #define EDGE_COUNT_CONSTANT_SUBGROUP_SIZE 0 // invocations of a subgroup
+#define EDGE_COUNT_CONSTANT_SAMPLE_SETS 1 // sets of 64 points of the light: 1 or 4
 #define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2	 // the leaves of the pass read the tree of edges
 #define EDGE_COUNT_CONSTANT_IS_DIRECTIONAL 3 // the light is directional
 #define EDGE_COUNT_CONSTANT_GROUP_SIZE 4 // invocations of a work group of the passes that count edges
@@ -168,6 +154,8 @@ SHARED_SIZE(CountFindPush, 32);
 // The device is a CPU: passes that count edges have the shape that suits it. Masks are equal bit for bit.
 #define EDGE_COUNT_CONSTANT_IS_CPU 6
 #define EDGE_COUNT_CONSTANT_HAS_RUNGS 7 // the light has a time budget, see EDGE_COUNT_RUNG_FULL
+#define EDGE_COUNT_CONSTANT_IS_SMOOTH 8 // the leaves of the pass are smooth, see EDGE_COUNT_LEAVES_SMOOTH
+#define EDGE_COUNT_CONSTANT_FIRST_LEVEL 9 // the lowest level that bound_nodes.comp writes
 #define EDGE_COUNT_NO_BUDGET 0xffffffffu
 
 /// Constants of one light, and the sizes of its buffers.
@@ -177,29 +165,25 @@ struct SHARED_ALIGN CountLightConstants {
 	uvec4 edge_levels[2];
 	float disc_radius;		// R, see CountSettings; directional: a tangent
 	float depth_far_m;		// directional: w = depth_far_m - z
-	float scene_size_m;		// S, the size of the scene
 	float nearer_tolerance; // an edge counts only where it is nearer to the light than the receiver
 							// by this fraction of the receiver's distance; directional: by this
 							// many metres; less for receivers near the camera, in proportion to
 							// compute_receiver_offset_m
+	float interpolation;	// maximum distance by which an edge's projection onto the light's disc
+							// moves between receivers of a leaf of EDGE_COUNT_LEAVES_SMOOTH, in R
 	uvec2 block_count;		// columns and rows of blocks in the image
 	uint empty_views;		// bit i: view i has no casters or no receivers
 	uint leaf_capacity;
 	uint list_capacity; // words of the lists of all leaves together
 	uint budget;		// maximum number of listed edges of a leaf, or EDGE_COUNT_NO_BUDGET
 	uint face_count;
-	uint max_edge_count;	 // capacity of the light's list of edges
-	float interpolation;	 // maximum distance by which an edge's projection onto the light's disc
-							 // moves between receivers of a leaf of EDGE_COUNT_LEAVES_SMOOTH, in R
-	uint max_cut_face_count; // capacity of the list of faces that may cut the light's disc
+	uint max_edge_count;		 // capacity of the light's list of edges
+	uint max_cut_face_count;	 // capacity of the list of faces that may cut the light's disc
 	uint unfinished_slot_count;	 // see EDGE_COUNT_MAX_ITERATIONS
 	uint unfinished_round_count; // 0: no subgroup has more iterations
 	uint chunk_count; // dispatches into which the leaves of a kind are divided, see CountLeafPush
-	uint padding0;
-	uint padding1;
-	uint padding2;
 };
-SHARED_SIZE(CountLightConstants, 144);
+SHARED_SIZE(CountLightConstants, 128);
 SHARED_OFFSET(CountLightConstants, disc_radius, 64);
 SHARED_OFFSET(CountLightConstants, block_count, 80);
 
@@ -210,8 +194,9 @@ SHARED_OFFSET(CountLightConstants, block_count, 80);
 /// A leaf has a frame of its own: three axes (see make_count_frame) in which (x', y') and w of a point of light space
 /// are x / z, y / z and 1 / z; directional: x, y and depth_far_m - z.
 struct SHARED_ALIGN CountLeaf {
-	// The frame's z axis in light space; the distance by which all its receivers choose levels of detail: the least of
-	// their distances from the light's centre in metres (directional: their least z in light space).
+	// The frame's z axis in light space; the distance by which all its receivers choose LODs: the
+	// least of their distances from the light's centre in metres (directional: their least z in
+	// light space).
 	vec4 axis_distance;
 	vec4 min_max;		// of (x', y'): min x', min y', max x', max y'
 	vec4 slope_range;	// slope: w per x' and y' of a plane near the receivers; min and max of w - slope.(x', y')
@@ -241,7 +226,7 @@ struct SHARED_ALIGN CountLeafResult {
 	uint silhouette_count;
 	uint face_count;
 	uint edge_count;
-	int back_facing; // of the anchor, see CountCrossings
+	int back_facing; // of the anchor, see count_crossings_inc.glsl
 	int light_facing;
 	int double_sided;
 	uint needs_rays; // 1: the lists of silhouettes and faces are not complete; each receiver walks the tree of faces
@@ -277,6 +262,16 @@ SHARED_SIZE(CountLeafResult, 32);
 #define COUNT_BINDING_NEXT_ROUND (MAP_RESOLVE_FIRST_FREE_BINDING + 20)
 #define COUNT_BINDING_NEXT_DISPATCH (MAP_RESOLVE_FIRST_FREE_BINDING + 21)
 #define COUNT_BINDING_ARGUMENTS (MAP_RESOLVE_FIRST_FREE_BINDING + 22)
+#define COUNT_BINDING_LADDER (MAP_RESOLVE_FIRST_FREE_BINDING + 23) // one word, kept from frame to frame
+
+// The other bindings of the passes that find faces and edges.
+#define FIND_BINDING_POINTS (MAP_RESOLVE_FIRST_FREE_BINDING + 24)
+#define FIND_BINDING_MESH_FACES (MAP_RESOLVE_FIRST_FREE_BINDING + 25)
+#define FIND_BINDING_MESH_EDGES (MAP_RESOLVE_FIRST_FREE_BINDING + 26)
+#define FIND_BINDING_WORDS (MAP_RESOLVE_FIRST_FREE_BINDING + 27)
+#define FIND_BINDING_RUNS (MAP_RESOLVE_FIRST_FREE_BINDING + 28)
+#define FIND_BINDING_CASTERS (MAP_RESOLVE_FIRST_FREE_BINDING + 29)
+#define FIND_BINDING_GROUPS (MAP_RESOLVE_FIRST_FREE_BINDING + 30)
 
 // A light with a time budget lowers its most expensive leaves, one rung after the other, until the expected time of all is
 // within the budget. The cost of a leaf is the mean over its block's pixels of the listed edges plus
@@ -315,9 +310,8 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_STATUS_RUNGS 8 // with a time budget: number of leaves on each rung
 #define EDGE_COUNT_STATUS_WORDS (EDGE_COUNT_STATUS_RUNGS + EDGE_COUNT_RUNG_COUNT)
 #define EDGE_COUNT_PASS_LIST_LEAVES 6
-#define EDGE_COUNT_PASS_BITS 8
-#define EDGE_COUNT_FAULT_LOOP 0x1u		  // a loop did not reach its end: the driver ended it
-#define EDGE_COUNT_FAULT_TREE 0x100u	  // a walk through a tree has no end
+#define EDGE_COUNT_FAULT_LOOP 0x1u	   // a loop did not reach its end: the driver ended it
+#define EDGE_COUNT_FAULT_TREE 0x100u   // a walk through a tree has no end
 #define EDGE_COUNT_FAULT_LIST 0x10000u // a list has an index out of range
 
 // Kinds of leaves. Leaves that are all lit have none, since the mask is cleared to 1. Each kind has a list of its
@@ -327,12 +321,12 @@ SHARED_SIZE(CountLeafResult, 32);
 #define EDGE_COUNT_LEAVES_LISTED 2	 // a list of edges
 #define EDGE_COUNT_LEAVES_UNLISTED 3 // no list
 #define EDGE_COUNT_LEAVES_FILTERED 4 // more edges than the budget
-#define EDGE_COUNT_LEAVES_SMOOTH                                                                   \
-	5 // a list of edges so far away that the mask is smooth, see count_smooth_inc.glsl
+// A list of edges so far away that the mask is smooth, see resolve_few_pixels.comp.
+#define EDGE_COUNT_LEAVES_SMOOTH 5
 #define EDGE_COUNT_LEAF_KINDS 6
-#define EDGE_COUNT_SMOOTH_PIXELS 16 // that are counted in a smooth leaf
-// The arguments of the indirect dispatches over leaves: one for each kind, and a buffer of its own with one for all
-// leaves. They have rows of EDGE_COUNT_GROUPS_PER_ROW work groups.
+#define EDGE_COUNT_FEW_PIXELS 16 // that are counted in a smooth leaf, and on EDGE_COUNT_RUNG_FEW_PIXELS
+// The arguments of the indirect dispatches over leaves: one for each kind, and a buffer of its own
+// with one for all leaves. They have rows of EDGE_COUNT_GROUPS_PER_ROW work groups.
 #define EDGE_COUNT_ARGUMENT_WORDS 3
 // With a time budget, after those of all kinds: those of a kind's leaves on one rung, which are 0 if no leaf is on it. Of
 // smooth leaves, those on EDGE_COUNT_RUNG_FEW_POINTS include those on the next rung, which are counted in the same way.
@@ -370,9 +364,8 @@ SHARED_SIZE(CountLeafResult, 32);
 // An item is a leaf times 2^EDGE_COUNT_SUBGROUP_BITS, plus the subgroup's index in the leaf.
 #define EDGE_COUNT_SUBGROUP_BITS 6
 #define EDGE_COUNT_UNFINISHED_IS_NEW 0x80000000u // flag of an item: nothing is counted yet
-// Words of the state of one invocation: those of CountProgress, and of CountState without and with
-// its counters, which have 18 words for each 64 points.
-#define EDGE_COUNT_STATE_WORDS(sample_set_count) (5 + 18 * (sample_set_count))
+// Words of the state of one invocation, see SavedCount in resolve_unfinished.comp.
+#define EDGE_COUNT_STATE_WORDS(sample_set_count) (22 * (sample_set_count))
 // The largest subgroup that is used: a leaf's number of pixels.
 #define EDGE_COUNT_MAX_SUBGROUP 64
 
@@ -401,19 +394,6 @@ struct SHARED_ALIGN CountLeafPush {
 };
 SHARED_SIZE(CountLeafPush, 32);
 
-// Bindings of the pass that lists the faces near the light.
-#define CUT_FACES_BINDING_LIGHT 0
-#define CUT_FACES_BINDING_FACES 1
-#define CUT_FACES_BINDING_TOTALS 2
-#define CUT_FACES_BINDING_LIST 3
-#define CUT_FACES_GROUP_SIZE 64
-
-// Bindings of choose_rungs.comp.
-#define RUNGS_BINDING_COUNTS 0
-#define RUNGS_BINDING_STATUS 1
-#define RUNGS_BINDING_LADDER 2 // one word, which stays from frame to frame
-#define RUNGS_BINDING_ARGUMENTS 3
-
 /// Push constants of choose_rungs.comp.
 struct SHARED_ALIGN CountRungsPush {
 	uint cost_limit; // the cost for which there is time
@@ -422,15 +402,6 @@ struct SHARED_ALIGN CountRungsPush {
 	uint padding;
 };
 SHARED_SIZE(CountRungsPush, 16);
-
-/// Push constants of bound_nodes.comp.
-struct SHARED_ALIGN CountBoundPush {
-	uint first_level; // the lowest level that it writes
-	uint padding0;
-	uint padding1;
-	uint padding2;
-};
-SHARED_SIZE(CountBoundPush, 16);
 
 #include "shared/shared_end.h"
 #endif

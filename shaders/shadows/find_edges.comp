@@ -5,8 +5,8 @@
 #include "shared/silhouette_shared.h"
 
 // Marks one caster's silhouette edges. Each invocation writes one word, with a bit for each of 32
-// edges, and adds the number of silhouette edges in it to the count of the word's block.
-layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
+// edges, and adds the number of silhouette edges in it to the count of the word's run.
+layout(local_size_x = SILHOUETTE_WORDS_PER_RUN) in;
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];
 };
@@ -16,8 +16,8 @@ layout(std430, set = 0, binding = SILHOUETTE_BINDING_EDGES) readonly buffer Edge
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_WORDS) writeonly buffer Words {
 	uint edge_words[];
 };
-layout(std430, set = 0, binding = SILHOUETTE_BINDING_BLOCKS) buffer Blocks {
-	uint block_counts[];
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_RUNS) buffer Runs {
+	uint run_counts[];
 };
 layout(push_constant) uniform Push {
 	SilhouettePush push;
@@ -31,7 +31,7 @@ bool is_silhouette(TopologyEdge p_edge) {
 }
 
 void main() {
-	const uint word_index = find_work_item(uint(SILHOUETTE_WORDS_PER_BLOCK));
+	const uint word_index = find_work_item(uint(SILHOUETTE_WORDS_PER_RUN));
 	const uint first_edge = word_index * SILHOUETTE_EDGES_PER_WORD;
 	if (first_edge >= push.edge_count) {
 		return;
@@ -43,7 +43,7 @@ void main() {
 	}
 	edge_words[push.first_word + word_index] = word;
 	if (word != 0u) {
-		atomicAdd(block_counts[push.first_block + word_index / SILHOUETTE_WORDS_PER_BLOCK],
+		atomicAdd(run_counts[push.first_run + word_index / SILHOUETTE_WORDS_PER_RUN],
 				uint(bitCount(word)));
 	}
 }

@@ -6,12 +6,12 @@
 
 // Writes the indices of one caster's silhouette edges into a list, and the arguments of the indirect draw that uses it.
 // The order is ascending, so that the image does not depend on scheduling. One invocation per word of 32 edges.
-layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
+layout(local_size_x = SILHOUETTE_WORDS_PER_RUN) in;
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_WORDS) readonly buffer Words {
 	uint edge_words[];
 };
-layout(std430, set = 0, binding = SILHOUETTE_BINDING_BLOCKS) readonly buffer Blocks {
-	uint block_counts[];
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_RUNS) readonly buffer Runs {
+	uint run_counts[];
 };
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_LIST) writeonly buffer List {
 	uint edge_list[];
@@ -27,19 +27,19 @@ uint load_list_word(uint p_index) {
 	return edge_words[p_index];
 }
 
-uint load_list_block(uint p_index) {
-	return block_counts[p_index];
+uint load_list_run(uint p_index) {
+	return run_counts[p_index];
 }
 
 void main() {
-	const uint word_index = find_work_item(uint(SILHOUETTE_WORDS_PER_BLOCK));
+	const uint word_index = find_work_item(uint(SILHOUETTE_WORDS_PER_RUN));
 	const uint word_count = (push.edge_count + SILHOUETTE_EDGES_PER_WORD - 1u) / SILHOUETTE_EDGES_PER_WORD;
 	// A dispatch in rows may have groups too many.
-	const uint group = min(find_work_group(), (max(word_count, 1u) - 1u) / uint(SILHOUETTE_WORDS_PER_BLOCK));
-	const uint first_word = group * SILHOUETTE_WORDS_PER_BLOCK;
+	const uint group = min(find_work_group(), (max(word_count, 1u) - 1u) / uint(SILHOUETTE_WORDS_PER_RUN));
+	const uint first_word = group * SILHOUETTE_WORDS_PER_RUN;
 	// Index, within the caster's part of the list, of the word's next silhouette edge.
-	uint index = find_list_index(SILHOUETTE_WORDS_PER_BLOCK, push.first_block,
-			push.first_block + group, push.first_word + first_word, push.first_word + min(word_index, word_count));
+	uint index = find_list_index(SILHOUETTE_WORDS_PER_RUN, push.first_run,
+			push.first_run + group, push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
 	}

@@ -40,30 +40,29 @@ MAX_GROWTH = 1.1  # of the number of instructions
 LOOPING_SHUFFLES = "GFX1100"
 SPILLING = ("shadow_edge_count/resolve", "shadow_edge_count/debug")
 # Specialization constants: per folder or shader, the values of each id that the program uses. A shader gets each combination
-# of the ids that it has.
+# of the ids that it has. A function computes the value from the others.
 SUBGROUP = "subgroup"  # the size that the engine requests
+EDGE_COUNT = {0: (SUBGROUP,), 1: (1, 4), 2: (0, 1), 3: (0, 1), 5: (0, 1), 6: (0,), 7: (1,)}
 CONSTANTS = {
-    # 0 subgroup size; 2 leaves without lists; 3 directional; 4 invocations of a work group; 5 casters may cut the light's disc;
-    # 6 a CPU driver; 7 a time budget
-    "shadow_edge_count": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,), 7: (1,)},
-    "shadow_edge_count/debug": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,), 7: (1,)},
-    "shadow_edge_count/resolve_smooth": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (16,), 5: (0, 1), 6: (0,), 7: (1,)},
-    "shadow_edge_count/resolve_coarse": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (16,), 5: (0, 1), 6: (0,), 7: (1,)},
-    "shadow_edge_count/resolve_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (256,), 5: (0, 1), 6: (0,), 7: (1,)},
-    "shadow_edge_count/resolve_smooth_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (64,), 5: (0, 1), 6: (0,), 7: (1,)},
-    "shadow_edge_count/resolve_unfinished": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1), 6: (0,), 7: (1,)},
-    "shadow_edge_count/resolve_unfinished_fine": {0: (SUBGROUP,), 2: (0, 1), 3: (0, 1), 4: (SUBGROUP,), 5: (0, 1), 6: (0,), 7: (1,)},
+    # 0 subgroup size; 1 sets of 64 points; 2 leaves without lists; 3 directional; 4 invocations of a work group; 5 casters may
+    # cut the light's disc; 6 a CPU driver; 7 a time budget; 8 smooth leaves
+    "shadow_edge_count": EDGE_COUNT | {4: (lambda constants: 64 * constants[1],)},
+    "shadow_edge_count/bound_nodes": {9: (1, 4)},  # the lowest level
+    "shadow_edge_count/debug": EDGE_COUNT | {1: (1,), 4: (64,)},
+    "shadow_edge_count/resolve_few_pixels": EDGE_COUNT | {4: (lambda constants: 16 * constants[1],), 8: (0, 1)},
+    "shadow_edge_count/resolve_unfinished": EDGE_COUNT | {4: (SUBGROUP,)},
     "shadow_map/resolve": {0: (0, 3)},  # width of the filter
     # 1 inner fins; 2 layers; 3 curve; 4 visibility begins at 0
     "shadow_penumbra_fins": {1: (0, 1), 2: (3,), 3: (0,), 4: (0, 1)},
     "renderer": {0: (0, 1)},  # coloured masks
     "shadows": {0: (0, 1)},
 }
-# Combinations that the program never uses: a directional light has no disc, smooth leaves have lists, and unfinished ones none.
+# Combinations that the program never uses: a directional light has no disc, leaves with few counted pixels have lists, and those
+# that are not smooth have 64 points; unfinished leaves have no lists.
 IMPOSSIBLE = (
     ("shadow_edge_count/", {3: 1, 5: 1}),
-    ("shadow_edge_count/resolve_smooth", {2: 1}),
-    ("shadow_edge_count/resolve_coarse", {2: 1}),
+    ("shadow_edge_count/resolve_few_pixels", {2: 1}),
+    ("shadow_edge_count/resolve_few_pixels", {1: 4, 8: 0}),
     ("shadow_edge_count/resolve_unfinished", {2: 0}),
 )
 # Columns of the table, and the names of RADV's statistics.
@@ -110,6 +109,7 @@ def list_constants(shader, ids):
     found = []
     for values in itertools.product(*(known[number] for number in ids)):
         constants = dict(zip(ids, values))
+        constants = {number: value(constants) if callable(value) else value for number, value in constants.items()}
         if not any(
             shader.startswith(prefix) and all(constants.get(number) == value for number, value in pattern.items())
             for prefix, pattern in IMPOSSIBLE

@@ -37,19 +37,19 @@ void main() {
 	if (item >= uint(items.length())) {
 		return;
 	}
-	// 0.0: any distance will do, since all faces have one level of detail.
+	// 0.0: any distance will do, since all faces have one LOD.
 	const CountReceiver receiver = make_count_receiver(light, items[item].xyz, 0.0);
-	CountCrossings crossings = CountCrossings(0, 0, 0);
+	ivec3 crossings = ivec3(0);
 	for (uint i = 0u; i < light.face_count; ++i) {
 		const bool is_in_front = is_count_in_front(planes[i], receiver.position);
 		if (is_in_front != is_count_light_in_front(planes[i])) {
-			count_face(receiver, faces[i], is_in_front, crossings);
+			crossings += count_face(receiver, faces[i], is_in_front);
 		}
 	}
 	CountState state = make_count_state(sum_crossings(crossings));
 	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && !IS_DIRECTIONAL; ++i) {
 		count_sectors(
-				find_cut_sectors(receiver, faces[i], planes[i], crossings.back_facing >= crossings.light_facing), state);
+				find_cut_sectors(receiver, faces[i], planes[i], crossings.x >= crossings.y), state);
 	}
 	for (uint i = 0u; i < uint(edges.length()) && light.disc_radius > 0.0; ++i) {
 		const CountEdgeRecord edge = edges[i];
@@ -59,7 +59,7 @@ void main() {
 				receiver.position, planes[face0], kind.has_face1 ? planes[edge.b_face1.w] : vec4(0.0), kind);
 		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
 		const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
-		count_sectors(find_edge_sectors(receiver, a, b, a, b, ivec2(weight, 0)), state);
+		count_sectors(find_edge_sectors(receiver, CountedEdge(a, b, weight), CountedEdge(a, b, 0)), state);
 	}
-	results[item] = vec4(count_resolve(state), float(state.solid_count), float(state.area) * AREA_UNIT, 0.0);
+	results[item] = vec4(find_visibility(state, has_overlap(state), add_sample_sets(state)), float(state.solid_count), float(state.area) * AREA_UNIT, 0.0);
 }

@@ -48,7 +48,6 @@ struct CountArrays {
 		light.disc_radius = float(space.disc_radius);
 		// Beyond all receivers; warp() in test_count_cull.cpp uses the same depth.
 		light.depth_far_m = 3.0f * float(space.scene_size_m);
-		light.scene_size_m = float(space.scene_size_m);
 		light.nearer_tolerance = float(space.nearer_tolerance);
 		light.face_count = uint32_t(faces.size());
 	}

@@ -1,8 +1,6 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/count_classify_inc.glsl"
-#include "shadow_edge_count/count_status_inc.glsl"
 #include "shadow_edge_count/count_sweep_inc.glsl"
 
 // Input: items 2 i and 2 i + 1 are the positions of an anchor and of a receiver in light space; w is the number of faces,
@@ -18,20 +16,16 @@ layout(set = 0, binding = 1) writeonly buffer Output {
 	vec4 results[];
 };
 
-CountCrossings count_all_faces(CountReceiver p_receiver, uint p_face_count) {
-	CountCrossings found = CountCrossings(0, 0, 0);
+ivec3 count_all_faces(CountReceiver p_receiver, uint p_face_count) {
+	ivec3 found = ivec3(0);
 	for (uint i = 0u; i < p_face_count; ++i) {
 		const vec4 plane = load_count_plane(i);
 		const bool is_in_front = is_count_in_front(plane, p_receiver.position);
 		if (is_in_front != is_count_light_in_front(plane)) {
-			count_face(p_receiver, load_count_face(i), is_in_front, found);
+			found += count_face(p_receiver, load_count_face(i), is_in_front);
 		}
 	}
 	return found;
-}
-
-ivec3 unpack(CountCrossings p_crossings) {
-	return ivec3(p_crossings.back_facing, p_crossings.light_facing, p_crossings.double_sided);
 }
 
 float count_differences(ivec3 p_one, ivec3 p_other) {
@@ -45,12 +39,12 @@ void main() {
 	if (2u * item >= uint(items.length())) {
 		return;
 	}
-	// 0.0: any distance will do, since all faces have one level of detail.
+	// 0.0: any distance will do, since all faces have one LOD.
 	const CountReceiver anchor = make_count_receiver(light, items[2u * item].xyz, 0.0);
 	const CountReceiver receiver = make_count_receiver(light, items[2u * item + 1u].xyz, 0.0);
 	const uint face_count = uint(items[2u * item].w);
 	const Sweep sweep = make_sweep(anchor.position, receiver.position);
-	ivec3 swept = unpack(count_all_faces(anchor, face_count));
+	ivec3 swept = count_all_faces(anchor, face_count);
 	bool is_undecided = false;
 	for (uint i = 0u; i < find_edge_count(); ++i) {
 		const CountEdgeRecord edge = load_count_edge(i);
@@ -66,8 +60,8 @@ void main() {
 		swept += find_face_change(
 				anchor.position, receiver.position, sweep, load_count_face(i), load_count_plane(i), is_undecided);
 	}
-	const ivec3 expected = unpack(count_all_faces(receiver, face_count));
+	const ivec3 expected = count_all_faces(receiver, face_count);
 	results[item] = vec4(count_differences(swept, expected), is_undecided ? 1.0 : 0.0,
 			float(expected.x + expected.y + expected.z),
-			count_differences(unpack(count_along_ray(receiver, true)), expected));
+			count_differences(count_along_ray(receiver, true), expected));
 }

@@ -82,7 +82,7 @@ Found find_edges(
 			build_work_groups(inputs.casters, CasterItems::FACES, /*p_is_moved_only=*/false);
 	const std::vector<shader::CountWorkGroup> word_groups =
 			build_work_groups(inputs.casters, CasterItems::WORDS, /*p_is_moved_only=*/false);
-	const uint32_t block_count = uint32_t(word_groups.size());
+	const uint32_t run_count = uint32_t(word_groups.size());
 	const OwnedBuffer casters =
 			r_fixture.make_buffer("casters", inputs.records, fetched, Format::RGBA32_UINT);
 	const OwnedBuffer points =
@@ -105,8 +105,8 @@ Found find_edges(
 			r_fixture.make_readback(face_count * sizeof(shader::CountFaceRecord));
 	const OwnedBuffer words =
 			r_fixture.make_buffer("words", std::vector<uint32_t>(word_count), fetched);
-	const OwnedBuffer blocks = r_fixture.make_buffer(
-			"blocks", std::vector<uint32_t>(block_count), fetched | BufferUsage::COPY_SOURCE);
+	const OwnedBuffer runs = r_fixture.make_buffer(
+			"runs", std::vector<uint32_t>(run_count), fetched | BufferUsage::COPY_SOURCE);
 	const uint64_t list_bytes = edge_count * sizeof(shader::CountEdgeRecord);
 	const OwnedBuffer list(*r_fixture.device,
 			r_fixture.device->create_buffer({ .name = "list",
@@ -118,7 +118,7 @@ Found find_edges(
 	const OwnedBuffer totals_readback =
 			r_fixture.make_readback(EDGE_COUNT_TOTAL_COUNT * sizeof(uint32_t));
 	const OwnedBuffer list_readback = r_fixture.make_readback(list_bytes);
-	const OwnedBuffer blocks_readback = r_fixture.make_readback(block_count * sizeof(uint32_t));
+	const OwnedBuffer runs_readback = r_fixture.make_readback(run_count * sizeof(uint32_t));
 
 	CommandList &commands = r_fixture.device->begin_commands();
 	const auto wait = [&](const OwnedBuffer &p_buffer, Access p_after) {
@@ -147,20 +147,20 @@ Found find_edges(
 	run("shadow_edge_count/caster_faces.comp", uint32_t(face_groups.size()), face_count,
 			{ { FIND_BINDING_GROUPS, face_work.get() },
 					{ FIND_BINDING_MESH_FACES, mesh_faces.get() },
-					{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_FACES, faces.get() } });
+					{ COUNT_BINDING_PLANES, planes.get() }, { COUNT_BINDING_FACES, faces.get() } });
 	wait(planes, Access::SHADER_READ_COMPUTE);
-	run("shadow_edge_count/mark_edges.comp", block_count, word_count,
+	run("shadow_edge_count/mark_edges.comp", run_count, word_count,
 			{ { FIND_BINDING_GROUPS, word_work.get() },
 					{ FIND_BINDING_MESH_EDGES, mesh_edges.get() },
-					{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_WORDS, words.get() },
-					{ FIND_BINDING_BLOCKS, blocks.get() } });
+					{ COUNT_BINDING_PLANES, planes.get() }, { FIND_BINDING_WORDS, words.get() },
+					{ FIND_BINDING_RUNS, runs.get() } });
 	wait(words, Access::SHADER_READ_COMPUTE);
-	wait(blocks, Access::SHADER_READ_COMPUTE);
-	run("shadow_edge_count/list_edges.comp", block_count, word_count,
+	wait(runs, Access::SHADER_READ_COMPUTE);
+	run("shadow_edge_count/list_edges.comp", run_count, word_count,
 			{ { FIND_BINDING_GROUPS, word_work.get() },
 					{ FIND_BINDING_MESH_EDGES, mesh_edges.get() },
-					{ FIND_BINDING_WORDS, words.get() }, { FIND_BINDING_BLOCKS, blocks.get() },
-					{ FIND_BINDING_EDGES, list.get() }, { FIND_BINDING_TOTALS, totals.get() } });
+					{ FIND_BINDING_WORDS, words.get() }, { FIND_BINDING_RUNS, runs.get() },
+					{ COUNT_BINDING_EDGES, list.get() }, { COUNT_BINDING_TOTALS, totals.get() } });
 	wait(faces, Access::COPY_READ);
 	commands.copy_buffer(
 			faces.get(), faces_readback.get(), face_count * sizeof(shader::CountFaceRecord));
@@ -171,14 +171,14 @@ Found find_edges(
 	commands.copy_buffer(planes.get(), planes_readback.get(), face_count * sizeof(glm::vec4));
 	wait(list, Access::COPY_READ);
 	wait(totals, Access::COPY_READ);
-	wait(blocks, Access::COPY_READ);
+	wait(runs, Access::COPY_READ);
 	commands.copy_buffer(list.get(), list_readback.get(), list_bytes);
 	commands.copy_buffer(
 			totals.get(), totals_readback.get(), EDGE_COUNT_TOTAL_COUNT * sizeof(uint32_t));
-	commands.copy_buffer(blocks.get(), blocks_readback.get(), block_count * sizeof(uint32_t));
+	commands.copy_buffer(runs.get(), runs_readback.get(), run_count * sizeof(uint32_t));
 	r_fixture.device->submit_commands(RenderingDevice::SubmitMode::WAIT);
 	uint32_t found_count = 0;
-	for (const uint32_t count : r_fixture.read<uint32_t>(blocks_readback, block_count)) {
+	for (const uint32_t count : r_fixture.read<uint32_t>(runs_readback, run_count)) {
 		found_count += count;
 	}
 	CHECK(r_fixture.read<uint32_t>(
@@ -249,7 +249,7 @@ TEST_CASE("[GPU][EdgeCount] faces and edges of all casters match the double vers
 							{ -0.5f, 0, 0.4f } },
 					{}, { 0, 1, 2, 0, 2, 3 });
 			std::vector<Caster> casters(4);
-			casters[0].topology = get_topology(make_count_sphere(0.8, 24)); // several blocks
+			casters[0].topology = get_topology(make_count_sphere(0.8, 24)); // several runs
 			casters[0].light_from_node = make_transform(0.4, 1.0);
 			casters[1].topology = get_topology(make_box_mesh("box", glm::vec3(0.4, 0.3, 0.2)));
 			casters[1].light_from_node = make_transform(1.3, -1.0); // mirrored

@@ -62,9 +62,9 @@ Trees bound(KernelFixture &r_fixture, const std::vector<shader::CountFaceRecord>
 			choose_fetching_shader(*r_fixture.device, "shadow_edge_count/bound_clusters.comp");
 	commands.bind_pipeline(
 			r_fixture.device->get_compute_pipeline({ .name = clusters, .shader = clusters }));
-	commands.bind_resources({ { FIND_BINDING_LIGHT, light.get() },
-			{ FIND_BINDING_TOTALS, totals_buffer.get() }, { FIND_BINDING_NODES, nodes.get() },
-			{ FIND_BINDING_EDGES, edges.get() }, { FIND_BINDING_FACES, faces.get() } });
+	commands.bind_resources({ { COUNT_BINDING_LIGHT, light.get() },
+			{ COUNT_BINDING_TOTALS, totals_buffer.get() }, { COUNT_BINDING_NODES, nodes.get() },
+			{ COUNT_BINDING_EDGES, edges.get() }, { COUNT_BINDING_FACES, faces.get() } });
 	commands.dispatch_items({ count_nodes(item_count, 0), 1, 2 });
 	for (uint32_t level = 1; level < EDGE_COUNT_MAX_LEVELS; level += 3) {
 		const Barrier barrier = { .buffer = nodes.get(),
@@ -72,11 +72,11 @@ Trees bound(KernelFixture &r_fixture, const std::vector<shader::CountFaceRecord>
 			.after = Access::SHADER_WRITE_COMPUTE };
 		commands.barriers({ &barrier, 1 });
 		commands.bind_pipeline(r_fixture.device->get_compute_pipeline(
-				{ .name = "nodes", .shader = "shadow_edge_count/bound_nodes.comp" }));
-		commands.bind_resources(
-				{ { FIND_BINDING_LIGHT, light.get() }, { FIND_BINDING_TOTALS, totals_buffer.get() },
-						{ FIND_BINDING_NODES, nodes.get() } });
-		commands.push_constants(shader::CountBoundPush{ level, 0, 0, 0 });
+				{ "nodes", "shadow_edge_count/bound_nodes.comp",
+						{ { EDGE_COUNT_CONSTANT_FIRST_LEVEL, level } } }));
+		commands.bind_resources({ { COUNT_BINDING_LIGHT, light.get() },
+				{ COUNT_BINDING_TOTALS, totals_buffer.get() },
+				{ COUNT_BINDING_NODES, nodes.get() } });
 		commands.dispatch_items({ count_nodes(item_count, level), 1, 2 });
 	}
 	const Barrier barrier = {

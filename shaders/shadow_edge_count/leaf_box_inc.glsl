@@ -1,18 +1,15 @@
-// Boxes in scalar registers of GPUs.
-#ifndef UNIFORM_BOX_INC_GLSL
-#define UNIFORM_BOX_INC_GLSL
+// Boxes of leaves, in scalar registers of GPUs. Include it after SUBGROUP_SIZE is defined.
+#ifndef LEAF_BOX_INC_GLSL
+#define LEAF_BOX_INC_GLSL
 
-#include "shadow_edge_count/count_box_inc.glsl"
+#include "common/subgroup_inc.glsl"
+#include "shadow_edge_count/leaf_inc.glsl"
 
-// Of subgroup_inc.glsl, which is included later.
-float subgroup_uniform(float p_value);
-vec2 subgroup_uniform(vec2 p_value);
-vec3 subgroup_uniform(vec3 p_value);
-vec4 subgroup_uniform(vec4 p_value);
-
-/// All invocations must be active, and have the same box.
-CountBox make_uniform_box(CountBox p_box) {
-	CountBox box = p_box;
+/// The box of receivers of the leaf, which have these bounds. p_radius: see make_count_box. All invocations must be active, and
+/// have the same bounds.
+CountBox make_leaf_box(CountLeaf p_leaf, CountBounds p_bounds, float p_radius) {
+	CountBox box = make_count_box(light, p_radius, make_count_frame(p_leaf.axis_distance.xyz), p_bounds,
+			p_leaf.axis_distance.w, is_wide_leaf(p_leaf));
 	box.above = subgroup_uniform(box.above);
 	box.below = subgroup_uniform(box.below);
 	box.smooth_fraction = subgroup_uniform(box.smooth_fraction);
