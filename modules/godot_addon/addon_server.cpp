@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/godot_addon/addon_settings.h"
 #include "modules/godot_addon/light_choice.h"
 #include "modules/scene/cut_mesh.h"
 
@@ -24,6 +25,13 @@ std::string find_unsupported_reason(const godot::RenderingServer &p_server) {
 	if (method != "forward_plus") {
 		return text("the renderer is ", method, ". Set rendering/renderer/rendering_method to ",
 				"forward_plus");
+	}
+	const std::string driver = p_server.get_current_rendering_driver_name().to_utf8();
+	const bool is_untried = driver == "d3d12" || driver == "metal";
+	if (is_untried && !read_addon_settings().allows_other_drivers) {
+		return text("Godot draws with ", driver, ", and the add-on was only run with Vulkan. Set ",
+				"rendering/rendering_device/driver.", driver == "d3d12" ? "windows" : "macos",
+				" to vulkan, or turn rendering/gnomon/other_drivers on to try it");
 	}
 	if (!p_server.get_rendering_device()) {
 		return "Godot draws nothing here. Start it with a window, without --headless";

@@ -77,6 +77,8 @@ AddonSettings read_addon_settings() {
 	settings.is_compilation_gradual =
 			read_setting("rendering/gnomon/gradual_compilation", settings.is_compilation_gradual)
 					.to_bool();
+	settings.allows_other_drivers =
+			read_setting("rendering/gnomon/other_drivers", settings.allows_other_drivers).to_bool();
 	settings.most_lights = size_t(read_checked<int64_t>(
 			most_lights, [](const godot::Variant &p_value) { return p_value.to_int(); }));
 	settings.default_technique = read_checked<std::string>(get_default_technique_setting(),

@@ -23,6 +23,9 @@ struct AddonSettings {
 	/// In games at most one shader is compiled in each frame. What needs others keeps Godot's
 	/// shadow.
 	bool is_compilation_gradual = true;
+	/// Whether masks are also made where Godot draws with another API than Vulkan. Read when the
+	/// game starts.
+	bool allows_other_drivers = false;
 };
 AddonSettings read_addon_settings();
 

@@ -65,7 +65,7 @@ USED = {
     "RenderingServer": {
         "methods": """
             get_rendering_device create_local_rendering_device get_current_rendering_method call_on_render_thread
-            get_video_adapter_type
+            get_current_rendering_driver_name get_video_adapter_type
             compositor_effect_create compositor_effect_set_callback compositor_effect_set_flag
             compositor_effect_set_enabled compositor_create compositor_set_compositor_effects scenario_set_compositor
             shader_create shader_get_code shader_set_code get_shader_parameter_list shader_get_parameter_default

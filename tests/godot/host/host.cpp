@@ -221,9 +221,15 @@ void run(const std::string &p_path) {
 } // namespace
 
 int main(int p_count, char **p_arguments) {
-	if (p_count != 2) {
-		std::fprintf(stderr, "Usage: godot_host LIBRARY\n");
+	if (p_count < 2) {
+		std::fprintf(stderr, "Usage: godot_host LIBRARY [CLASS.METHOD=RESULT]...\n");
 		return 2;
+	}
+	for (int index = 2; index < p_count; ++index) {
+		const std::string argument = p_arguments[index];
+		const size_t separator = std::min(argument.find('='), argument.size());
+		get_state().results[argument.substr(0, separator)] =
+				argument.substr(std::min(separator + 1, argument.size()));
 	}
 	make_output_binary();
 	std::setvbuf(stdout, nullptr, _IONBF, 0); // what was printed before a crash is shown

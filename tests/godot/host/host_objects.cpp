@@ -16,15 +16,6 @@ struct StandInMethod {
 	std::string result; // of methods that return a text
 };
 
-/// The texts that Godot's methods return. All other results are 0, false and null.
-const std::map<std::string, StandInMethod> &get_results() {
-	static const std::map<std::string, StandInMethod> results = {
-		{ "RenderingServer.get_current_rendering_method",
-				{ {}, GDEXTENSION_VARIANT_TYPE_STRING, "host" } },
-	};
-	return results;
-}
-
 /// Objects of Godot's classes that exist once, by class.
 std::map<std::string, std::unique_ptr<HostObject>> &get_singletons() {
 	static std::map<std::string, std::unique_ptr<HostObject>> singletons;
@@ -170,9 +161,10 @@ const void *get_method_bind(const void *p_class, const void *p_method, GDExtensi
 	static std::map<std::string, StandInMethod> methods;
 	const std::string name = load_text(p_class) + "." + load_text(p_method);
 	StandInMethod &method = methods[name];
-	const auto result = get_results().find(name);
-	if (result != get_results().end()) {
-		method = result->second;
+	const auto result = get_state().results.find(name);
+	if (result != get_state().results.end()) {
+		method.result_type = GDEXTENSION_VARIANT_TYPE_STRING;
+		method.result = result->second;
 	}
 	method.name = name;
 	return &method;

@@ -45,6 +45,12 @@ struct HostObject {
 struct HostState {
 	std::map<std::string, HostClass> classes;
 	std::map<std::string, int> method_calls; // of Godot's methods, by "Class.method"
+	/// The texts that Godot's methods return, by "Class.method". All other results are 0, false and
+	/// null.
+	std::map<std::string, std::string> results = {
+		{ "RenderingServer.get_current_rendering_method", "host" },
+		{ "RenderingServer.get_current_rendering_driver_name", "host" },
+	};
 	GDExtensionMainLoopCallbacks callbacks = {};
 	size_t object_count = 0;
 };

@@ -15,10 +15,13 @@ import platforms  # noqa: E402
 NATIVE = "linux.x86_64"
 
 
-def run_host(platform, library=None):
-    """Return (exit code, output, stderr) of the host that loads the library; None: the add-on's."""
+def run_host(platform, library=None, results=()):
+    """Return (exit code, output, stderr) of the host that loads the library; None: the add-on's.
+
+    results: "Class.method=text", what Godot's methods return.
+    """
     program = platforms.get_program("godot_host", platform)
-    code, output, errors = platforms.run(platform, [program, library or platforms.get_library(platform)])
+    code, output, errors = platforms.run(platform, [program, library or platforms.get_library(platform), *results])
     return code, output.decode(), errors.decode(errors="replace")
 
 
@@ -59,6 +62,20 @@ class Host(unittest.TestCase):
         for platform, (_, output, _) in self.results.items():
             lines = difflib.unified_diff(expected, output.splitlines(), NATIVE, platform, lineterm="")
             self.assertEqual("\n".join(lines), "")
+
+    def test_a_driver_that_the_addon_was_never_run_with_is_named_once(self):
+        for driver, setting in (("d3d12", "driver.windows"), ("metal", "driver.macos")):
+            results = ("RenderingServer.get_current_rendering_method=forward_plus",
+                       "RenderingServer.get_current_rendering_driver_name=" + driver)  # fmt: skip
+            for platform in platforms.LIBRARIES:
+                with self.subTest(platform, driver=driver):
+                    code, output, errors = run_host(platform, results=results)
+                    self.assertEqual((code, errors), (0, ""), output[-2000:])
+                    lines = [line for line in output.splitlines() if "Godot's own shadows" in line]
+                    self.assertEqual(len(lines), 1, output)
+                    self.assertIn("Godot draws with %s" % driver, lines[0])
+                    self.assertIn("rendering/rendering_device/%s to vulkan" % setting, lines[0])
+                    self.assertIn("rendering/gnomon/other_drivers", lines[0])
 
     def test_a_library_that_is_missing_or_has_no_entry_is_an_error(self):
         for platform in platforms.LIBRARIES:

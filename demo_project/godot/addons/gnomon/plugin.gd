@@ -13,6 +13,7 @@ const SETTINGS: Array[Dictionary] = [
 	{"name": "rendering/gnomon/default_technique", "type": TYPE_STRING, "value": "edge_count", "hint": PROPERTY_HINT_ENUM},
 	{"name": "rendering/gnomon/keep_godot_shadows", "type": TYPE_STRING, "value": "auto", "hint": PROPERTY_HINT_ENUM, "hint_string": "auto,always,never"},
 	{"name": "rendering/gnomon/gradual_compilation", "type": TYPE_BOOL, "value": true},
+	{"name": "rendering/gnomon/other_drivers", "type": TYPE_BOOL, "value": false},
 	{"name": "rendering/gnomon/mask_resolution_scale", "type": TYPE_FLOAT, "value": 1.0, "hint": PROPERTY_HINT_RANGE, "hint_string": "0.25,1,0.01"},
 ]
 
