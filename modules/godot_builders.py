@@ -76,7 +76,7 @@ def get_api_folder(env):
 
 ZIP_FOLDER = "addons/gnomon"
 ZIP_DATE = (2026, 1, 1, 0, 0, 0)  # of every entry, so that the same files give the same archive
-SKIPPED = (".import", ".uid")  # files that Godot generates
+SKIPPED = (".import",)  # files that Godot generates for each project
 
 
 def add_zip(env, libraries):

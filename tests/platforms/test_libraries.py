@@ -109,6 +109,14 @@ class Package(unittest.TestCase):
         self.assertTrue(all(name.startswith("addons/gnomon/") for name in names))
         self.assertFalse([name for name in names if name.endswith(".debug")])
 
+    def test_every_script_and_shader_in_the_zip_has_an_identifier_of_its_own(self):
+        with zipfile.ZipFile(ZIP) as archive:
+            names = [name for name in archive.namelist() if name.endswith((".gd", ".gdextension", ".gdshaderinc"))]
+            identifiers = [archive.read(name + ".uid").decode().strip() for name in names]
+        self.assertGreater(len(names), 3)
+        self.assertTrue(all(identifier.startswith("uid://") for identifier in identifiers), identifiers)
+        self.assertEqual(len(set(identifiers)), len(names))
+
 
 if __name__ == "__main__":
     unittest.main()
