@@ -227,7 +227,8 @@ uint64_t InstanceSnapshot::compute_hash(uint64_t p_seed) const {
 
 float LightSnapshot::get_disc_radius() const {
 	if (type == LightType::DIRECTIONAL) {
-		return std::tan(glm::radians(light_angular_distance_deg) * 0.5f);
+		const double half_rad = glm::radians(light_angular_distance_deg) * 0.5f;
+		return static_cast<float>(std::tan(half_rad)); // rounded alike with every C library
 	}
 	return light_size_m;
 }

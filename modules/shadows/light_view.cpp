@@ -195,7 +195,9 @@ std::vector<LightView> build_light_views(const LightSnapshot &p_light, const Lig
 	const float widening = widen_for_border(p_map_size_px, p_border_px);
 	if (p_light.type == LightType::SPOT && p_light.outer_cone_rad <= MAX_SINGLE_VIEW_RAD) {
 		view.view_from_world = make_view(axes[0], -axes[1], -axes[2], p_light.position_world);
-		const float tangent = std::max(std::tan(p_light.outer_cone_rad), MIN_TANGENT);
+		// In double precision, whose rounding to float is the same with every C library.
+		const float exact = static_cast<float>(std::tan(double(p_light.outer_cone_rad)));
+		const float tangent = std::max(exact, MIN_TANGENT);
 		view.half_extent = glm::vec2(tangent * widening);
 		return { view };
 	}
@@ -222,8 +224,8 @@ shader::LightConstants compute_light_constants(
 	constants.direction = glm::vec4(glm::vec3(p_light.get_direction_world()), 0.0f);
 	constants.intensity = glm::vec4(p_light.color * p_light.intensity, 0.0f);
 	constants.range_m = p_light.range_m;
-	constants.cos_outer = std::cos(p_light.outer_cone_rad);
-	constants.cos_inner = std::cos(p_light.inner_cone_rad);
+	constants.cos_outer = static_cast<float>(std::cos(double(p_light.outer_cone_rad)));
+	constants.cos_inner = static_cast<float>(std::cos(double(p_light.inner_cone_rad)));
 	constants.type = p_light.type == LightType::OMNI ? LIGHT_TYPE_OMNI
 			: p_light.type == LightType::SPOT		 ? LIGHT_TYPE_SPOT
 													 : LIGHT_TYPE_DIRECTIONAL;
