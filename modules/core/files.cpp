@@ -2,13 +2,13 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/core/operating_system.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -21,31 +21,14 @@ namespace {
 const char CACHE_MAGIC[8] = { 'G', 'N', 'O', 'M', 'O', 'N', 'C', '1' };
 const size_t CACHE_HEADER_BYTES = sizeof(CACHE_MAGIC) + 2 * sizeof(uint64_t);
 
-/// The candidates for the location of a user's folder, in order of priority.
-struct UserFolder {
-	const char *folder_variable; // environment variable with the path of the folder itself
-	const char *parent_variable; // environment variable with the parent folder: XDG_CACHE_HOME
-	const char *home_subfolder;	 // parent folder, relative to $HOME
-	const char *temporary;		 // name of the folder below the system's temporary folder
-};
-
-const char *get_variable(const char *p_name) {
-	const char *value = std::getenv(p_name);
-	return value != nullptr && *value != 0 ? value : nullptr;
-}
-
-/// Returns the first candidate that is set, and creates the folder if absent. A failure to create
-/// it is reported by the first write into it.
-fs::path find_user_folder(const UserFolder &p_folder) {
-	fs::path folder;
-	if (const char *own = get_variable(p_folder.folder_variable)) {
-		folder = own;
-	} else if (const char *shared = get_variable(p_folder.parent_variable)) {
-		folder = fs::path(shared) / "gnomon";
-	} else if (const char *home = get_variable("HOME")) {
-		folder = fs::path(home) / p_folder.home_subfolder / "gnomon";
-	} else {
-		folder = fs::temp_directory_path() / p_folder.temporary;
+/// Returns the folder that p_variable names, else the system's, else p_temporary below the folder
+/// of temporary files, and creates it if absent. A failure to create it is reported by the first
+/// write into it.
+fs::path find_user_folder(const char *p_variable, UserFolderKind p_kind, const char *p_temporary) {
+	const auto own = get_environment_variable(p_variable);
+	fs::path folder = own ? make_path(*own) : find_system_user_folder(p_kind);
+	if (folder.empty()) {
+		folder = fs::temp_directory_path() / p_temporary;
 	}
 	std::error_code code;
 	fs::create_directories(folder, code);
@@ -53,6 +36,11 @@ fs::path find_user_folder(const UserFolder &p_folder) {
 }
 
 } // namespace
+
+fs::path make_path(std::string_view p_text) {
+	return { reinterpret_cast<const char8_t *>(p_text.data()),
+		reinterpret_cast<const char8_t *>(p_text.data() + p_text.size()) };
+}
 
 std::vector<uint8_t> load_file(const fs::path &p_path, uint64_t p_limit_bytes) {
 	std::error_code code;
@@ -98,11 +86,11 @@ bool is_inside_folder(const fs::path &p_path, const fs::path &p_folder) {
 }
 
 fs::path get_cache_folder() {
-	return find_user_folder({ "GNOMON_CACHE_DIR", "XDG_CACHE_HOME", ".cache", "gnomon-cache" });
+	return find_user_folder("GNOMON_CACHE_DIR", UserFolderKind::CACHE, "gnomon-cache");
 }
 
 fs::path get_config_folder() {
-	return find_user_folder({ "GNOMON_CONFIG_DIR", "XDG_CONFIG_HOME", ".config", "gnomon-config" });
+	return find_user_folder("GNOMON_CONFIG_DIR", UserFolderKind::CONFIG, "gnomon-config");
 }
 
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed) {
@@ -147,14 +135,14 @@ std::optional<std::span<const uint8_t>> parse_cache_entry(std::span<const uint8_
 
 void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes) {
 	try {
-		save_file_atomically(get_cache_folder() / p_name, build_cache_entry(p_bytes));
+		save_file_atomically(get_cache_folder() / make_path(p_name), build_cache_entry(p_bytes));
 	} catch (const Error &error) {
 		log_warning("Cache entry not stored: ", error.what());
 	}
 }
 
 std::vector<uint8_t> load_cache_entry(const std::string &p_name) {
-	const fs::path path = get_cache_folder() / p_name;
+	const fs::path path = get_cache_folder() / make_path(p_name);
 	std::error_code code;
 	if (!fs::exists(path, code)) {
 		return {};

@@ -13,6 +13,10 @@
 
 namespace gnomon {
 
+/// Makes a path of UTF-8 text. The constructor of std::filesystem::path does not on Windows, where
+/// libstdc++ 12 reads text as Latin-1; path::string() returns UTF-8 everywhere.
+std::filesystem::path make_path(std::string_view p_text);
+
 /// Loads the whole file. A path that is missing, unreadable, a folder, or larger than the limit
 /// (default 2 GiB) is an Error that names it.
 std::vector<uint8_t> load_file(
@@ -45,13 +49,12 @@ std::function<void()> set_save_step_hook(std::function<void()> p_hook);
 /// Returns true if the path, with `..` and links resolved, is the folder or below it.
 bool is_inside_folder(const std::filesystem::path &p_path, const std::filesystem::path &p_folder);
 
-/// Returns the folder for data that can be recomputed: $GNOMON_CACHE_DIR, else
-/// $XDG_CACHE_HOME/gnomon, else ~/.cache/gnomon, else a folder below the system's temporary one.
-/// Created when absent.
+/// Returns the folder for data that can be recomputed: $GNOMON_CACHE_DIR, else that of
+/// find_system_user_folder, else a folder below the system's temporary one. Created when absent.
 std::filesystem::path get_cache_folder();
 
-/// Returns the folder for a user's settings: $GNOMON_CONFIG_DIR, else $XDG_CONFIG_HOME/gnomon, else
-/// ~/.config/gnomon, else a folder below the system's temporary one. Created when absent.
+/// Returns the folder for a user's settings: $GNOMON_CONFIG_DIR, else that of
+/// find_system_user_folder, else a folder below the system's temporary one. Created when absent.
 std::filesystem::path get_config_folder();
 
 /// Computes a 64-bit xxHash3, for naming cache entries and detecting damaged ones. It is not

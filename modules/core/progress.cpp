@@ -1,6 +1,6 @@
 #include "modules/core/progress.h"
 
-#include <unistd.h>
+#include "modules/core/operating_system.h"
 
 #include <algorithm>
 #include <atomic>
@@ -19,7 +19,7 @@ std::atomic<int> alive_count = 0;
 
 Progress::Progress(std::string p_what) :
 		what(std::move(p_what)), start(std::chrono::steady_clock::now()),
-		is_terminal(::isatty(STDERR_FILENO) != 0), is_inner(alive_count++ > 0) {}
+		is_terminal(is_error_output_terminal()), is_inner(alive_count++ > 0) {}
 
 Progress::~Progress() {
 	--alive_count;

@@ -157,7 +157,7 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 		if (section == "project" && key == "name") {
 			project.name = unquote(entry.value);
 		} else if (section == "project" && key == "start_scene") {
-			project.start_scene = project.folder / unquote(entry.value);
+			project.start_scene = project.folder / make_path(unquote(entry.value));
 		} else if (section == "project" && key == "scenes") {
 			project.add_scenes(parse_list(entry), project.scenes);
 		} else if (section == "project" && key == "stability_scenes") {
@@ -179,7 +179,7 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 
 void Project::add_scenes(const std::vector<std::string> &p_names, std::vector<fs::path> &r_scenes) {
 	for (const std::string &scene : p_names) {
-		const fs::path path = folder / scene;
+		const fs::path path = folder / make_path(scene);
 		std::error_code code; // with an error, as for a name that is too long, the scene is missing
 		const bool scene_exists = fs::exists(path, code);
 		(scene_exists ? r_scenes : missing_scenes).push_back(path);

@@ -1,17 +1,28 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 #include <string>
+#include <type_traits>
 
 namespace gnomon {
 
-/// Joins its arguments as operator<< prints them: text("size ", 3, " px"). (g++ 12 lacks
+/// Writes a value as operator<< does, and a path in quotes, without doubled backslashes.
+template <typename T> void write_text(std::ostream &r_stream, const T &p_value) {
+	if constexpr (std::is_same_v<T, std::filesystem::path>) {
+		r_stream << '"' << p_value.string() << '"';
+	} else {
+		r_stream << p_value;
+	}
+}
+
+/// Joins its arguments as write_text writes them: text("size ", 3, " px"). (g++ 12 lacks
 /// std::format.) Floating-point numbers have 9 significant digits, enough to read a float back.
 template <typename... Arguments> std::string text(const Arguments &...p_arguments) {
 	std::ostringstream stream;
 	stream.precision(9);
-	(stream << ... << p_arguments);
+	(write_text(stream, p_arguments), ...);
 	return stream.str();
 }
 

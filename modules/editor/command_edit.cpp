@@ -2,6 +2,8 @@
 
 #include "modules/editor/command_edit.h"
 
+#include "modules/core/operating_system.h"
+#include "modules/core/path_option.h"
 #include "modules/editor/editor_window.h"
 
 #include <CLI/CLI.hpp>
@@ -18,11 +20,12 @@ EditorOptions options; // not local, because the parser fills it in after add_ed
 
 void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 	CLI::App *command = r_app.add_subcommand("edit", "Opens a project or a scene in the editor");
-	command->add_option("project", options.path,
+	add_path_option(*command, "project", options.path,
 			"A project's folder, or a .gltf or .glb file. Default: the last opened scene");
-	command->add_option("--shaders", options.shaders,
+	add_path_option(*command, "--shaders", options.shaders,
 			"Shader sources, recompiled when they change. Default: next to bin");
-	command->add_option("--items", options.items, "File for the widgets' positions, for tests");
+	add_path_option(
+			*command, "--items", options.items, "File for the widgets' positions, for tests");
 	command->add_option("--frames", options.frame_count, "Ends after this many frames")
 			->check(CLI::Range(1u, 1000000u));
 	command->add_option("--device", r_common.device, "Index or part of the name");
@@ -36,7 +39,7 @@ void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 		options.stage = parse_stage_mode(r_common.stage, "--stage");
 		options.device = r_common.device;
 		options.validation = r_common.validation;
-		options.program = std::filesystem::read_symlink("/proc/self/exe");
+		options.program = find_program_path();
 		if (options.shaders.empty()) {
 			options.shaders = options.program.parent_path().parent_path() / "shaders";
 		}

@@ -45,16 +45,16 @@ void RecordStore::save(
 		const std::string &p_name, const Json &p_content, std::span<const uint8_t> p_image) {
 	// The image is written before the JSON, so that a record whose JSON exists is complete.
 	if (!p_image.empty()) {
-		save_file_atomically(folder / (p_name + ".png"), p_image);
+		save_file_atomically(folder / make_path(p_name + ".png"), p_image);
 	}
 	const Json record = { { "checksum", format_hash(compute_text_hash(dump_content(p_content))) },
 		{ "image_checksum", p_image.empty() ? "" : format_hash(compute_hash(p_image)) },
 		{ "content", p_content } };
-	save_file_atomically(folder / (p_name + ".json"), dump_content(record) + "\n");
+	save_file_atomically(folder / make_path(p_name + ".json"), dump_content(record) + "\n");
 }
 
 std::optional<Json> RecordStore::load(const std::string &p_name) const {
-	const fs::path path = folder / (p_name + ".json");
+	const fs::path path = folder / make_path(p_name + ".json");
 	std::error_code code;
 	if (!fs::exists(path, code)) {
 		return std::nullopt;
@@ -67,7 +67,7 @@ std::optional<Json> RecordStore::load(const std::string &p_name) const {
 				format_hash(compute_text_hash(dump_content(record.at("content"))))) {
 			damage = "its checksum is wrong";
 		} else if (!image_checksum.empty() &&
-				format_hash(compute_hash(load_file(folder / (p_name + ".png")))) !=
+				format_hash(compute_hash(load_file(folder / make_path(p_name + ".png")))) !=
 						image_checksum) {
 			damage = "the checksum of its image is wrong";
 		} else {
@@ -83,7 +83,7 @@ std::optional<Json> RecordStore::load(const std::string &p_name) const {
 }
 
 std::vector<uint8_t> RecordStore::load_image(const std::string &p_name) const {
-	const fs::path path = folder / (p_name + ".png");
+	const fs::path path = folder / make_path(p_name + ".png");
 	std::error_code code;
 	return fs::exists(path, code) ? load_file(path) : std::vector<uint8_t>();
 }
@@ -96,8 +96,8 @@ void RecordStore::copy_from(const RecordStore &p_other, const std::string &p_nam
 
 void RecordStore::remove(const std::string &p_name) {
 	std::error_code code;
-	fs::remove(folder / (p_name + ".json"), code);
-	fs::remove(folder / (p_name + ".png"), code);
+	fs::remove(folder / make_path(p_name + ".json"), code);
+	fs::remove(folder / make_path(p_name + ".png"), code);
 }
 
 void RecordStore::remove_others(const std::vector<std::string> &p_names) {

@@ -1,6 +1,7 @@
 #include "modules/error_report/report_page.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 #include "modules/error_report/page_files.h"
 #include "modules/error_report/report.h"
 #include "modules/masks/mask_png.h"
@@ -86,8 +87,7 @@ void add_image(const Json &p_owner, const RecordStore &p_store, Json &r_images) 
 	if (name.empty()) {
 		return;
 	}
-	const std::vector<uint8_t> bytes =
-			p_store.load_image(std::filesystem::path(name).stem().string());
+	const std::vector<uint8_t> bytes = p_store.load_image(make_path(name).stem().string());
 	if (!bytes.empty()) {
 		r_images[name] = "data:image/png;base64," + encode_base64(bytes);
 	}

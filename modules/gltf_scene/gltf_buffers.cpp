@@ -80,14 +80,14 @@ fs::path resolve_uri(
 	if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos) {
 		reject("must be a path with valid % escapes");
 	}
-	fs::path relative(*decoded);
+	fs::path relative = make_path(*decoded);
 	std::error_code code;
 	if (decoded->find('\\') != std::string::npos &&
 			!fs::exists(p_location.folder / relative, code)) {
 		// Some converters write Windows paths with backslashes, which glTF does not allow.
 		std::string separated = *decoded;
 		std::replace(separated.begin(), separated.end(), '\\', '/');
-		relative = separated;
+		relative = make_path(separated);
 	}
 	if (relative.is_absolute()) {
 		reject("must not be an absolute path");

@@ -46,7 +46,7 @@ bool GltfSideFiles::is_name_taken(
 		return found->second != p_bytes;
 	}
 	std::error_code code;
-	const fs::path path = folder / p_name;
+	const fs::path path = folder / make_path(p_name);
 	if (!fs::exists(fs::symlink_status(path, code))) { // a broken symbolic link exists too
 		return false;
 	}
@@ -64,14 +64,14 @@ std::string GltfSideFiles::add(const std::string &p_requested_name, std::vector<
 }
 
 std::string GltfSideFiles::make_numbered_name(const std::string &p_name, size_t p_number) {
-	const fs::path path(p_name);
+	const fs::path path = make_path(p_name);
 	return p_number < 2 ? p_name
 						: text(path.stem().string(), "_", p_number, path.extension().string());
 }
 
 void GltfSideFiles::save() const {
 	for (const auto &[name, bytes] : files) {
-		save_file_atomically(folder / name, bytes);
+		save_file_atomically(folder / make_path(name), bytes);
 	}
 }
 

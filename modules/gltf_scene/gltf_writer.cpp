@@ -75,7 +75,7 @@ fs::path find_previous_buffer(const fs::path &p_path) {
 			const std::string name =
 					GltfSideFiles::make_numbered_name(p_path.stem().string() + ".bin", number);
 			if (uri == encode_uri(name)) {
-				return fs::absolute(p_path).parent_path() / name;
+				return fs::absolute(p_path).parent_path() / make_path(name);
 			}
 		}
 	} catch (const Json::exception &) {

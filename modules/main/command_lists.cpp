@@ -4,6 +4,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/module_registry.h"
+#include "modules/core/operating_system.h"
 #include "modules/core/property.h"
 #include "modules/main/commands.h"
 #include "modules/shadows/mask_filter.h"
@@ -139,7 +140,7 @@ Json list_info(bool p_as_text, const CommonOptions &p_common) {
 	const unsigned threads = std::thread::hardware_concurrency();
 	if (p_as_text) {
 		std::printf("CPU: %s, %u threads\nCache: %s\n", find_cpu_name().c_str(), threads,
-				get_cache_folder().c_str());
+				get_cache_folder().string().c_str());
 	}
 	return { { "version", PROGRAM_VERSION }, { "devices", list }, { "chosen", chosen },
 		{ "cpu", find_cpu_name() }, { "threads", threads },

@@ -5,6 +5,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/core/path_option.h"
 #include "modules/error_report/report_comparison.h"
 #include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
@@ -184,8 +185,8 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	}
 	const std::vector<MeasurableTechnique> techniques =
 			RenderedMaskSource::find_techniques(p_arguments.techniques);
-	const fs::path out = p_arguments.out.empty() ? selected.folder / "out" / "report"
-												 : fs::path(p_arguments.out);
+	const fs::path out =
+			p_arguments.out.empty() ? selected.folder / "out" / "report" : p_arguments.out;
 	const ReportPlan plan = make_report_plan(options, scenes, techniques);
 	if (run_options.resumes) {
 		check_resumable(out, plan.report);
@@ -213,9 +214,8 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 }
 
 void run_merge_command(const ReportArguments &p_arguments) {
-	const std::vector<fs::path> folders(p_arguments.merged.begin(), p_arguments.merged.end());
 	const std::optional<Report> old_report = load_old_report(p_arguments);
-	const Report report = merge_reports(folders, p_arguments.merge_out);
+	const Report report = merge_reports(p_arguments.merged, p_arguments.merge_out);
 	finish_report(report, p_arguments.merge_out, p_arguments, old_report, MissingCells::REFUSED);
 }
 
@@ -223,7 +223,7 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	static ReportArguments arguments;
 	CLI::App *command = r_app.add_subcommand(
 			"report", "Error against run time of every technique, as a page with plots");
-	command->add_option("project", arguments.project, "A project, or one .gltf or .glb file");
+	add_path_option(*command, "project", arguments.project, "A project, or one .gltf or .glb file");
 	command->add_option("--scenes", arguments.scenes, "A,B: these scenes only")->delimiter(',');
 	command->add_option("--techniques", arguments.techniques, "A,B: these techniques only")
 			->delimiter(',');
@@ -268,7 +268,7 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "Percent: timing of a cell ends early once the standard error of its median is "
 				   "at most this; 0 = never; default 5")
 			->check(CLI::Range(0.0, 100.0));
-	command->add_option("--out", arguments.out, "Folder; default PROJECT/out/report");
+	add_path_option(*command, "--out", arguments.out, "Folder; default PROJECT/out/report");
 	command->add_flag("--resume", arguments.resumes, "Goes on with a run that was stopped");
 	command->add_option("--shard", arguments.shard,
 			"I/N: only the I-th of N shards, to split the work among N machines");
@@ -276,11 +276,12 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
 	CLI::App *merge =
 			command->add_subcommand("merge", "Merges the folders of shards into one report");
-	merge->add_option("folders", arguments.merged, "Folders that the shards were written to")
+	add_path_option(*merge, "folders", arguments.merged, "Folders that the shards were written to")
 			->required();
-	merge->add_option("--out", arguments.merge_out, "Folder of the merged report")->required();
+	add_path_option(*merge, "--out", arguments.merge_out, "Folder of the merged report")
+			->required();
 	for (CLI::App *any : { command, merge }) {
-		any->add_option("--against", arguments.against,
+		add_path_option(*any, "--against", arguments.against,
 				"An older report.json: reports what changed; exit code 1 if an error grew, if a "
 				"cell no longer works, or if none was measured in both");
 		any->add_option("--budget", arguments.budget_ms,

@@ -4,6 +4,7 @@
 #include "modules/core/files.h"
 #include "modules/core/limits.h"
 #include "modules/core/log.h"
+#include "modules/core/path_option.h"
 #include "modules/core/png.h"
 #include "modules/main/commands.h"
 #include "modules/main/run_part.h"
@@ -19,8 +20,8 @@ namespace gnomon {
 namespace {
 
 RunOptions options;
-std::string reference_path; // --reference
-double speed = 1;			// --speed
+std::filesystem::path reference_path; // --reference
+double speed = 1;					  // --speed
 
 const double HEADLESS_FRAMES_PER_S = 60;
 
@@ -110,7 +111,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 void run(const CommonOptions &p_common) {
 	glm::uvec2 size_px = choose_size(options.size, options.scene);
 	options.antialiasing = choose_antialiasing(options.antialiasing, options.scene);
-	for (const std::string &path : { options.capture, options.dot, options.time_path }) {
+	for (const std::filesystem::path &path : { options.capture, options.dot, options.time_path }) {
 		if (!path.empty()) {
 			check_writable(path);
 		}
@@ -144,14 +145,14 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	CLI::App *command = r_app.add_subcommand("run",
 			"Shows a scene: W A S D Q E and the right "
 			"mouse button fly, T changes the technique");
-	command->add_option("scene", options.scene, "A project's folder, or a .gltf or .glb file")
+	add_path_option(*command, "scene", options.scene, "A project's folder, or a .gltf or .glb file")
 			->required();
 	CLI::Option *headless =
 			command->add_flag("--headless", options.is_headless, "Renders without a window");
 	command->add_option("--frames", options.frame_count,
 				   "Ends after this many frames; default: no limit, headless: 1")
 			->check(CLI::Range(1u, 1000000u));
-	command->add_option("--capture", options.capture, "Writes the last frame as a PNG");
+	add_path_option(*command, "--capture", options.capture, "Writes the last frame as a PNG");
 	command->add_option("--size", options.size, "Default: the project's, else 512x512");
 	command->add_option("--antialiasing", options.antialiasing,
 				   "Supersampling: draws the image this many times as wide and high, then "
@@ -168,14 +169,13 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light that casts a shadow: mask, map, ...");
 	if (RunPartRegistry::find(MASKS_PART) != nullptr) {
-		command->add_option("--reference,--truth", reference_path,
+		add_path_option(*command, "--reference,--truth", reference_path,
 				"Reference mask of the first light that casts a shadow, an .exr of `gnomon "
 				"visibility`; enables "
 				"--debug-view error");
-		CLI::Option *time =
-				command->add_option("--time", options.time_path,
-							   "Writes the times of 20 frames after 5 to warm up as JSON")
-						->needs(headless);
+		CLI::Option *time = add_path_option(*command, "--time", options.time_path,
+				"Writes the times of 20 frames after 5 to warm up as JSON")
+									->needs(headless);
 		CLI::Option *still =
 				command->add_flag("--still", options.is_still,
 							   "--time measures frames in which nothing moves, so that techniques "
@@ -195,7 +195,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 			->take_all()
 			->allow_extra_args(false);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was skipped");
-	command->add_option("--dot", options.dot, "Writes the frame's graph for Graphviz");
+	add_path_option(*command, "--dot", options.dot, "Writes the frame's graph for Graphviz");
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
 	command->callback([&r_common] { run(r_common); });

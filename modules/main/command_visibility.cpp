@@ -4,6 +4,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/core/path_option.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
 #include "modules/masks/mask_image.h"
@@ -27,11 +28,11 @@ namespace {
 
 /// The options of `gnomon visibility`.
 struct VisibilityOptions {
-	std::string scene;
+	fs::path scene;
 	std::string technique;
-	std::string out;
-	std::string png;
-	std::string surfaces;
+	fs::path out;
+	fs::path png;
+	fs::path surfaces;
 	std::string light;
 	std::string camera;
 	std::optional<std::string> size;
@@ -39,7 +40,7 @@ struct VisibilityOptions {
 	uint32_t frame_count = 1;
 	uint32_t timed_frame_count = MEASURED_FRAME_COUNT;
 	std::vector<double> motion;
-	std::string time_path; // --time: the JSON file to write; empty: none
+	fs::path time_path; // --time: the JSON file to write; empty: none
 	bool prints_plan = false;
 	bool skips_nothing = false;
 	bool has_depth_only = false;
@@ -50,7 +51,10 @@ struct VisibilityOptions {
 fs::path number_path(const fs::path &p_path, uint32_t p_index) {
 	char number[16];
 	std::snprintf(number, sizeof(number), ".%04u", p_index);
-	return p_path.parent_path() / (p_path.stem().string() + number + p_path.extension().string());
+	fs::path name = p_path.stem();
+	name += number;
+	name += p_path.extension();
+	return p_path.parent_path() / name;
 }
 
 /// Moves the light by an offset in world space, in metres.
@@ -79,9 +83,9 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	check_mask_name(p_options.out);
 	check_writable(p_options.out);
 	if (!p_options.surfaces.empty()) {
-		check_writable(fs::path(p_options.surfaces) / "depth.f32");
+		check_writable(p_options.surfaces / "depth.f32");
 	}
-	for (const std::string &path : { p_options.png, p_options.time_path }) {
+	for (const fs::path &path : { p_options.png, p_options.time_path }) {
 		if (!path.empty()) {
 			check_writable(path);
 		}
@@ -115,7 +119,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 		const MaskImage mask = { size_px, std::move(result.visibility),
 			std::move(result.receiver) };
-		const fs::path out = moves ? number_path(p_options.out, index) : fs::path(p_options.out);
+		const fs::path out = moves ? number_path(p_options.out, index) : p_options.out;
 		save_mask_exr(out, mask);
 		if (std::all_of(mask.receiver.begin(), mask.receiver.end(),
 					[](float p_receiver) { return p_receiver <= 0.0f; })) {
@@ -124,13 +128,11 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 					"their positions and the light's range and cone.");
 		}
 		if (!p_options.png.empty()) {
-			save_mask_png(
-					moves ? number_path(p_options.png, index) : fs::path(p_options.png), mask);
+			save_mask_png(moves ? number_path(p_options.png, index) : p_options.png, mask);
 		}
 		if (!p_options.surfaces.empty()) {
-			const fs::path folder = p_options.surfaces;
-			save_file_atomically(folder / "depth.f32", result.depth_texels);
-			save_file_atomically(folder / "normal.u32", result.normal_texels);
+			save_file_atomically(p_options.surfaces / "depth.f32", result.depth_texels);
+			save_file_atomically(p_options.surfaces / "normal.u32", result.normal_texels);
 		}
 		if (p_options.prints_plan) {
 			std::printf("%s", result.plan.to_text().c_str());
@@ -156,12 +158,13 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	static VisibilityOptions options;
 	CLI::App *command = r_app.add_subcommand(
 			"visibility", "Writes one light's visibility mask, and its run time");
-	command->add_option("scene", options.scene, "A .gltf or .glb file, or a project")->required();
+	add_path_option(*command, "scene", options.scene, "A .gltf or .glb file, or a project")
+			->required();
 	command->add_option("--technique", options.technique, "Its id; see `gnomon techniques`")
 			->required();
-	command->add_option("--out", options.out, "The EXR to write: channels Y and receiver")
+	add_path_option(*command, "--out", options.out, "The EXR to write: channels Y and receiver")
 			->required();
-	command->add_option("--png", options.png, "Also writes the mask as a grey PNG");
+	add_path_option(*command, "--png", options.png, "Also writes the mask as a grey PNG");
 	add_stage_option(*command, r_common);
 	add_animation_options(*command, r_common);
 	command->add_option("--light", options.light, "Default: the first that casts shadows");
@@ -178,7 +181,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "dx,dy,dz in metres a frame: moves the light, writes one EXR a frame")
 			->delimiter(',')
 			->expected(3);
-	CLI::Option *time = command->add_option("--time", options.time_path,
+	CLI::Option *time = add_path_option(*command, "--time", options.time_path,
 			"Writes the times of 20 frames after 5 to warm up as JSON");
 	command->add_option("--timed-frames", options.timed_frame_count,
 				   "How many frames --time measures; default 20. Fewer are for tests of the "
@@ -189,7 +192,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "caches")
 			->needs(time);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was skipped");
-	command->add_option("--surfaces", options.surfaces,
+	add_path_option(*command, "--surfaces", options.surfaces,
 			"An existing folder: also writes the inputs of shadows, depth.f32 and normal.u32 (see "
 			"doc/embedding.md)");
 	command->add_flag("--depth-alone", options.has_depth_only,

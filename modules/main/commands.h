@@ -77,14 +77,17 @@ void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_
 /// other fields of p_options are passed through.
 std::unique_ptr<RenderingDevice> create_device(
 		const CommonOptions &p_common, DeviceOptions p_options = {});
-/// Returns the CPU model name from /proc/cpuinfo, or "unknown".
-std::string find_cpu_name();
 /// Returns the program's version and a hash of its executable, such as "0.1.0 5f2c9a7710e3b4d8", so
-/// that results of different builds can be distinguished. Without /proc the hash is omitted.
+/// that results of different builds can be distinguished. If the program finds no such file, the
+/// hash is omitted.
 std::string describe_program();
 /// Throws an Error if the file cannot be written: its folder does not exist or is not writable, or
 /// the path is a folder. Called before long measurements, so that they do not fail at the end.
 void check_writable(const std::filesystem::path &p_path);
+
+/// Runs the program and returns its exit code. The arguments are UTF-8, as those of main. Called by
+/// entry_posix.cpp and entry_windows.cpp.
+int run_gnomon(int p_argument_count, char **p_arguments);
 
 // Register and unregister the commands, and the features of `run`, that need the named module.
 void initialize_desktop_part();

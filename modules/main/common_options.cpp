@@ -4,6 +4,7 @@
 #include "modules/core/files.h"
 #include "modules/core/limits.h"
 #include "modules/core/log.h"
+#include "modules/core/operating_system.h"
 #include "modules/core/project.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/main/commands.h"
@@ -14,13 +15,13 @@
 #include "modules/shadows/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
+#ifdef __GLIBC__
 #include <malloc.h>
-#include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 namespace gnomon {
 
@@ -287,31 +288,18 @@ std::unique_ptr<RenderingDevice> create_device(
 void check_writable(const fs::path &p_path) {
 	const fs::path folder = p_path.has_parent_path() ? p_path.parent_path() : fs::path(".");
 	std::error_code code;
-	if (!fs::is_directory(folder, code) || ::access(folder.c_str(), W_OK) != 0 ||
-			fs::is_directory(p_path, code)) {
+	if (!is_folder_writable(folder) || fs::is_directory(p_path, code)) {
 		fail("Cannot write ", p_path,
 				": its folder must exist and be writable, and it must not be ",
 				"a folder itself. Choose another location.");
 	}
 }
 
-std::string find_cpu_name() {
-	std::ifstream stream("/proc/cpuinfo");
-	for (std::string line; std::getline(stream, line);) {
-		const size_t colon = line.find(": ");
-		if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-			return line.substr(colon + 2);
-		}
-	}
-	return "unknown";
-}
-
 std::string describe_program() {
-	const char *const self = "/proc/self/exe";
-	std::error_code code;
-	const bool has_proc = fs::exists(self, code); // a chroot may lack /proc
+	const fs::path program = find_program_path();
+	std::error_code code; // it may have been replaced since it was started
 	return std::string(PROGRAM_VERSION) +
-			(has_proc ? " " + format_hash(compute_hash(load_file(self))) : "");
+			(fs::exists(program, code) ? " " + format_hash(compute_hash(load_file(program))) : "");
 }
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
-// Entry point of the program: initializes the modules, parses the command line and runs one
-// command. Exit codes: 0 success, 1 failure, 2 wrong usage. An error is printed as one line on
-// stderr.
+// Initializes the modules, parses the command line and runs one command. Exit codes: 0 success, 1
+// failure, 2 wrong usage. An error is printed as one line on stderr.
 
 #include "modules/core/command_registry.h"
 #include "modules/core/error.h"
@@ -66,6 +65,7 @@ std::vector<CommandInfo> list_commands() {
 int run_program(int p_argument_count, char **p_arguments) {
 	CLI::App app("Gnomon: soft shadows that are measured against the exact ones.", "gnomon");
 	app.require_subcommand(1);
+	app.allow_windows_style_options(false); // there, by default, /path would be an option
 	app.set_version_flag("--version", std::string("gnomon ") + PROGRAM_VERSION);
 	CommonOptions common;
 	for (const CommandInfo &command : list_commands()) {
@@ -95,7 +95,7 @@ int run_program(int p_argument_count, char **p_arguments) {
 
 } // namespace
 
-int main(int p_argument_count, char **p_arguments) {
+int gnomon::run_gnomon(int p_argument_count, char **p_arguments) {
 	int result = 1;
 	try {
 		register_modules();

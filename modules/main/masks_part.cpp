@@ -13,7 +13,7 @@ namespace {
 
 const char *const COMMAND = "visibility";
 
-std::shared_ptr<const ReferenceMask> load_reference(const std::string &p_path) {
+std::shared_ptr<const ReferenceMask> load_reference(const std::filesystem::path &p_path) {
 	MaskImage image = load_mask_exr(p_path);
 	return std::make_shared<ReferenceMask>(
 			image.size_px, std::move(image.visibility), std::move(image.receiver));

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/core/operating_system.h"
 #include "modules/error_report/light_variant.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"

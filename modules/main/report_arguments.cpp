@@ -8,8 +8,6 @@
 #include "modules/main/commands.h"
 #include "modules/shadows/mask_filter.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -49,6 +47,29 @@ NamedFiles name_files(const std::vector<fs::path> &p_files, const fs::path &p_fo
 		named.push_back({ name, file });
 	}
 	return named;
+}
+
+/// Returns whether the pattern matches the whole name. A * in it is any text, also none.
+bool matches_pattern(std::string_view p_pattern, std::string_view p_name) {
+	const size_t star = p_pattern.find('*');
+	if (star == std::string_view::npos) {
+		return p_pattern == p_name;
+	}
+	if (!p_name.starts_with(p_pattern.substr(0, star))) {
+		return false;
+	}
+	p_name.remove_prefix(star);
+	p_pattern.remove_prefix(star + 1);
+	// Each part between stars is best found as early as possible; only the last must be at the end.
+	for (size_t next; (next = p_pattern.find('*')) != std::string_view::npos;) {
+		const size_t found = p_name.find(p_pattern.substr(0, next));
+		if (found == std::string_view::npos) {
+			return false;
+		}
+		p_name.remove_prefix(found + next);
+		p_pattern.remove_prefix(next + 1);
+	}
+	return p_name.ends_with(p_pattern);
 }
 
 /// Reads --stability and --sweeps. Without the module stability_report there are no sweeps, and
@@ -172,10 +193,8 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 	std::vector<std::string> names;
 	for (const auto &[name, file] : all) {
 		names.push_back(name);
-		const bool is_skipped =
-				std::ranges::any_of(p_arguments.skipped_scenes, [&](const std::string &p_pattern) {
-					return fnmatch(p_pattern.c_str(), name.c_str(), /*flags=*/0) == 0;
-				});
+		const bool is_skipped = std::ranges::any_of(p_arguments.skipped_scenes,
+				[&](const std::string &p_pattern) { return matches_pattern(p_pattern, name); });
 		if (!is_skipped &&
 				(requested.empty() ||
 						std::find(requested.begin(), requested.end(), name) != requested.end())) {

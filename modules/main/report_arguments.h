@@ -13,26 +13,26 @@ namespace gnomon {
 /// The arguments of `gnomon report` and `gnomon report merge`, as CLI11 stores them. Each is the
 /// option of the same name unless a comment says otherwise.
 struct ReportArguments {
-	std::string project;					 // path of a project or of a scene file
+	std::filesystem::path project;			 // or a scene file
 	std::vector<std::string> scenes;		 // names; empty: all
 	std::vector<std::string> techniques;	 // ids; empty: all but the reference and examples
 	std::vector<std::string> sizes;			 // metres, or only "own"; empty: the default sizes
 	std::string settings = "all";			 // or "default"
 	uint32_t frame_count = 20;				 // --frames: maximum per cell
-	std::vector<std::string> skipped_scenes; // --skip: names or fnmatch patterns
+	std::vector<std::string> skipped_scenes; // --skip: names; * is any text
 	std::vector<std::string> light_types;	 // "spot", "omni", "directional", or only "own"
 	std::string size = "256x256";			 // of the masks, pixels
 	std::string scaling = "quick";			 // or "none", "full"
 	std::string change = "quick";			 // or "none", "full"
 	std::optional<std::string> stability; // as scaling; unset: "quick" if the build has the sweeps
 	ReportOptions options;				  // receives options that need no conversion
-	std::string out;
-	bool resumes = false;			 // --resume
-	std::string against;			 // path of an older report.json; empty: none
-	std::optional<double> budget_ms; // --budget
-	std::string shard;				 // "I/N"; empty: the whole report
-	std::vector<std::string> merged; // folders of the shards to merge
-	std::string merge_out;			 // --out of `report merge`
+	std::filesystem::path out;
+	bool resumes = false;					   // --resume
+	std::filesystem::path against;			   // an older report.json; empty: none
+	std::optional<double> budget_ms;		   // --budget
+	std::string shard;						   // "I/N"; empty: the whole report
+	std::vector<std::filesystem::path> merged; // folders of the shards to merge
+	std::filesystem::path merge_out;		   // --out of `report merge`
 };
 
 /// Throws a UsageError that names the option p_option and the valid names if a requested name is

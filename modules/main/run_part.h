@@ -20,7 +20,8 @@ struct RunPart {
 	RenderResult (*run_in_window)(Scene &r_scene, glm::uvec2 &r_size_px,
 			const RunOptions &p_options, const CommonOptions &p_common) = nullptr;
 	/// Loads a reference mask from an EXR file. Throws an Error if that fails.
-	std::shared_ptr<const ReferenceMask> (*load_reference)(const std::string &p_path) = nullptr;
+	std::shared_ptr<const ReferenceMask> (*load_reference)(
+			const std::filesystem::path &p_path) = nullptr;
 	/// Measures frame times, see measure_time in measure.h.
 	std::string (*measure_time)(Renderer &r_renderer, RenderRequest p_request,
 			uint32_t p_warm_up_count, uint32_t p_count,

@@ -1,6 +1,7 @@
 #include "modules/rendering_device_vulkan/injected_fault.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 
 #include <algorithm>
 #include <map>
@@ -21,7 +22,7 @@ InjectedFault parse_injected_fault(const std::string &p_written) {
 	static const std::regex PATTERN("([a-z_]+)(?:@pass:(.+)|@file:(.+))?");
 	std::smatch matches;
 	if (std::regex_match(p_written, matches, PATTERN) && KINDS.contains(matches[1])) {
-		return { KINDS.at(matches[1]), matches[2], matches[3].str() };
+		return { KINDS.at(matches[1]), matches[2], make_path(matches[3].str()) };
 	}
 	fail("GNOMON_INJECT_FAULT is \"", p_written,
 			"\", must be device_lost, out_of_memory, hang or slow_compilation, alone (the first "

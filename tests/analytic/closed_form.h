@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 /// Closed-form visibilities of a disc light, in double precision. They share no code with the
 /// reference tracer, whose tests compare against them.
@@ -15,7 +16,7 @@ namespace gnomon::closed_form {
 inline double compute_half_plane_visibility(double p_distance) {
 	const double distance = std::clamp(p_distance, -1.0, 1.0);
 	const double hidden = std::acos(distance) - distance * std::sqrt(1 - distance * distance);
-	return 1 - hidden / M_PI;
+	return 1 - hidden / std::numbers::pi;
 }
 
 /// Fraction of the light's disc that an occluding disc, parallel to it, leaves visible. p_radius,
@@ -38,7 +39,7 @@ inline double compute_disc_visibility(double p_radius, double p_distance) {
 			std::sqrt(std::max(0.0,
 					(1 + p_radius - p_distance) * (1 + p_distance - p_radius) *
 							(p_radius + p_distance - 1) * (1 + p_radius + p_distance)));
-	return 1 - (light_angle + r2 * occluder_angle - kite) / M_PI;
+	return 1 - (light_angle + r2 * occluder_angle - kite) / std::numbers::pi;
 }
 
 /// Visibility (0..1) from p_point of a disc light past an opaque half-plane. The light's disc has

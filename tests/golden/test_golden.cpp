@@ -56,7 +56,8 @@ GoldenImage load_image(const fs::path &p_path) {
 	int width = 0;
 	int height = 0;
 	int channel_count = 0;
-	uint8_t *data = stbi_load(p_path.c_str(), &width, &height, &channel_count, CHANNEL_COUNT);
+	uint8_t *data =
+			stbi_load(p_path.string().c_str(), &width, &height, &channel_count, CHANNEL_COUNT);
 	if (data == nullptr) {
 		fail("Golden ", p_path, " cannot be read: ", stbi_failure_reason(),
 				". Make it with tests/golden/update.sh.");
@@ -165,7 +166,7 @@ std::vector<GoldenFile> find_goldens() {
 		}
 		for (const fs::directory_entry &file : fs::directory_iterator(folder.path())) {
 			if (file.path().extension() == ".png") {
-				found.push_back({ folder.path().filename(), file.path().stem() });
+				found.push_back({ folder.path().filename().string(), file.path().stem().string() });
 			}
 		}
 	}

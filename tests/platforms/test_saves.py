@@ -1,7 +1,7 @@
 """save_file_atomically on every platform: processes that end at each step of a save, and what they leave.
 
 bin/save_steps.* saves a file and ends at the step that its argument names (`scons platform_programs`).
-modules/core/tests/test_atomic_save.cpp tests more, on Linux.
+modules/core/tests/test_atomic_save_posix.cpp tests more, on Linux.
 """
 
 import functools

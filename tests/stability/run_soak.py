@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the soak test (test_soak.cpp) over thousands of frames of randomly changing scenes.
+"""Runs the soak test (test_soak_posix.cpp) over thousands of frames of randomly changing scenes.
 
     run_soak.py PROGRAM [--frames N] [--seed N]
 

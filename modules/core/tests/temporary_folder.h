@@ -1,19 +1,34 @@
 #pragma once
 
-#include <unistd.h>
+#include "modules/core/files.h"
+#include "modules/core/operating_system.h"
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <string>
 
 namespace gnomon {
+
+/// Sets an environment variable of this process, or removes it if p_value is empty.
+inline void set_environment_variable(const char *p_name, const std::filesystem::path &p_value) {
+#ifdef _WIN32
+	::_wputenv_s(std::filesystem::path(p_name).c_str(), p_value.c_str());
+#else
+	p_value.empty() ? ::unsetenv(p_name) : ::setenv(p_name, p_value.c_str(), 1);
+#endif
+}
 
 /// A new folder, removed by the destructor.
 struct TemporaryFolder {
 	std::filesystem::path path;
 	TemporaryFolder() {
-		std::string name = (std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
-		path = ::mkdtemp(name.data());
+		std::random_device random;
+		do {
+			const std::string name =
+					"gnomon_test_" + format_hash(uint64_t(random()) << 32 | random());
+			path = std::filesystem::temp_directory_path() / name;
+		} while (!std::filesystem::create_directory(path));
 	}
 	~TemporaryFolder() { std::filesystem::remove_all(path); }
 	TemporaryFolder(const TemporaryFolder &) = delete;
@@ -25,22 +40,14 @@ struct TemporaryFolder {
 /// the test script chose and never the user's own.
 struct TemporaryUserFolder : TemporaryFolder {
 	explicit TemporaryUserFolder(const char *p_variable) : variable(p_variable) {
-		if (const char *value = std::getenv(variable)) {
-			previous_value = value;
-		}
-		::setenv(variable, path.c_str(), 1);
+		previous_value = make_path(get_environment_variable(variable).value_or(""));
+		set_environment_variable(variable, path);
 	}
-	~TemporaryUserFolder() {
-		if (previous_value.empty()) {
-			::unsetenv(variable);
-		} else {
-			::setenv(variable, previous_value.c_str(), 1);
-		}
-	}
+	~TemporaryUserFolder() { set_environment_variable(variable, previous_value); }
 
 private:
 	const char *variable;
-	std::string previous_value;
+	std::filesystem::path previous_value;
 };
 
 /// Replaces the folder of get_cache_folder.

@@ -79,3 +79,11 @@ TEST_CASE("[Files] a cache entry is parsed, but rejected if a byte differs or is
 		CHECK_FALSE(parse_cache_entry(std::span(entry).first(index)));
 	}
 }
+
+TEST_CASE("[AtomicSave] a file name of 255 bytes can be saved, one of 256 bytes is an error") {
+	const TemporaryFolder folder;
+	save_file_atomically(folder.path / std::string(255, 'n'), "x");
+	CHECK(load_text_file(folder.path / std::string(255, 'n')) == "x");
+	CHECK_THROWS_AS(save_file_atomically(folder.path / std::string(256, 'n'), "x"), Error);
+	CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+}

@@ -1,7 +1,9 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#ifndef _WIN32
 #include "modules/core/tests/killed_process.h"
+#endif
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/error_report/record_store.h"
 
@@ -28,6 +30,7 @@ void damage_file(const fs::path &p_path, size_t p_offset) {
 
 } // namespace
 
+#ifndef _WIN32 // which has no fork; tests/platforms/test_saves.py kills programs there
 TEST_CASE("[ErrorReport] a kill while a record is saved leaves it complete or absent") {
 	TemporaryFolder folder;
 	RecordStore store(folder.path);
@@ -46,6 +49,7 @@ TEST_CASE("[ErrorReport] a kill while a record is saved leaves it complete or ab
 	CHECK(found_count == 2); // killed after the last step, and not killed
 	set_log_sink(before);
 }
+#endif
 
 TEST_CASE("[ErrorReport] a loaded record equals the saved one") {
 	TemporaryFolder folder;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace gnomon;
 
@@ -53,7 +54,8 @@ TEST_CASE("[GltfLights] a spot light without a spot object has the default cones
 	Json json = make_spot_light_document();
 	get_light(json).erase("spot");
 	const auto scene = folder.load(json);
-	CHECK(scene->find_nodes<Light3D>().at(0)->outer_cone_rad == doctest::Approx(M_PI / 4));
+	CHECK(scene->find_nodes<Light3D>().at(0)->outer_cone_rad ==
+			doctest::Approx(std::numbers::pi / 4));
 	CHECK(log.errors.empty());
 }
 
@@ -76,7 +78,7 @@ TEST_CASE("[GltfLights] size and angle are read under each of their names") {
 	Json json = make_spot_light_document();
 	get_light(json)["extras"]["angle"] = 0.5;
 	CHECK(load_number(folder, json, "light_angular_distance") ==
-			doctest::Approx(0.5 * 180 / M_PI).epsilon(1e-12));
+			doctest::Approx(0.5 * 180 / std::numbers::pi).epsilon(1e-12));
 	json = add_area(make_spot_light_document(), { { "type", "disk" }, { "size", 0.5 } });
 	CHECK(load_number(folder, json, "light_size") == 0.25);
 	json = add_area(make_spot_light_document(), { { "type", "disk" } });

@@ -49,7 +49,7 @@ void write_exr(const fs::path &p_path, const std::vector<std::string> &p_channel
 				static_cast<uintptr_t>(static_cast<intptr_t>(p_corner.x)) * stride;
 		buffer.insert(channel, Imf::Slice(p_type, reinterpret_cast<char *>(base), stride, 0));
 	}
-	Imf::OutputFile file(p_path.c_str(), header, /*numThreads=*/0);
+	Imf::OutputFile file(p_path.string().c_str(), header, /*numThreads=*/0);
 	file.setFrameBuffer(buffer);
 	file.writePixels(p_size_px);
 }

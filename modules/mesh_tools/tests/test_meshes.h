@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
@@ -96,8 +97,8 @@ inline Mesh make_torus(uint32_t p_u, uint32_t p_v) {
 	Mesh mesh = make({}, {});
 	for (uint32_t i = 0; i < p_u; ++i) {
 		for (uint32_t j = 0; j < p_v; ++j) {
-			const double u = 2 * M_PI * i / p_u;
-			const double v = 2 * M_PI * j / p_v;
+			const double u = 2 * std::numbers::pi * i / p_u;
+			const double v = 2 * std::numbers::pi * j / p_v;
 			mesh.positions_node.emplace_back((2 + 0.7 * std::cos(v)) * std::cos(u),
 					(2 + 0.7 * std::cos(v)) * std::sin(u), 0.7 * std::sin(v));
 			const uint32_t right = (i + 1) % p_u * p_v;
@@ -121,7 +122,7 @@ inline Mesh make_quad() {
 inline Mesh make_moebius(uint32_t p_count) {
 	Mesh mesh = make({}, {});
 	for (uint32_t i = 0; i < p_count; ++i) {
-		const double u = 2 * M_PI * i / p_count;
+		const double u = 2 * std::numbers::pi * i / p_count;
 		for (const double side : { -0.4, 0.4 }) {
 			const double radius = 1 + side * std::cos(u / 2);
 			mesh.positions_node.emplace_back(

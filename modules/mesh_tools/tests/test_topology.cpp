@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <thread>
 #include <tuple>
@@ -88,7 +89,7 @@ TEST_CASE("[Topology] sphere and torus have the Euler numbers 2 and 0") {
 	CHECK(sphere.mesh_class == MeshClass::CLOSED);
 	CHECK(compute_euler_number(sphere) == 2);
 	// The vertices are on the unit sphere, so the faces enclose slightly less.
-	CHECK(sphere.signed_volume_m3 == doctest::Approx(4.0 / 3 * M_PI).epsilon(0.02));
+	CHECK(sphere.signed_volume_m3 == doctest::Approx(4.0 / 3 * std::numbers::pi).epsilon(0.02));
 	const MeshTopology torus = build_topology(make_torus(20, 12));
 	check_invariants(torus);
 	CHECK(torus.mesh_class == MeshClass::CLOSED);

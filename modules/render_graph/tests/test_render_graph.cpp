@@ -21,7 +21,7 @@ struct GraphFixture {
 
 	explicit GraphFixture(const FeatureList &p_denied = {}) {
 		DeviceOptions options;
-		options.validation = true;
+		options.validation = wants_validation();
 		options.denied_features = p_denied;
 		device = create_rendering_device(options);
 		pool = std::make_unique<TransientPool>(*device);

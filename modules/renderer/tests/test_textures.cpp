@@ -8,7 +8,6 @@
 
 #include <doctest/doctest.h>
 #include <glm/gtc/packing.hpp>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -491,13 +490,16 @@ TEST_CASE("[GPU][Textures] textures of images that no longer exist are freed") {
 
 namespace {
 
-/// Returns the host memory that this process occupies, driver included.
+/// Returns the host memory that this process occupies, driver included; 0 where the system has no
+/// /proc.
 uint64_t measure_host_bytes() {
-	std::ifstream file("/proc/self/statm");
-	uint64_t size_pages = 0;
-	uint64_t resident_pages = 0;
-	file >> size_pages >> resident_pages;
-	return resident_pages * uint64_t(sysconf(_SC_PAGESIZE));
+	std::ifstream file("/proc/self/status");
+	for (std::string line; std::getline(file, line);) {
+		if (line.starts_with("VmRSS:")) {
+			return std::stoull(line.substr(6)) << 10; // KiB
+		}
+	}
+	return 0;
 }
 
 } // namespace
@@ -536,6 +538,10 @@ TEST_CASE(
 		return measure_host_bytes();
 	};
 	const uint64_t before = render_frames(8);
+	if (before == 0) {
+		MESSAGE("Not tested: this system has no /proc/self/status.");
+		return;
+	}
 	const uint64_t after = render_frames(16);
 	CHECK(after < before + (uint64_t(16) << 20)); // a leak of 20 kB for each draw would be seen
 }

@@ -39,7 +39,7 @@ struct DeviceFixture {
 	std::unique_ptr<RenderingDevice> device;
 
 	explicit DeviceFixture(DeviceOptions p_options = {}, const FeatureList &p_denied = {}) {
-		p_options.validation = true;
+		p_options.validation = wants_validation();
 		p_options.denied_features = p_denied;
 		device = create_rendering_device(p_options);
 	}

@@ -1,6 +1,7 @@
 #include "modules/rendering_device/tests/device_pool.h"
 
 #include "modules/core/error.h"
+#include "modules/core/operating_system.h"
 #include "modules/rendering_device/tests/testing.h"
 
 #include <vector>
@@ -42,10 +43,14 @@ TestDevice create_test_device(
 		return TestDevice(device.release(), { /*is_shared=*/true });
 	}
 	DeviceOptions options;
-	options.validation = true;
+	options.validation = wants_validation();
 	options.device = p_device;
 	options.denied_features = p_denied;
 	return TestDevice(create_rendering_device(options).release(), { is_shared });
+}
+
+bool wants_validation() {
+	return get_environment_variable("GNOMON_TEST_VALIDATION") != "external";
 }
 
 void close_test_devices() {

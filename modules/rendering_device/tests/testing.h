@@ -13,6 +13,11 @@ void inject_fault(RenderingDevice &r_device, const std::string &p_fault);
 /// Resumes the submission that an injected "hang" blocks.
 void release_injected_hang(RenderingDevice &r_device);
 
+/// Returns whether tests request validation layers: always, unless $GNOMON_TEST_VALIDATION is
+/// "external", because they are switched on from outside of the program, as under Wine, whose
+/// programs see no layers.
+bool wants_validation();
+
 /// Names of the resources that are alive, "texture 'albedo'", sorted; for the leak tests.
 std::vector<std::string> list_live_resources(RenderingDevice &r_device);
 uint32_t get_pipeline_count(RenderingDevice &r_device);

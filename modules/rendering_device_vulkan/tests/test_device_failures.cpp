@@ -43,7 +43,7 @@ std::filesystem::path find_cache_file(const std::filesystem::path &p_folder) {
 /// Creates and destroys a device with one pipeline. The parameter shows that a temporary cache
 /// folder is set.
 void make_one_pipeline(const TemporaryCache &) {
-	const auto device = create_rendering_device({ .validation = true });
+	const auto device = create_rendering_device({ .validation = wants_validation() });
 	device->get_compute_pipeline({ .name = "scale", .shader = "tests/scale.comp" });
 }
 

@@ -55,9 +55,9 @@ double compute_seconds_since(std::chrono::steady_clock::time_point p_start) {
 struct EnvironmentVariable {
 	const char *name;
 	EnvironmentVariable(const char *p_name, const char *p_value) : name(p_name) {
-		::setenv(name, p_value, 1);
+		set_environment_variable(name, p_value);
 	}
-	~EnvironmentVariable() { ::unsetenv(name); }
+	~EnvironmentVariable() { set_environment_variable(name, ""); }
 	EnvironmentVariable(const EnvironmentVariable &) = delete;
 	EnvironmentVariable &operator=(const EnvironmentVariable &) = delete;
 };

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 using namespace gnomon;
 
@@ -51,7 +52,8 @@ TEST_CASE("[SceneSnapshot] a directional light's disc radius is the tangent of h
 	SmallScene small;
 	small.light->type = LightType::DIRECTIONAL;
 	small.light->properties = { { "light_angular_distance", 90.0 } };
-	CHECK(small.build()->lights[0].get_disc_radius() == doctest::Approx(std::tan(M_PI / 4)));
+	CHECK(small.build()->lights[0].get_disc_radius() ==
+			doctest::Approx(std::tan(std::numbers::pi / 4)));
 }
 
 TEST_CASE("[SceneSnapshot] derived widths of a directional light scale with the scene size") {

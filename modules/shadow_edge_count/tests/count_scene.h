@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 namespace gnomon {
@@ -18,8 +19,8 @@ inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p
 	const uint32_t columns = 2 * p_rings;
 	for (uint32_t ring = 0; ring <= p_rings; ++ring) {
 		for (uint32_t column = 0; column < columns; ++column) {
-			const double polar = M_PI * ring / p_rings;
-			const double azimuth = 2.0 * M_PI * column / columns;
+			const double polar = std::numbers::pi * ring / p_rings;
+			const double azimuth = 2.0 * std::numbers::pi * column / columns;
 			const double across = ring == 0 || ring == p_rings ? 0.0 : std::sin(polar);
 			positions.push_back(glm::vec3(p_radius *
 					glm::dvec3(across * std::cos(azimuth), std::cos(polar),

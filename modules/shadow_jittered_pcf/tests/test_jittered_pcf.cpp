@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <numbers>
 
 using namespace gnomon;
 
@@ -24,7 +25,7 @@ TEST_CASE("[JitteredPcf] each set starts with the outermost ring and has one tap
 			const double v = glm::dot(offset, offset) * ring_count;
 			CHECK(v <= ring_count - ring_from_outside + ROUNDING);
 			CHECK(v >= ring_count - ring_from_outside - 1 - ROUNDING);
-			const double turn = std::atan2(offset.y, offset.x) / (2 * M_PI);
+			const double turn = std::atan2(offset.y, offset.x) / (2 * std::numbers::pi);
 			const double u = (turn < 0 ? turn + 1 : turn) * JITTERED_PCF_TAPS_PER_RING;
 			CHECK(std::abs(u - (tap % JITTERED_PCF_TAPS_PER_RING + 0.5)) <= 0.5 + ROUNDING);
 		}

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 using namespace gnomon;
 
@@ -86,11 +87,11 @@ Expected compute_expected(const glm::dvec3 &p_point) {
 	// Visibility across a fin, section 2.1.3.
 	const auto outer = [&](const Cube &p_cube) {
 		const double theta = 0.5 + 0.5 * (from_axis_m - p_cube.half_m) / reach_m;
-		return std::sin((theta - 0.5) * M_PI) * 0.7 + 0.3;
+		return std::sin((theta - 0.5) * std::numbers::pi) * 0.7 + 0.3;
 	};
 	const auto inner = [&](const Cube &p_cube) {
 		const double theta = 0.5 + 0.5 * (from_axis_m - p_cube.half_m) / reach_m;
-		return (1 - std::cos(theta * M_PI)) * 0.3;
+		return (1 - std::cos(theta * std::numbers::pi)) * 0.3;
 	};
 	const bool is_ground = p_point.y < 0.1;
 	const bool is_upper = p_point.y > 3.0;

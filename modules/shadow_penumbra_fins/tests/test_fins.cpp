@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 using namespace gnomon;
@@ -33,7 +34,7 @@ Mesh make_lathed(const std::vector<glm::vec2> &p_profile) {
 	Mesh mesh;
 	for (const glm::vec2 &point : p_profile) {
 		for (uint32_t side = 0; side < SIDE_COUNT; ++side) {
-			const double angle_rad = 2 * M_PI * side / SIDE_COUNT;
+			const double angle_rad = 2 * std::numbers::pi * side / SIDE_COUNT;
 			mesh.positions_node.emplace_back(
 					point.x * std::cos(angle_rad), point.y, point.x * -std::sin(angle_rad));
 		}

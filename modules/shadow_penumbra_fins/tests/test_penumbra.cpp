@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <numbers>
+
 using namespace gnomon;
 
 namespace {
@@ -13,8 +15,8 @@ const glm::vec4 ANY_DISTANCES_M(1.0f, 0.5f, 2.0f, 0.0f);
 
 /// Visibility as a function of theta, with the sine curve of Sun et al. 2010, section 2.1.3.
 double compute_transition(double p_theta, bool p_is_outer) {
-	return p_is_outer ? std::sin((p_theta - 0.5) * M_PI) * 0.7 + 0.3
-					  : (1 - std::cos(p_theta * M_PI)) * 0.3;
+	return p_is_outer ? std::sin((p_theta - 0.5) * std::numbers::pi) * 0.7 + 0.3
+					  : (1 - std::cos(p_theta * std::numbers::pi)) * 0.3;
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 /// Occluders and receivers whose exact visibility is known. z is up; receivers are in the plane
@@ -39,7 +40,7 @@ struct TriangleBuilder : Triangles {
 		const uint32_t side_count = 2000;
 		positions.emplace_back(p_centre);
 		for (uint32_t i = 0; i < side_count; ++i) {
-			const double angle_rad = 2 * M_PI * i / side_count;
+			const double angle_rad = 2 * std::numbers::pi * i / side_count;
 			positions.emplace_back(p_centre +
 					p_radius * (std::cos(angle_rad) * p_axis_x + std::sin(angle_rad) * p_axis_y));
 			indices.insert(

@@ -90,7 +90,7 @@ class Soak {
 public:
 	explicit Soak(uint32_t p_seed) : seed(p_seed), random(p_seed) {
 		DeviceOptions options;
-		options.validation = true;
+		options.validation = wants_validation();
 		options.wait_limit_s = FRAME_LIMIT_S;
 		device = create_rendering_device(options);
 		device_resources = measure();

@@ -129,11 +129,3 @@ TEST_CASE("[AtomicSave] a cache entry whose write was killed is either complete 
 	}
 	set_log_sink(sink);
 }
-
-TEST_CASE("[AtomicSave] a file name of 255 bytes can be saved, one of 256 bytes is an error") {
-	const TemporaryFolder folder;
-	save_file_atomically(folder.path / std::string(255, 'n'), "x");
-	CHECK(load_text_file(folder.path / std::string(255, 'n')) == "x");
-	CHECK_THROWS_AS(save_file_atomically(folder.path / std::string(256, 'n'), "x"), Error);
-	CHECK(count_unfinished_files(folder.path) == 0);
-}
