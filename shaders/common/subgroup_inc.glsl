@@ -75,10 +75,11 @@ bool subgroup_all(bool p_value) {
 
 /// Makes earlier writes of the subgroup to shared memory visible to the whole subgroup. Subgroups of one work group may
 /// call it a different number of times. llvmpipe of Mesa 26 treats subgroupBarrier as a barrier of the whole work
-/// group, which fails in that case. So it is omitted where SUBGROUP_SIZE is 8: llvmpipe runs a subgroup in lockstep.
+/// group, which fails in that case. So it is omitted where SUBGROUP_SIZE is that of llvmpipe, 8 on x86 and 4 on arm64:
+/// llvmpipe runs a subgroup in lockstep.
 void sync_subgroup_memory() {
 	subgroupMemoryBarrierShared();
-	if (!USES_BUTTERFLY) {
+	if (SUBGROUP_SIZE > 8u) {
 		subgroupBarrier();
 	}
 }
