@@ -17,7 +17,8 @@ Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--windows] [--jobs N
   --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
                build/ (1.2 GB, as root)
   --windows    also the Godot add-on's libraries for Windows x86_64 and Linux arm64, cross-compiled, and loaded under Wine
-               and QEMU (installs both, and compilers: 1.6 GB); needs Godot as --godot does
+               and QEMU (installs both, and compilers: 1.6 GB), and the add-on inside Godot for arm64 (0.6 GB, below build/);
+               needs Godot as --godot does
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
                drivers command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
@@ -355,6 +356,14 @@ part_windows() {
     run_part windows python3 tests/run_unittest.py tests/platforms/test_libraries.py tests/platforms/test_saves.py \
         tests/godot/host/test_host.py tests/godot/test_missing_library.py
 }
+part_windows_set_up() {
+    run_check "arm64 set-up" install_godot_arm64 "$root"
+}
+part_windows_arm64() {
+    local options=()
+    [ "$is_full" = yes ] && options=(--full)
+    run_part "windows arm64" python3 tests/godot/test_arm64.py "${options[@]}"
+}
 part_sanitized_all() {
     run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
         run_part "all sanitized" env ASAN_OPTIONS=detect_leaks=0 bin/gnomon_tests.release_address_undefined # Mesa leaks
@@ -397,8 +406,10 @@ part_editor_repeats() {
 
 # shellcheck source=demo_project/install_godot.sh
 . demo_project/install_godot.sh
+# shellcheck source=demo_project/install_godot_arm64.sh
+. demo_project/install_godot_arm64.sh
 run_parts layers scenes
-run_parts godot_set_up & # next to the build
+run_parts godot_set_up windows_set_up & # next to the build
 set_up=$!
 # The parts below run the programs that are built here. Nothing runs at the same time: a test might use a half-built program.
 name=build
@@ -416,7 +427,7 @@ if is_requested windows_build && install_godot "$root"; then
     run_check "windows build" scons -Q -j"$jobs" compiledb=no addon_zip=yes bin/gnomon_godot_addon.zip platform_programs || has_windows=no
 fi
 # Long parts are first.
-run_parts sanitized godot_addon engine command_line godot_masks godot_games editor drivers godot_soak removal godot_editor \
+run_parts sanitized godot_addon engine command_line godot_masks godot_games windows_arm64 editor drivers godot_soak removal godot_editor \
     stability godot_device demo bundle fuzz_replay windows embed docs template
 # Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then

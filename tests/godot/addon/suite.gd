@@ -4,6 +4,7 @@ extends Node
 ## Godot compiles each new material for all kinds of views and effects that were drawn before, so tests that draw many come last.
 const CASES: Array[GDScript] = [
 	preload("res://tests/frames.gd"),
+	preload("res://tests/platforms.gd"),
 	preload("res://tests/casters.gd"),
 	preload("res://tests/skeletons.gd"),
 	preload("res://tests/nodes.gd"),
