@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import struct
 import subprocess
 import sys
 import unittest
@@ -13,6 +14,7 @@ GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 MAX_IMAGE_BYTES = 80 * 1024
+STORE_SIZE_PX = (1280, 720)  # of the images for Godot's Asset Store, whose thumbnails are 16:9
 TIMEOUT_S = 60
 
 sys.path.insert(0, DOC)
@@ -51,6 +53,17 @@ def resolve_link(page, link):
     """Return (absolute path, anchor)."""
     target, _, anchor = link.partition("#")
     return os.path.normpath(os.path.join(os.path.dirname(page), target)) if target else page, anchor
+
+
+def read_jpeg_size(path):
+    """Return (width, height) of a JPEG image."""
+    with open(path, "rb") as file:
+        data = file.read()
+    offset = 2  # after the marker that begins the file
+    while not 0xC0 <= data[offset + 1] <= 0xC2:  # segments that begin with 0xFF, kind, length; the kinds C0 to C2 have the size
+        offset += 2 + struct.unpack_from(">H", data, offset + 2)[0]
+    height, width = struct.unpack_from(">HH", data, offset + 5)
+    return width, height
 
 
 def load_techniques():
@@ -92,6 +105,16 @@ class LinkTest(unittest.TestCase):
                 path = os.path.join(folder, name)
                 self.assertIn(path, used)
                 self.assertLessEqual(os.path.getsize(path), MAX_IMAGE_BYTES)
+
+
+    def test_the_images_for_the_store_have_its_aspect_ratio(self):
+        folder = os.path.join(DOC, "images")
+        names = [name for name in os.listdir(folder) if name.startswith("godot_store_")]
+        self.assertIn("godot_store_thumbnail.jpg", names)
+        self.assertGreaterEqual(len(names), 3)
+        for name in names:
+            with self.subTest(image=name):
+                self.assertEqual(read_jpeg_size(os.path.join(folder, name)), STORE_SIZE_PX)
 
 
 class TechniquePageTest(unittest.TestCase):

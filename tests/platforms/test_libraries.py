@@ -5,6 +5,7 @@
 
 import configparser
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -41,6 +42,13 @@ COMPILERS = {
     "windows.x86_64": ["x86_64-w64-mingw32-g++-posix"],
     "linux.arm64": ["aarch64-linux-gnu-g++", "-fPIC"],
 }
+# The entries of HEADERS in modules/platform_builders.py, whose code is in the libraries -> what the notices call them.
+NOTICES = {"glm": "OpenGL Mathematics", "glslang": "SPIR-V headers", "nlohmann": "JSON for Modern C++", "xxhash.h": "xxHash"}
+
+
+def read(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
+        return file.read()
 
 
 def find_faults(platform, path):
@@ -108,6 +116,37 @@ class Package(unittest.TestCase):
         self.assertLessEqual(expected, names)
         self.assertTrue(all(name.startswith("addons/gnomon/") for name in names))
         self.assertFalse([name for name in names if name.endswith(".debug")])
+
+    def test_every_file_that_the_extension_or_the_plugin_names_is_in_the_zip(self):
+        with zipfile.ZipFile(ZIP) as archive:
+            names = archive.namelist()
+            extension = archive.read("addons/gnomon/gnomon.gdextension").decode()
+            plugin = archive.read("addons/gnomon/plugin.cfg").decode()
+        named = re.findall(r'"res://([^"]+)"', extension)
+        named += ["addons/gnomon/" + name for name in re.findall(r'^script="(.+)"$', plugin, re.MULTILINE)]
+        self.assertEqual(len(named), len(LIBRARIES) + 2)  # the icon and the plugin's script
+        self.assertEqual([name for name in named if name not in names], [])
+        self.assertEqual(len(set(names)), len(names))
+
+    def test_the_zip_has_the_licence_with_year_and_holder_and_a_notice_of_each_project_whose_code_it_contains(self):
+        with zipfile.ZipFile(ZIP) as archive:
+            licence = archive.read("addons/gnomon/LICENSE").decode()
+            notices = archive.read("addons/gnomon/THIRD_PARTY_NOTICES.md").decode()
+        self.assertEqual(licence, read("LICENSE"))
+        self.assertRegex(licence, r"(?m)^Copyright \(c\) 20\d\d \S")
+        headers = re.search(r"(?m)^HEADERS = \((.*)\)$", read("modules", "platform_builders.py")).group(1)
+        self.assertEqual(sorted(re.findall(r'"(.+?)"', headers)), sorted(NOTICES))
+        self.assertEqual([name for name in NOTICES.values() if name not in notices], [])
+
+    def test_the_page_for_the_store_states_the_versions_of_the_zip(self):
+        page = read("doc", "godot_store.md")
+        stated = dict(re.findall(r"(?m)^\| (.+?) \| (.+?) \|$", page))
+        with zipfile.ZipFile(ZIP) as archive:
+            plugin = archive.read("addons/gnomon/plugin.cfg").decode()
+            extension = archive.read("addons/gnomon/gnomon.gdextension").decode()
+        self.assertIn('version="%s"' % stated["Version"], plugin)
+        self.assertIn('compatibility_minimum = "%s"' % stated["Minimum Godot version"], extension)
+        self.assertIn("### Changelog of %s\n" % stated["Version"], page)
 
     def test_every_script_and_shader_in_the_zip_has_an_identifier_of_its_own(self):
         with zipfile.ZipFile(ZIP) as archive:
