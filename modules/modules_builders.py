@@ -14,6 +14,7 @@ register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_mo
     get_optional_dependencies() -> list of module names (optional; used only where they are built)
     is_program() -> bool                               (optional; linked into the program or the add-on, but not into tests)
     get_hosts() -> some of "program" and "godot"       (optional; what it is built for; default: both)
+    get_systems() -> some of "linux" and "windows"     (optional; what it is built for; default: both)
 """
 
 import importlib.util
@@ -44,6 +45,7 @@ class Module:
         self.has_registration = os.path.isfile(os.path.join(folder, "register_types.cpp"))
         self.is_program = getattr(config, "is_program", lambda: False)()
         self.hosts = getattr(config, "get_hosts", lambda: ("program", "godot"))()
+        self.systems = getattr(config, "get_systems", lambda: ("linux", "windows"))()
         self.is_example = getattr(config, "is_example", lambda: False)()
         self.can_disable = getattr(config, "can_disable", lambda: self.layer >= 4)()
 
@@ -79,6 +81,8 @@ def select_modules(modules, env):
         missing = [name for name in module.dependencies if name not in names]
         if ("godot" if env["godot"] else "program") not in module.hosts or (env["godot"] and missing):
             continue  # not for this host, or it depends on a module that is not
+        if env["TARGET_PLATFORM"].system not in module.systems:
+            continue
         if missing:
             raise SystemExit(
                 "ERROR: module %s needs %s, which is not built. Enable it, or set module_%s_enabled=no."

@@ -6,10 +6,12 @@ Source files whose name ends with _posix.cpp or _windows.cpp are compiled for th
 import os
 import shutil
 
+import windows_libraries
 from SCons.Script import Action
 
-# Third-party headers that the add-on includes. All are independent of the platform, so Debian's own packages provide them.
-HEADERS = ("glm", "glslang", "nlohmann", "xxhash.h")
+# Third-party headers that are independent of the platform, so Debian's own packages provide them.
+HEADERS = ("glm", "glslang", "nlohmann", "xxhash.h", "CLI", "doctest", "stb", "tiny_gltf.h", "vulkan", "vk_video")
+LIBRARY_FOLDER = "build/windows_libraries"  # see windows_libraries.py
 HEADER_FOLDER = "/usr/include"
 HOST_ARCH = {"aarch64": "arm64"}.get(os.uname().machine, os.uname().machine)
 MISSING_COMPILER = (
@@ -28,6 +30,7 @@ class Platform:
         self.tools = tools
         self.ending = ending  # of library names
         self.is_host = system == "linux" and arch == HOST_ARCH
+        self.has_program = self.is_host or system == "windows"  # where bin/gnomon can be built, not only the add-on
 
     @property
     def name(self):
@@ -35,8 +38,12 @@ class Platform:
 
     @property
     def program_name(self):
-        """Return the ending of names of programs in bin/, which has those of all platforms."""
-        return self.name + (".exe" if self.system == "windows" else "")
+        """Return the ending of names of test programs in bin/, which has those of all platforms."""
+        return self.name + self.program_ending
+
+    @property
+    def program_ending(self):
+        return ".exe" if self.system == "windows" else ""
 
     def is_compiled(self, path):
         """Return whether a source file is for this platform."""
@@ -66,6 +73,9 @@ def select_platforms(env, are_chosen):
         env.Exit(2)
     if env["addon_zip"] and not are_chosen:
         selected = list(PLATFORMS)
+    if not env["godot"] and not selected[0].has_program:
+        print("ERROR: platform=%s arch=%s godot=no is not built: only the add-on is. Remove godot=no." % (selected[0].system, selected[0].arch))
+        env.Exit(2)
     for platform in selected:
         if not platform.is_host and not shutil.which(platform.compiler):
             print(MISSING_COMPILER % (platform.system, platform.arch, platform.compiler))
@@ -100,7 +110,23 @@ def make_environment(env, platform):
     if platform.system == "windows":
         clone["CCFLAGS"] = [flag for flag in clone["CCFLAGS"] if flag not in ("-fPIC", "-fvisibility=hidden")]
         clone.Append(LINKFLAGS=["-static"])  # winpthread too, which Windows lacks
+        clone["PROGRAM_SUFFIX"] += platform.program_ending
+        if not env["godot"]:
+            add_windows_libraries(clone)
     return clone
+
+
+def add_windows_libraries(env):
+    """Build the libraries of the program now, if they are absent, because modules look for them when they are configured."""
+    folder = env.Dir("#" + LIBRARY_FOLDER).abspath
+    windows_libraries.build(folder)
+    env["ENV"] = {
+        **env["ENV"],
+        "CPLUS_INCLUDE_PATH": folder + "/include",  # system folders, as those of the machine's own libraries
+        "PKG_CONFIG_LIBDIR": folder + "/lib/pkgconfig:" + windows_libraries.SYSROOT + "/lib/pkgconfig",
+    }
+    env.Append(LIBPATH=[folder + "/lib"])
+    env["PKG_CONFIG"] = "pkg-config --static"
 
 
 def _link_headers(target, source, env):

@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed drivers command_line editor demo bundle stability removal template sanitized fuzz_replay godot windows sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
+PARTS="layers scenes build docs engine embed drivers command_line editor demo bundle stability removal template sanitized fuzz_replay godot windows windows_program sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
@@ -18,11 +18,11 @@ Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--windows] [--jobs N
                build/ (1.2 GB, as root)
   --windows    also the Godot add-on's libraries for Windows x86_64 and Linux arm64, cross-compiled, and loaded under Wine
                and QEMU (installs both, and compilers: 1.6 GB), and the add-on inside Godot for arm64 (0.6 GB, below build/);
-               needs Godot as --godot does
+               needs Godot as --godot does. With --full also windows_program: the program for Windows under Wine
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
                drivers command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
-               also godot; with --windows also windows; with --full also sanitized_all threads tables editor_repeats large_meshes validator
+               also godot; with --windows also windows; with --full also windows_program sanitized_all threads tables editor_repeats large_meshes validator
                fuzz soak kills extremes; only when named: blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
@@ -81,6 +81,9 @@ is_requested() {
             [ "$has_godot" = yes ] || return 1
             requested=godot
             ;;
+        windows_program)
+            [ ${#only[@]} -gt 0 ] || { [ "$has_windows" = yes ] && [ "$is_full" = yes ]; } || return 1
+            ;;
         windows*)
             [ "$has_windows" = yes ] || return 1
             requested=windows
@@ -108,8 +111,11 @@ fi
 if [[ " ${only[*]} " == *" windows "* ]]; then
     has_windows=yes
 fi
-if is_requested windows; then
+if is_requested windows || is_requested windows_program; then
     packages+=("${CROSS_PACKAGES[@]}" "${CROSS_RUN_PACKAGES[@]}")
+fi
+if is_requested windows_program; then
+    packages+=("${WINDOWS_LIBRARY_PACKAGES[@]}")
 fi
 if [[ " ${only[*]} " == *" blender "* ]]; then
     packages+=("${BLENDER_PACKAGES[@]}")
@@ -364,6 +370,10 @@ part_windows_arm64() {
     [ "$is_full" = yes ] && options=(--full)
     run_part "windows arm64" python3 tests/godot/test_arm64.py "${options[@]}"
 }
+part_windows_program() {
+    run_check "windows program build" scons -Q -j"$jobs" compiledb=no platform=windows godot=no bin/gnomon.exe &&
+        GNOMON_ALL_MASKS=1 run_part "windows program" python3 tests/run_unittest.py tests/platforms/test_program.py
+}
 part_sanitized_all() {
     run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
         run_part "all sanitized" env ASAN_OPTIONS=detect_leaks=0 bin/gnomon_tests.release_address_undefined # Mesa leaks
@@ -432,6 +442,9 @@ run_parts sanitized godot_addon engine command_line godot_masks godot_games wind
 # Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
     run_parts blender
+fi
+if [ ${#only[@]} -gt 0 ] || [ "$is_full" = yes ]; then
+    run_parts windows_program
 fi
 if [ "$is_full" = yes ]; then
     for part in sanitized_all threads tables fuzz large_meshes validator soak extremes kills editor_repeats; do

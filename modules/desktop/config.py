@@ -10,6 +10,10 @@ def get_description():
     return "Desktop window with keyboard and mouse input"
 
 
+def get_systems():
+    return ("linux",)
+
+
 def can_disable():
     return False
 

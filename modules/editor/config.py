@@ -10,6 +10,10 @@ def get_description():
     return "Scene editor: scene tree, viewport and an inspector generated from property lists"
 
 
+def get_systems():
+    return ("linux",)
+
+
 def can_disable():
     return False  # it runs only on `gnomon edit`, and a running editor cannot disable itself
 

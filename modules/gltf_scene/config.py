@@ -19,4 +19,4 @@ def can_disable():
 
 
 def configure(env):
-    env.Append(LIBS=["tinygltf", "png", "turbojpeg"])
+    env.Append(LIBS=["tinygltf", "png", "turbojpeg", "z"])

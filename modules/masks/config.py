@@ -22,12 +22,12 @@ def can_disable():
 
 
 def can_build(env):
-    return subprocess.run(["pkg-config", "--exists", "OpenEXR"]).returncode == 0
+    return subprocess.run(["pkg-config", "--exists", "OpenEXR"], env=env["ENV"]).returncode == 0
 
 
 def configure(env):
-    env.Append(LIBS=env.ParseFlags("!pkg-config OpenEXR --libs")["LIBS"])
+    env.Append(LIBS=env.ParseFlags("!%s OpenEXR --libs" % env["PKG_CONFIG"])["LIBS"])
 
 
 def get_include_folders(env):
-    return env.ParseFlags("!pkg-config OpenEXR --cflags")["CPPPATH"]
+    return env.ParseFlags("!%s OpenEXR --cflags" % env["PKG_CONFIG"])["CPPPATH"]

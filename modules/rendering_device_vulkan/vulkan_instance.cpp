@@ -1,6 +1,7 @@
 #include "modules/rendering_device_vulkan/vulkan_instance.h"
 
 #include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/vulkan_loader.h"
 
 #include <algorithm>
 #include <cstring>
@@ -57,6 +58,7 @@ std::string get_result_name(VkResult p_result) {
 }
 
 VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
+	check_vulkan_loader();
 	std::vector<VkExtensionProperties> available = find_instance_extensions(nullptr);
 	std::vector<const char *> layers;
 	std::vector<const char *> extensions;

@@ -14,6 +14,10 @@ def get_hosts():
     return ("program",)
 
 
+def get_systems():
+    return ("linux",)
+
+
 def can_disable():
     return False
 

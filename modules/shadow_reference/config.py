@@ -23,7 +23,7 @@ def _find_embree(env):
     for version in (4, 3):
         command = shlex.split(env["CXX"]) + ["-E", "-x", "c++", "-"]
         source = "#include <embree%d/rtcore.h>\n" % version
-        if subprocess.run(command, input=source, text=True, capture_output=True).returncode == 0:
+        if subprocess.run(command, input=source, text=True, capture_output=True, env=env["ENV"]).returncode == 0:
             return version
     return 0
 

@@ -14,8 +14,10 @@ LIBRARIES = {
 }
 WINE = "/usr/lib/wine/wine64"  # Debian has it outside of PATH
 WINE_SERVER = "/usr/lib/wine/wineserver64"
+DRIVER = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"
 WINE_FOLDER = os.path.join(ROOT, "build", "wine")  # its registry and drive C:, made at the first start
 TIMEOUT_S = 120  # only for hangs; the first start of Wine takes up to 20 s
+PROGRAMS = ("linux.x86_64", "windows.x86_64")  # platforms of the program, bin/gnomon
 
 
 def get_library(platform):
@@ -28,15 +30,34 @@ def get_program(name, platform):
     return os.path.join(ROOT, "bin", "%s.%s%s" % (name, platform, ".exe" if platform.startswith("windows") else ""))
 
 
-def start(platform, command):
-    """Start a program of the platform, with pipes. Arguments that are paths must be absolute."""
+def get_main_program(name, platform):
+    """Return the path of a program that is built for PROGRAMS, gnomon or gnomon_tests."""
+    return os.path.join(ROOT, "bin", name + (".exe" if platform.startswith("windows") else ""))
+
+
+def start(platform, command, graphics=None):
+    """Start a program of the platform, with pipes. Arguments that are paths must be absolute. graphics: environment variables of a
+    program that draws; None: it does not draw."""
     environment = None
+    if graphics is not None:
+        environment = {**(prepare_wine() if platform.startswith("windows") else os.environ), **get_driver(), **graphics}
     if platform.startswith("windows"):
-        environment = prepare_wine()
+        environment = environment or prepare_wine()
         command = [WINE] + command
     elif platform == "linux.arm64":
         command = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu"] + command
     return subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def start_display():
+    """Start a virtual display that ends with the tests. Return its name."""
+    read_end, write_end = os.pipe()
+    command = ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x1024x24", "-nolisten", "tcp", "-noreset"]
+    server = subprocess.Popen(command, pass_fds=[write_end], stderr=subprocess.DEVNULL)
+    atexit.register(server.terminate)
+    os.close(write_end)
+    with os.fdopen(read_end) as pipe:
+        return ":" + pipe.readline().strip()
 
 
 @functools.lru_cache(maxsize=None)
@@ -45,7 +66,7 @@ def prepare_wine():
     environment = dict(os.environ)
     # Without the overrides Wine offers to install .NET and a browser, in windows.
     environment.update(WINEPREFIX=WINE_FOLDER, WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml=")
-    environment.pop("DISPLAY", None)
+    environment["DISPLAY"] = start_display()  # before Wine, which asks for it once; its Vulkan does not work without one
     os.makedirs(WINE_FOLDER, exist_ok=True)
     # The server stays until the tests end. Otherwise each program would start it and its services, which inherit the program's
     # pipes and keep them open for seconds after the program has ended.
@@ -57,9 +78,14 @@ def prepare_wine():
     return environment
 
 
-def run(platform, command):
-    """Run a program of the platform. Return (exit code, what it printed, what it printed on stderr), as bytes."""
-    process = start(platform, command)
+def get_driver():
+    """Return the environment variables that select llvmpipe, on every platform the same."""
+    return {"VK_DRIVER_FILES": DRIVER, "VK_ICD_FILENAMES": DRIVER}
+
+
+def run(platform, command, graphics=None):
+    """Run a program of the platform, see start. Return (exit code, what it printed, what it printed on stderr), as bytes."""
+    process = start(platform, command, graphics)
     try:
         output, errors = process.communicate(timeout=TIMEOUT_S)
     except subprocess.TimeoutExpired:
