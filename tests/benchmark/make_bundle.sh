@@ -6,8 +6,9 @@ set -euo pipefail
 usage() {
     cat <<'TEXT'
 Usage: tests/benchmark/make_bundle.sh [options]
-  --out FILE    the archive (default build/gnomon-linux-x86_64.tar.xz)
+  --out FILE    the archive (default build/gnomon-linux-x86_64.tar.xz, or build/gnomon-windows-x86_64.zip)
   --program P   the program to pack (default bin/gnomon)
+  --windows     the program for Windows, bin/gnomon.exe, without references
   --quick       references of two scenes, in 64 x 64 pixels, instead of those of measure.sh --quick (for tests)
 Packs the stripped program, its shared libraries with their licences, the scenes as files, the references of
 measure.sh --quick, and scripts in sh. Needs the packages that run_demo.sh installs and the scenes that it makes. The
@@ -22,8 +23,9 @@ fail() {
 }
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=$root/build/gnomon-linux-x86_64.tar.xz
-program=$root/bin/gnomon
+out=
+program=
+is_windows=no
 measure_options=()
 while [ $# -gt 0 ]; do
     case $1 in
@@ -35,6 +37,7 @@ while [ $# -gt 0 ]; do
             if [ "$1" = --out ]; then out=$2; else program=$2; fi
             shift
             ;;
+        --windows) is_windows=yes ;;
         --quick) measure_options=(--scenes "sphere,contact_box" --size 64x64) ;;
         -h | --help)
             usage
@@ -47,11 +50,53 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
-[ -x "$program" ] || fail "$program does not exist. Build it: scons bin/gnomon."
+if [ "$is_windows" = yes ]; then
+    name=gnomon-windows-x86_64
+    out=${out:-$root/build/$name.zip} program=${program:-$root/bin/gnomon.exe} build="scons platform=windows godot=no bin/gnomon.exe"
+else
+    name=gnomon-linux-x86_64
+    out=${out:-$root/build/$name.tar.xz} program=${program:-$root/bin/gnomon} build="scons bin/gnomon"
+fi
+[ -x "$program" ] || fail "$program does not exist. Build it: $build."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-bundle=$work/gnomon-linux-x86_64
-mkdir -p "$bundle/bin" "$bundle/lib" "$bundle/lib/fallback" "$bundle/licences" "$bundle/project/scenes"
+bundle=$work/$name
+mkdir -p "$bundle/licences" "$bundle/project/scenes"
+
+add_own_files() {
+    cp "$root/LICENSE" "$bundle/licences/gnomon.txt"
+    cp "$root"/modules/error_report/page/third_party/*LICENSE* "$bundle/licences/"
+    cp "$root"/demo_project/scenes/*.gltf "$root"/demo_project/scenes/*.bin "$root"/demo_project/scenes/*.png "$bundle/project/scenes/"
+    cp "$root/demo_project/project.cfg" "$bundle/project/"
+}
+check_size() {
+    size=$(stat -c %s "$out")
+    echo "$out: $((size / 1048576)) MiB"
+    [ "$size" -lt $((60 * 1048576)) ] || fail "$out has $size bytes, must be below 60 MiB"
+}
+
+# Packages whose code is in the program for Windows, besides the libraries of modules/windows_libraries.py: the compiler's
+# libraries, and headers with code.
+WINDOWS_PACKAGES="gcc-mingw-w64-x86-64-posix-runtime mingw-w64-x86-64-dev libglm-dev nlohmann-json3-dev libcli11-dev libxxhash-dev libvulkan-dev"
+if [ "$is_windows" = yes ]; then
+    x86_64-w64-mingw32-strip -o "$bundle/gnomon.exe" "$program"
+    for licence in "$root"/build/windows_libraries/licences/*; do
+        cp "$licence" "$bundle/licences/$(basename "$licence").txt"
+    done
+    for package in $WINDOWS_PACKAGES; do
+        cp -L "/usr/share/doc/$package/copyright" "$bundle/licences/$package.txt"
+    done
+    add_own_files
+    for text in README.txt measure.cmd; do
+        sed 's/$/\r/' "$root/tests/benchmark/bundle/windows/$text" >"$bundle/$text" # Windows' line ends
+    done
+    mkdir -p "$(dirname "$out")"
+    rm -f "$out"
+    (cd "$work" && python3 -m zipfile -c "$out" "$name")
+    check_size
+    exit 0
+fi
+mkdir -p "$bundle/bin" "$bundle/lib" "$bundle/lib/fallback"
 
 echo "== Program"
 strip -o "$bundle/bin/gnomon" "$program"
@@ -90,12 +135,9 @@ while read -r name path; do
     add_licence "$path"
 done < <(ldd "$program" | awk '$2 == "=>" { print $1, $3 }')
 find "$bundle/lib" -type f -exec strip --strip-unneeded {} +
-cp "$root/LICENSE" "$bundle/licences/gnomon.txt"
-cp "$root"/modules/error_report/page/third_party/*LICENSE* "$bundle/licences/"
 
 echo "== Scenes"
-cp "$root"/demo_project/scenes/*.gltf "$root"/demo_project/scenes/*.bin "$root"/demo_project/scenes/*.png "$bundle/project/scenes/"
-cp "$root/demo_project/project.cfg" "$bundle/project/"
+add_own_files
 cp "$root/tests/benchmark/bundle/gnomon" "$root/tests/benchmark/bundle/measure.sh" "$root/tests/benchmark/bundle/README.txt" "$bundle/"
 chmod +x "$bundle/gnomon" "$bundle/measure.sh"
 
@@ -110,6 +152,4 @@ rm -f "$bundle"/references/pipelines_* # pipeline caches of this machine's drive
 echo "== Archive"
 mkdir -p "$(dirname "$out")"
 tar -C "$work" --owner=0 --group=0 -cJf "$out" "$(basename "$bundle")"
-size=$(stat -c %s "$out")
-echo "$out: $((size / 1048576)) MiB"
-[ "$size" -lt $((60 * 1048576)) ] || fail "$out has $size bytes, must be below 60 MiB"
+check_size

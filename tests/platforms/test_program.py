@@ -7,9 +7,11 @@ godot=no. GNOMON_ALL_MASKS=1 compares masks of every technique, light and scene 
 import json
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)), os.path.join(ROOT, "tests", "benchmark")]
@@ -179,6 +181,26 @@ class Messages(ProgramCase):
         self.assertEqual(code, 1, errors)
         self.assertIn("vulkan-1.dll", errors)
         self.assertIn("driver", errors)
+
+
+class Bundle(ProgramCase):
+    def test_the_packed_program_measures(self):
+        """The archive of make_bundle.sh --windows, unpacked into a folder with an odd name."""
+        archive = self.path("bundle.zip")
+        subprocess.run([os.path.join(ROOT, "tests", "benchmark", "make_bundle.sh"), "--windows", "--out", archive], stdout=subprocess.DEVNULL, check=True)
+        with zipfile.ZipFile(archive) as file:
+            file.extractall(self.path(ODD_NAME))
+        folder = self.path(ODD_NAME, "gnomon-windows-x86_64")
+        for name in ("gnomon", "embree", "libpng1.6", "openexr"):
+            self.assertGreater(os.path.getsize(os.path.join(folder, "licences", name + ".txt")), 500)
+        script = "Z:" + os.path.join(folder, "measure.cmd").replace("/", "\\")
+        code, output, errors = platforms.run("windows.x86_64", ["cmd", "/c", script], graphics={"SCENES": "sphere", "SIZE": "64x64"})
+        self.assertEqual(code, 0, output + errors)
+        with open(os.path.join(folder, "results", "results.json"), encoding="utf-8") as file:
+            results = json.load(file)
+        self.assertIn("devices", results["info"])
+        self.assertGreater(len(results["report"]["cells"]), 8)
+        self.assertTrue(os.listdir(os.path.join(folder, "references")))
 
 
 if __name__ == "__main__":
