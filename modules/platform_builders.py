@@ -9,8 +9,9 @@ import shutil
 import windows_libraries
 from SCons.Script import Action
 
-# Third-party headers that are independent of the platform, so Debian's own packages provide them.
-HEADERS = ("glm", "glslang", "nlohmann", "xxhash.h", "CLI", "doctest", "stb", "tiny_gltf.h", "vulkan", "vk_video")
+# Third-party headers of the add-on. They are independent of the platform, so Debian's own packages provide them.
+HEADERS = ("glm", "glslang", "nlohmann", "xxhash.h")
+PROGRAM_HEADERS = ("CLI", "doctest", "stb", "tiny_gltf.h", "vulkan", "vk_video")  # of the program, in addition
 LIBRARY_FOLDER = "build/windows_libraries"  # see windows_libraries.py
 HEADER_FOLDER = "/usr/include"
 HOST_ARCH = {"aarch64": "arm64"}.get(os.uname().machine, os.uname().machine)
@@ -103,7 +104,7 @@ def make_environment(env, platform):
     # Not all of /usr/include: its other headers are those of this machine's C library.
     clone.Append(CCFLAGS=[("-isystem", clone.Dir(folder).path)])
     clone["THIRD_PARTY"] = clone.Command(
-        folder + "/links.txt", clone.Value(HEADERS), Action(_link_headers, "Linking third-party headers in " + folder.lstrip("#"))
+        folder + "/links.txt", clone.Value(HEADERS + PROGRAM_HEADERS), Action(_link_headers, "Linking third-party headers in " + folder.lstrip("#"))
     )
     if platform.arch == "arm64":
         clone.Append(CXXFLAGS=["-Wno-psabi"])  # notes on what g++ before 10.1 compiled differently
@@ -131,7 +132,7 @@ def add_windows_libraries(env):
 
 def _link_headers(target, source, env):
     folder = os.path.dirname(str(target[0]))
-    for name in HEADERS:
+    for name in HEADERS + PROGRAM_HEADERS:
         header = os.path.join(HEADER_FOLDER, name)
         if not os.path.exists(header):
             print("ERROR: %s does not exist. Install the packages BUILD_PACKAGES of demo_project/install_packages.sh." % header)
@@ -141,7 +142,7 @@ def _link_headers(target, source, env):
             os.remove(link)
         os.symlink(header, link)
     with open(str(target[0]), "w", encoding="utf-8") as file:
-        file.write("\n".join(HEADERS) + "\n")
+        file.write("\n".join(HEADERS + PROGRAM_HEADERS) + "\n")
     return 0
 
 
