@@ -44,7 +44,7 @@ _make_godot_root() {
         return 1
     fi
     install_packages debootstrap || return 1
-    mirror=$(apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -v security | head -n 1)
+    mirror=$(find_debian_mirror)
     if [ -z "$mirror" ]; then
         echo "ERROR: apt names no mirror to get Godot from. Run apt-get update, or set \$GODOT to a Godot 4.5 or later." >&2
         return 1

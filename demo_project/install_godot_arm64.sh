@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Gets a Godot 4 for Linux arm64, which QEMU runs on other processors, for tests/godot/test_arm64.py; see doc/platforms.md. Run it
-# by itself, or source it and call install_godot_arm64. It needs the packages qemu-user-static and xvfb when it runs Godot.
+# by itself, or source it after install_packages.sh and call install_godot_arm64. It needs the packages qemu-user-static and xvfb when it runs Godot.
 
 GODOT_ARM64_SUITE=sid # as in install_godot.sh
 GODOT_ARM64_PACKAGES=(
@@ -16,7 +16,7 @@ install_godot_arm64() {
     if [ -x "$folder/godot" ]; then
         return 0
     fi
-    mirror=$(apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -v security | head -n 1)
+    mirror=$(find_debian_mirror)
     if [ -z "$mirror" ]; then
         echo "ERROR: apt names no mirror to get Godot for arm64 from. Run apt-get update." >&2
         return 1
@@ -66,6 +66,8 @@ TEXT
 
 if [ "${BASH_SOURCE[0]}" = "$0" ]; then
     root=$(cd "$(dirname "$0")/.." && pwd)
+    # shellcheck source=demo_project/install_packages.sh
+    . "$root/demo_project/install_packages.sh"
     install_godot_arm64 "$root" || exit 1
     echo "Godot $("$root/build/godot_arm64/godot" --version | tail -n 1) for arm64: $root/build/godot_arm64/godot"
 fi

@@ -33,6 +33,12 @@ is_package_installed() {
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
+# find_debian_mirror: prints the address of the mirror that apt uses, or nothing if apt names none.
+find_debian_mirror() {
+    # shellcheck disable=SC2016
+    apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -v security | head -n 1
+}
+
 # install_packages PACKAGE...: installs the packages that are missing. Needs no network if none is missing.
 # Returns 1, with the list on stderr, if that fails.
 install_packages() {

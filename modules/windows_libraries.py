@@ -61,6 +61,21 @@ def run(command, **options):
     return done.stdout
 
 
+def read_text(path):
+    """Return the text of a file, "" if it does not exist."""
+    if not os.path.exists(path):
+        return ""
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def write_text(path, text):
+    """Write a file, and create its folder if it is absent."""
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
 class SourcePackages:
     """Downloads Debian's source packages with apt, without a change of the system: lists and files are below `folder`."""
 
@@ -71,10 +86,9 @@ class SourcePackages:
             os.makedirs(os.path.join(folder, "apt", name), exist_ok=True)
         # The system's own sources of packages, with their sources in place of programs.
         for path in glob.glob("/etc/apt/sources.list.d/*.sources"):
-            self._write(parts, path, re.sub(r"(?m)^Types:.*$", "Types: deb-src", self._read(path)))
+            write_text(os.path.join(parts, os.path.basename(path)), re.sub(r"(?m)^Types:.*$", "Types: deb-src", read_text(path)))
         for path in ["/etc/apt/sources.list", *glob.glob("/etc/apt/sources.list.d/*.list")]:
-            if os.path.exists(path):
-                self._write(parts, path, re.sub(r"(?m)^deb\s", "deb-src ", self._read(path)))
+            write_text(os.path.join(parts, os.path.basename(path)), re.sub(r"(?m)^deb\s", "deb-src ", read_text(path)))
         self.options = []
         for key, value in {
             "Dir::Etc::sourcelist": "/dev/null",
@@ -86,16 +100,6 @@ class SourcePackages:
         }.items():
             self.options += ["-o", key + "=" + value]
         run(["apt-get", *self.options, "update"])
-
-    @staticmethod
-    def _read(path):
-        with open(path, encoding="utf-8") as file:
-            return file.read()
-
-    @staticmethod
-    def _write(folder, path, text):
-        with open(os.path.join(folder, os.path.basename(path)), "w", encoding="utf-8") as file:
-            file.write(text)
 
     def unpack(self, package):
         """Return the version and the folder of the package's patched source: the newest version that the mirror has, or if it has
@@ -149,8 +153,7 @@ def write_toolchain(path, folder):
     lines += ["set(CMAKE_%s_COMPILER %s)" % item for item in COMPILERS.items()]
     lines += ["set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)"]
     lines += ["set(CMAKE_FIND_ROOT_PATH_MODE_%s ONLY)" % what for what in ("LIBRARY", "INCLUDE", "PACKAGE")]
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("\n".join(lines) + "\n")
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def build_source(source, folder, toolchain, options):
@@ -160,12 +163,6 @@ def build_source(source, folder, toolchain, options):
          "-DCMAKE_INSTALL_PREFIX=" + folder, "-DBUILD_SHARED_LIBS=OFF", *options])  # fmt: skip
     run(["cmake", "--build", build, "--parallel", str(os.cpu_count() or 1), "--target", "install"])
     shutil.rmtree(build)
-
-
-def merge_archives(target, sources):
-    """Make one static library of several, so that the order in which they are linked does not matter."""
-    script = "create %s\n%ssave\nend\n" % (target, "".join("addlib %s\n" % source for source in sources))
-    run([TOOLS + "ar", "-M"], input=script)
 
 
 def build_from_headers(folder, work):
@@ -178,8 +175,7 @@ def build_from_headers(folder, work):
             os.symlink("/usr/include/" + name, link)
     for name, (text, _) in FROM_HEADERS.items():
         source = os.path.join(work, name + ".cpp")
-        with open(source, "w", encoding="utf-8") as file:
-            file.write(text)
+        write_text(source, text)
         made = os.path.join(work, name + ".o")
         run([COMPILERS["CXX"], "-O2", "-g1", "-w", "-isystem", links, "-isystem", links + "/stb", "-c", source, "-o", made])
         run([TOOLS + "ar", "rcs", os.path.join(folder, "lib", "lib%s.a" % name), made])
@@ -188,13 +184,11 @@ def build_from_headers(folder, work):
 def make_vulkan_import(folder, work):
     """Make the import library of vulkan-1.dll, the loader, which comes with every graphics driver. It is loaded at the first call, so
     that a program can say what is missing where there is none."""
-    with open(VULKAN_HEADER, encoding="utf-8") as file:
-        names = re.findall(r"VKAPI_CALL (vk\w+)\(", file.read())
+    names = re.findall(r"VKAPI_CALL (vk\w+)\(", read_text(VULKAN_HEADER))
     # The loader exports the functions of Vulkan itself and of surfaces and swapchains (KHR); others are looked up by name.
     exported = [name for name in names if not re.search(r"[A-Z]{2,}$", name) or name.endswith("KHR")]
     definition = os.path.join(work, "vulkan-1.def")
-    with open(definition, "w", encoding="utf-8") as file:
-        file.write("LIBRARY vulkan-1.dll\nEXPORTS\n" + "\n".join(exported) + "\n")
+    write_text(definition, "LIBRARY vulkan-1.dll\nEXPORTS\n" + "\n".join(exported) + "\n")
     run([TOOLS + "dlltool", "-d", definition, "-y", os.path.join(folder, "lib", "libvulkan.a")])
 
 
@@ -208,22 +202,20 @@ def copy_licence(folder, package, source):
 
 def change_source(source, name, old, new):
     path = os.path.join(source, name)
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
+    text = read_text(path)
     if old not in text:
         raise SystemExit("ERROR: %s has no longer the text %r, which the build replaces." % (path, old))
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text.replace(old, new))
+    write_text(path, text.replace(old, new))
 
 
 def merge_embree(folder):
-    """Make one library of Embree's parts."""
+    """Make one library of Embree's parts, so that the order in which they are linked does not matter."""
     library = os.path.join(folder, "lib")
     names = ["libembree3.a", "liblexers.a", "libmath.a", "libsimd.a", "libsys.a", "libtasking.a"]
     paths = [os.path.join(library, name) for name in names] + sorted(glob.glob(library + "/libembree_*.a"))
     paths = [path for path in paths if os.path.exists(path)]
     merged = os.path.join(library, "merged.a")
-    merge_archives(merged, paths)
+    run([TOOLS + "ar", "-M"], input="create %s\n%ssave\nend\n" % (merged, "".join("addlib %s\n" % path for path in paths)))
     for path in paths:
         os.remove(path)
     os.rename(merged, os.path.join(library, names[0]))
@@ -233,24 +225,10 @@ def compute_recipe(*parts):
     return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
 
 
-def read_text(path):
-    if not os.path.exists(path):
-        return ""
-    with open(path, encoding="utf-8") as file:
-        return file.read()
-
-
-def write_text(path, text):
-    os.makedirs(os.path.dirname(path), exist_ok=True)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-
-
 def build(folder):
     """Build the libraries that the folder does not have with the recipe of this file."""
     folder = os.path.abspath(folder)
-    with open(os.path.abspath(__file__), encoding="utf-8") as file:
-        recipe = compute_recipe(file.read())
+    recipe = compute_recipe(read_text(os.path.abspath(__file__)))
     stamp = os.path.join(folder, "versions.txt")
     if read_text(stamp).startswith(recipe + "\n"):
         return

@@ -2,9 +2,13 @@
 
 import os
 import subprocess
+import sys
 import time
 
-from command_line_case import GNOMON, CommandLineTest
+from command_line_case import GNOMON, ROOT, CommandLineTest
+
+sys.path.insert(0, os.path.join(ROOT, "tests"))
+import virtual_display  # noqa: E402
 
 TIMEOUT_S = 120
 
@@ -12,15 +16,7 @@ TIMEOUT_S = 120
 class DisplayTest(CommandLineTest):
     @classmethod
     def setUpClass(cls):
-        read_end, write_end = os.pipe()
-        cls.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1400x900x24", "-nolisten", "tcp", "-noreset"],
-            pass_fds=[write_end],
-            stderr=subprocess.DEVNULL,
-        )
-        os.close(write_end)
-        with os.fdopen(read_end) as pipe:
-            cls.display = ":" + pipe.readline().strip()
+        cls.server, cls.display = virtual_display.start(1400, 900)
 
     @classmethod
     def tearDownClass(cls):

@@ -26,7 +26,6 @@ PROJECT = os.path.join(FOLDER, "project")
 MASK_TEST = "test_masks_of_each_light_are_stored"
 SUITE_SIZE = 200  # pixels, as suite.gd sets it
 MASK_SIZE = 64  # pixels, of MASK_TEST
-MASK_SIZE = 64  # pixels, of MASK_TEST
 # None of the tests expects a message.
 TESTS = (MASK_TEST, "test_properties_follow_the_technique", "test_packed_scenes_store_all_properties_that_were_set")
 FULL_TESTS = (

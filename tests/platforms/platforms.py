@@ -4,8 +4,12 @@ import atexit
 import functools
 import os
 import subprocess
+import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests"))
+import virtual_display  # noqa: E402
+
 ADDON = os.path.join(ROOT, "demo_project", "godot", "addons", "gnomon")
 LIBRARIES = {
     "linux.x86_64": "libgnomon.linux.x86_64.so",
@@ -25,14 +29,14 @@ def get_library(platform):
     return os.path.join(ADDON, "bin", LIBRARIES[platform])
 
 
+def get_main_program(platform):
+    """Return the path of the program, which is built for PROGRAMS."""
+    return os.path.join(ROOT, "bin", "gnomon" + (".exe" if platform.startswith("windows") else ""))
+
+
 def get_program(name, platform):
-    """Return the path of a test program."""
+    """Return the path of a test program, which is built for all platforms."""
     return os.path.join(ROOT, "bin", "%s.%s%s" % (name, platform, ".exe" if platform.startswith("windows") else ""))
-
-
-def get_main_program(name, platform):
-    """Return the path of a program that is built for PROGRAMS, gnomon or gnomon_tests."""
-    return os.path.join(ROOT, "bin", name + (".exe" if platform.startswith("windows") else ""))
 
 
 def start(platform, command, graphics=None):
@@ -40,7 +44,8 @@ def start(platform, command, graphics=None):
     program that draws; None: it does not draw."""
     environment = None
     if graphics is not None:
-        environment = {**(prepare_wine() if platform.startswith("windows") else os.environ), **get_driver(), **graphics}
+        driver = {"VK_DRIVER_FILES": DRIVER, "VK_ICD_FILENAMES": DRIVER}  # the same on every platform
+        environment = {**(prepare_wine() if platform.startswith("windows") else os.environ), **driver, **graphics}
     if platform.startswith("windows"):
         environment = environment or prepare_wine()
         command = [WINE] + command
@@ -49,24 +54,15 @@ def start(platform, command, graphics=None):
     return subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
-def start_display():
-    """Start a virtual display that ends with the tests. Return its name."""
-    read_end, write_end = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x1024x24", "-nolisten", "tcp", "-noreset"]
-    server = subprocess.Popen(command, pass_fds=[write_end], stderr=subprocess.DEVNULL)
-    atexit.register(server.terminate)
-    os.close(write_end)
-    with os.fdopen(read_end) as pipe:
-        return ":" + pipe.readline().strip()
-
-
 @functools.lru_cache(maxsize=None)
 def prepare_wine():
     """Start Wine, which makes WINE_FOLDER if it is absent. Return the environment in which it runs programs."""
     environment = dict(os.environ)
     # Without the overrides Wine offers to install .NET and a browser, in windows.
     environment.update(WINEPREFIX=WINE_FOLDER, WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml=")
-    environment["DISPLAY"] = start_display()  # before Wine, which asks for it once; its Vulkan does not work without one
+    # A display before Wine starts, which asks for it once. Its Vulkan does not work without one.
+    server, environment["DISPLAY"] = virtual_display.start(1280, 1024)
+    atexit.register(server.terminate)
     os.makedirs(WINE_FOLDER, exist_ok=True)
     # The server stays until the tests end. Otherwise each program would start it and its services, which inherit the program's
     # pipes and keep them open for seconds after the program has ended.
@@ -76,11 +72,6 @@ def prepare_wine():
     if done.returncode != 0:
         raise RuntimeError("wineboot ended with %d in %s. Remove that folder and try again." % (done.returncode, WINE_FOLDER))
     return environment
-
-
-def get_driver():
-    """Return the environment variables that select llvmpipe, on every platform the same."""
-    return {"VK_DRIVER_FILES": DRIVER, "VK_ICD_FILENAMES": DRIVER}
 
 
 def run(platform, command, graphics=None):

@@ -1,7 +1,7 @@
 """The program for Windows under Wine, next to the same program on Linux: masks, reports, paths and messages.
 
 Both draw with the same driver of Linux (llvmpipe), so their masks should be equal. Build first: scons; scons platform=windows
-godot=no. GNOMON_ALL_MASKS=1 compares masks of every technique, light and scene of MASK_SCENES; otherwise those of the first scene.
+godot=no bin/gnomon.exe. GNOMON_ALL_MASKS=1 compares masks of every technique, light and scene of MASK_SCENES; otherwise those of the first scene.
 """
 
 import json
@@ -43,7 +43,7 @@ class ProgramCase(unittest.TestCase):
     def run_on(self, platform, *arguments, **environment):
         """Return (exit code, output, stderr) of the program for a platform. Each has a cache of its own."""
         environment.setdefault("GNOMON_CACHE_DIR", self.path("cache " + platform))
-        code, output, errors = platforms.run(platform, [platforms.get_main_program("gnomon", platform), *arguments], graphics=environment)
+        code, output, errors = platforms.run(platform, [platforms.get_main_program(platform), *arguments], graphics=environment)
         return code, output.decode().replace("\r\n", "\n"), errors.decode(errors="replace").replace("\r\n", "\n")
 
     def run_well(self, platform, *arguments, **environment):
@@ -154,7 +154,7 @@ class Paths(ProgramCase):
 class Messages(ProgramCase):
     def test_needs_only_libraries_of_every_windows(self):
         """Vulkan's loader is not among them: it is loaded when it is first used."""
-        program = LibraryFile(platforms.get_main_program("gnomon", "windows.x86_64"))
+        program = LibraryFile(platforms.get_main_program("windows.x86_64"))
         self.assertEqual(program.imports, {"KERNEL32.dll", "ADVAPI32.dll", "msvcrt.dll"})
 
     def test_help_equals_that_of_linux_without_its_window(self):
