@@ -96,10 +96,6 @@ std::unique_ptr<Scene> load_mesh_with_light(const GltfTestFolder &p_folder) {
 	return p_folder.load(json);
 }
 
-size_t count_files(const fs::path &p_folder) {
-	return size_t(std::distance(fs::directory_iterator(p_folder), {}));
-}
-
 } // namespace
 
 TEST_CASE("[GltfWriter] saving an unchanged scene preserves every value of the file") {
@@ -295,6 +291,14 @@ TEST_CASE("[GltfWriter] a staged node is not saved, unless one of its descendant
 }
 
 #ifndef _WIN32 // which has no fork; tests/platforms/test_saves.py kills programs there
+namespace {
+
+size_t count_files(const fs::path &p_folder) {
+	return size_t(std::distance(fs::directory_iterator(p_folder), {}));
+}
+
+} // namespace
+
 TEST_CASE("[GltfWriter] a process killed while saving leaves the old or the new scene complete") {
 	GltfTestFolder folder;
 	GltfTestLog log;
