@@ -26,13 +26,15 @@ RTCRay make_ray(const glm::vec3 &p_origin, const glm::vec3 &p_direction, float p
 	return ray;
 }
 
-/// Returns the indices of the triangles whose corners are all finite: Embree expects the caller to
-/// skip the others. An index out of range is a programming error.
-std::vector<uint32_t> keep_finite(
+/// Returns the indices of the triangles that a ray can hit: those whose corners are finite, as
+/// Embree expects, and that have an area. The others would only change the order in which Embree
+/// stores triangles, and with it rays that touch an edge. An index out of range is a programming
+/// error.
+std::vector<uint32_t> keep_hittable(
 		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
 	GNOMON_ASSERT(p_triangle_indices.size() % 3 == 0, p_triangle_indices.size(), " indices");
-	std::vector<uint32_t> finite_indices;
-	finite_indices.reserve(p_triangle_indices.size());
+	std::vector<uint32_t> kept_indices;
+	kept_indices.reserve(p_triangle_indices.size());
 	for (size_t i = 0; i < p_triangle_indices.size(); i += 3) {
 		bool are_finite = true;
 		for (size_t k = i; k < i + 3; ++k) {
@@ -40,12 +42,17 @@ std::vector<uint32_t> keep_finite(
 			GNOMON_ASSERT(index < p_positions.size(), "index ", index, " of ", p_positions.size());
 			are_finite = are_finite && is_finite(p_positions[index]);
 		}
-		if (are_finite) {
-			finite_indices.insert(
-					finite_indices.end(), &p_triangle_indices[i], &p_triangle_indices[i] + 3);
+		const auto get_corner = [&](size_t p_corner) {
+			return glm::dvec3(p_positions[p_triangle_indices[i + p_corner]]);
+		};
+		if (are_finite &&
+				glm::cross(get_corner(1) - get_corner(0), get_corner(2) - get_corner(0)) !=
+						glm::dvec3(0.0)) {
+			kept_indices.insert(
+					kept_indices.end(), &p_triangle_indices[i], &p_triangle_indices[i] + 3);
 		}
 	}
-	return finite_indices;
+	return kept_indices;
 }
 
 /// Filter function of cut-out geometries: rejects hits in holes.
@@ -106,7 +113,7 @@ EmbreeScene::EmbreeScene(std::span<const glm::vec3> p_positions,
 	add(p_positions, p_triangle_indices, HitMode::OCCLUDE);
 	for (const CutOutTriangles &body : p_cut_out) {
 		auto owned = std::make_unique<CutOutTriangles>(body);
-		owned->triangles.indices = keep_finite(body.triangles.positions, body.triangles.indices);
+		owned->triangles.indices = keep_hittable(body.triangles.positions, body.triangles.indices);
 		owned->test.image = owned->image.get();
 		cut_out.push_back(std::move(owned));
 		add(cut_out.back()->triangles.positions, cut_out.back()->triangles.indices,
@@ -169,19 +176,19 @@ bool EmbreeScene::is_occluded(
 void EmbreeScene::add(std::span<const glm::vec3> p_positions,
 		std::span<const uint32_t> p_triangle_indices, HitMode p_hit_mode,
 		const CutOutTriangles *p_cut_out) {
-	const std::vector<uint32_t> finite_indices = keep_finite(p_positions, p_triangle_indices);
+	const std::vector<uint32_t> hittable_indices = keep_hittable(p_positions, p_triangle_indices);
 	RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-	if (!finite_indices.empty()) {
+	if (!hittable_indices.empty()) {
 		// Buffers of Embree's own, because it reads 16 bytes beyond the last vertex of a shared
 		// one.
 		void *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
 				RTC_FORMAT_FLOAT3, sizeof(glm::vec3), p_positions.size());
 		void *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-				RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), finite_indices.size() / 3);
+				RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), hittable_indices.size() / 3);
 		if (vertices != nullptr && indices != nullptr) {
 			std::copy(p_positions.begin(), p_positions.end(), static_cast<glm::vec3 *>(vertices));
-			std::copy(
-					finite_indices.begin(), finite_indices.end(), static_cast<uint32_t *>(indices));
+			std::copy(hittable_indices.begin(), hittable_indices.end(),
+					static_cast<uint32_t *>(indices));
 		}
 	}
 	if (p_hit_mode == HitMode::RECORD) {

@@ -26,13 +26,19 @@ class SliceTest(unittest.TestCase):
         self.assertEqual(run_engine.add_up([good, (-11, "half a line")]), [3, 1, 1])
         self.assertEqual(run_engine.add_up([good, (3, "2 passed, 0 failed, 0 skipped\n")]), [5, 1, 1])
 
+    def test_messages_of_the_validation_layers_count_as_failures(self):
+        output = "text\n3 passed, 0 failed, 0 skipped\n"
+        message = "SYNC-HAZARD-WRITE-AFTER-WRITE(ERROR / SPEC): msgNum: 1\n"
+        self.assertEqual(run_engine.add_up([(0, message + output)]), [3, 0, 0])  # the program itself counts them
+        self.assertEqual(run_engine.add_up([(0, output), (0, message + output)], counts_messages=True), [6, 1, 0])
+
     def test_a_program_that_prints_no_number_of_tests_is_refused(self):
         with tempfile.NamedTemporaryFile("w", suffix=".sh", delete=False) as script:
             script.write("#!/bin/sh\necho nothing\n")
         os.chmod(script.name, 0o755)
         try:
             with self.assertRaises(SystemExit):
-                run_engine.count_tests(script.name, [])
+                run_engine.count_tests([script.name], None, [])
         finally:
             os.remove(script.name)
 

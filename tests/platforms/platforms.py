@@ -19,8 +19,14 @@ LIBRARIES = {
 WINE = "/usr/lib/wine/wine64"  # Debian has it outside of PATH
 WINE_SERVER = "/usr/lib/wine/wineserver64"
 DRIVER = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"
-WINE_FOLDER = os.path.join(ROOT, "build", "wine")  # its registry and drive C:, made at the first start
+WINE_FOLDER = os.environ.get("GNOMON_WINE_FOLDER", os.path.join(ROOT, "build", "wine"))  # its registry and drive C:, made at the first start
 TIMEOUT_S = 120  # only for hangs; the first start of Wine takes up to 20 s
+# Lets the validation layers of Linux' Vulkan loader check what a program for Windows does, which cannot load them itself.
+VALIDATION = {
+    "GNOMON_TEST_VALIDATION": "external",
+    "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+    "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
+}
 PROGRAMS = ("linux.x86_64", "windows.x86_64")  # platforms of the program, bin/gnomon
 
 
@@ -40,8 +46,14 @@ def get_program(name, platform):
 
 
 def start(platform, command, graphics=None):
-    """Start a program of the platform, with pipes. Arguments that are paths must be absolute. graphics: environment variables of a
-    program that draws; None: it does not draw."""
+    """Start a program of the platform, with pipes. See prepare()."""
+    command, environment = prepare(platform, command, graphics)
+    return subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def prepare(platform, command, graphics=None):
+    """Return the command that runs a program of the platform here, and its environment. Arguments that are paths must be absolute.
+    graphics: environment variables of a program that draws; None: it does not draw."""
     environment = None
     if graphics is not None:
         driver = {"VK_DRIVER_FILES": DRIVER, "VK_ICD_FILENAMES": DRIVER}  # the same on every platform
@@ -51,7 +63,7 @@ def start(platform, command, graphics=None):
         command = [WINE] + command
     elif platform == "linux.arm64":
         command = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu"] + command
-    return subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return command, environment
 
 
 @functools.lru_cache(maxsize=None)

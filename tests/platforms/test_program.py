@@ -1,7 +1,7 @@
 """The program for Windows under Wine, next to the same program on Linux: masks, reports, paths and messages.
 
 Both draw with the same driver of Linux (llvmpipe), so their masks should be equal. Build first: scons; scons platform=windows
-godot=no bin/gnomon.exe. GNOMON_ALL_MASKS=1 compares masks of every technique, light and scene of MASK_SCENES; otherwise those of the first scene.
+godot=no bin/gnomon.exe. GNOMON_ALL_MASKS=yes compares masks of every technique, light and scene of MASK_SCENES; otherwise those of the first scene.
 """
 
 import json
@@ -66,7 +66,7 @@ class ProgramCase(unittest.TestCase):
 
 class Masks(ProgramCase):
     def test_masks_equal_those_of_linux(self):
-        scenes = MASK_SCENES if os.environ.get("GNOMON_ALL_MASKS") else MASK_SCENES[:1]
+        scenes = MASK_SCENES if os.environ.get("GNOMON_ALL_MASKS") == "yes" else MASK_SCENES[:1]
         for technique in self.list_techniques():
             for scene in scenes:
                 for light in LIGHTS:

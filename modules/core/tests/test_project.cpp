@@ -112,7 +112,7 @@ TEST_CASE("[Project] a scene whose name is too long for the file system counts a
 	const std::string long_name(5000, 'a');
 	const Project project =
 			Project::parse("[project]\nscenes=[\"" + long_name + "\"]\n", "/none/project.cfg");
-	CHECK(project.missing_scenes == std::vector<fs::path>{ "/none/" + long_name });
+	CHECK(project.missing_scenes == std::vector<fs::path>{ fs::absolute("/none/" + long_name) });
 }
 
 TEST_CASE("[Project] a list of 200000 lines is parsed completely") {

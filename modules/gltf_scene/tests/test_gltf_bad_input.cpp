@@ -213,18 +213,27 @@ TEST_CASE("[GltfBadInput] a URI that leads out of the project folder or is inval
 	const Json json = make_triangle(folder);
 	make_triangle(outside);
 	const std::string secret = (outside.path / "data.bin").string();
-	fs::create_symlink(secret, folder.path / "link.bin");
+	std::error_code problem;
+	fs::create_symlink(secret, folder.path / "link.bin", problem);
 	const std::string other = outside.path.filename().string();
-	const std::vector<std::pair<std::string, std::string>> bad = { { secret, "absolute" },
+	// "C:" at the start of a path is read as the scheme of a URL.
+	const bool has_drives = fs::path(secret).has_root_name();
+	const std::vector<std::pair<std::string, std::string>> bad = {
+		{ secret, has_drives ? "relative path" : "absolute" },
 		{ "../" + other + "/data.bin", "leads out" },
 		{ "%2e%2e/" + other + "/data.bin", "leads out" }, { "link.bin", "leads out" },
 		{ "file://" + secret, "relative path" }, { "http://example.com/a.bin", "relative path" },
 		{ "a%00.bin", "% escapes" }, { "a%2", "% escapes" }, { "a%zz.bin", "% escapes" },
 		{ "", "% escapes" }, { ".", "cannot be read" }, { "missing.bin", "does not exist" },
 		{ "data:application/octet-stream;base64,", "no base64" }, { "data:text,abc", "no base64" },
-		{ "data:application/octet-stream;base64,AAAA", "must be at most 3" } };
+		{ "data:application/octet-stream;base64,AAAA", "must be at most 3" }
+	};
 	for (const auto &[uri, expected_text] : bad) {
 		CAPTURE(uri);
+		if (problem && uri == "link.bin") {
+			MESSAGE("symbolic links cannot be made here: ", problem.message());
+			continue;
+		}
 		check_rejected(folder, json, "/buffers/0/uri", uri, expected_text);
 	}
 	check_rejected(folder, json, "/buffers/0/uri", 3, "buffers[0].uri is 3");

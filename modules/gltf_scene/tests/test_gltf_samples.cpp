@@ -61,7 +61,7 @@ TEST_CASE("[GltfSamples] each file of assimp-testmodels loads and saves, unless 
 		if (extension != ".gltf" && extension != ".glb") {
 			continue;
 		}
-		const std::string name = fs::relative(entry.path(), MODELS).string();
+		const std::string name = fs::relative(entry.path(), MODELS).generic_string();
 		CAPTURE(name);
 		try {
 			const auto scene = load_gltf(entry.path());

@@ -477,9 +477,11 @@ TEST_CASE("[GltfTextures] backslashes in a URI are path separators and stay insi
 		CHECK(load_base_color(folder, json).image);
 	}
 	CHECK(log.errors.empty());
-	folder.write("with\\backslash.png", encode_small_png()); // a valid file name on Linux
-	json["images"][0]["uri"] = "with\\backslash.png";
-	CHECK(load_base_color(folder, json).image);
+	if (std::filesystem::path::preferred_separator == '/') { // elsewhere no name has a backslash
+		folder.write("with\\backslash.png", encode_small_png());
+		json["images"][0]["uri"] = "with\\backslash.png";
+		CHECK(load_base_color(folder, json).image);
+	}
 	for (const char *uri : { "..\\..\\wood.png", "\\wood.png", "skins\\absent.png" }) {
 		CAPTURE(uri);
 		log.errors.clear();
