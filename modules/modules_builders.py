@@ -17,12 +17,15 @@ register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_mo
     get_systems() -> some of "linux" and "windows"     (optional; what it is built for; default: both)
 """
 
+import hashlib
 import importlib.util
 import os
 import re
 
 VERSION = "0.1.0"  # of all modules, shown to users
 REQUIRED_FILES = ("register_types.h", "SCsub", "config.py")
+ALONE = "// build: alone"  # first line of files that are not compiled together with others, see list_batches()
+BATCH_LINES = 2000
 
 
 class Module:
@@ -166,18 +169,71 @@ def add_builders(env, modules):
         getattr(module.config, "configure", lambda env: None)(env)
 
     add_precompiled_header(env, "pch")
-
-    def add_sources(self, pattern_or_files, objects):
-        """Compiles the files (glob pattern or list) and appends their objects to `objects`."""
-        sources = self.Glob(pattern_or_files) if isinstance(pattern_or_files, str) else pattern_or_files
-        for item in sources:
-            if not self["TARGET_PLATFORM"].is_compiled(str(item)):
-                continue
-            made = self.Object(item)
-            self.Depends(made, self["PRECOMPILED"])
-            objects.extend(made)
-
     env.AddMethod(add_sources, "add_sources")
+
+
+def add_sources(env, pattern_or_files, objects):
+    """Compiles the files (glob pattern or list) and appends their objects to `objects`. With unity=yes, several files are compiled
+    as one, see list_batches()."""
+    sources = env.Glob(pattern_or_files) if isinstance(pattern_or_files, str) else pattern_or_files
+    sources = [item for item in map(env.File, env.Flatten(sources)) if env["TARGET_PLATFORM"].is_compiled(str(item))]
+    for batch in list_batches(sources) if env["unity"] else [[item] for item in sources]:
+        source = batch[0] if len(batch) == 1 else _add_batch(env, batch)
+        made = env.Object(source)
+        env.Depends(made, env["PRECOMPILED"])
+        objects.extend(made)
+        if env["compiledb"] and len(batch) > 1:
+            env.Object(batch)  # each file in compile_commands.json; not linked, therefore not compiled
+
+
+def list_batches(sources):
+    """Divide source files into those that are compiled as one: neighbours in the listing of their folder with about BATCH_LINES in
+    all. Headers are then read once for all. Files whose first line is ALONE, those for one system and generated files are batches
+    of their own. A batch depends on its folder only, not on the other sources, so that the program and the add-on share objects."""
+    batches = {}
+    divided = {}
+    for source in sources:
+        path = source.srcnode().abspath
+        folder = os.path.dirname(path)
+        if folder not in divided:
+            divided[folder] = _divide_folder(folder)
+        batches.setdefault((folder, divided[folder].get(path, path)), []).append(source)
+    return list(batches.values())
+
+
+def _divide_folder(folder):
+    """Return {path: number of its batch} of the C++ files of a folder."""
+    batches = {}
+    number, lines = 0, 0
+    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else ():
+        path = os.path.join(folder, name)
+        if not name.endswith(".cpp"):
+            continue
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        if text.startswith(ALONE) or name.endswith(("_posix.cpp", "_windows.cpp")):  # their system headers define many names
+            continue
+        if lines > BATCH_LINES:
+            number, lines = number + 1, 0
+        lines += text.count("\n")
+        batches[path] = number
+    return batches
+
+
+def _add_batch(env, batch):
+    """Add a generated file that includes the files of a batch. Its name has a hash of them, because another build may have fewer."""
+    root = env.Dir("#").abspath
+    paths = [os.path.relpath(source.srcnode().abspath, root) for source in batch]
+    text = "".join('#include "%s"\n' % path for path in paths)
+    first = os.path.splitext(os.path.basename(paths[0]))[0]
+    name = "%s_and_%d_more.%s.gen.cpp" % (first, len(batch) - 1, hashlib.sha256(text.encode()).hexdigest()[:6])
+    folder = os.path.join(env["BUILD_FOLDER"], os.path.dirname(paths[0]), "batches")  # not where SCsub files look for sources
+    return env.Command(os.path.join(folder, name), env.Value(text), env.Action(_write_text, None))
+
+
+def _write_text(target, source, env):
+    with open(str(target[0]), "w", encoding="utf-8") as file:
+        file.write(source[0].get_text_contents())
 
 
 def add_precompiled_header(env, folder):
@@ -223,17 +279,21 @@ def make_test_environment(env):
     clone = use_precompiled_header(plain)
 
     def add_test_sources(self, files, objects):
-        for source in map(self.File, self.Glob(files) if isinstance(files, str) else files):
-            with open(source.srcnode().abspath, encoding="utf-8") as file:
-                is_optimised = file.readline().strip() == OPTIMISED
-            compiler = self
-            if is_optimised:
-                compiler = use_precompiled_header(env)
-                compiler.Append(CCFLAGS=self["CCFLAGS"][len(plain["CCFLAGS"]) :])  # what use_module added
-            compiler.add_sources([source], objects)
+        sources = [self.File(item) for item in (self.Glob(files) if isinstance(files, str) else files)]
+        optimised = [source for source in sources if _read_first_line(source) == OPTIMISED]
+        self.add_sources([source for source in sources if source not in optimised], objects)
+        if optimised:
+            compiler = use_precompiled_header(env)
+            compiler.Append(CCFLAGS=self["CCFLAGS"][len(plain["CCFLAGS"]) :])  # what use_module added
+            compiler.add_sources(optimised, objects)
 
     clone.AddMethod(add_test_sources, "add_test_sources")
     return clone
+
+
+def _read_first_line(source):
+    with open(source.srcnode().abspath, encoding="utf-8") as file:
+        return file.readline().strip()
 
 
 def _copy(target, source):

@@ -2,18 +2,17 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed drivers command_line editor demo bundle stability removal template sanitized fuzz_replay godot windows windows_program sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
+PARTS="layers scenes build docs engine embed drivers command_line editor demo bundle stability removal template sanitized fuzz_replay godot windows windows_program separate_files sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--windows] [--jobs N] [--only PART]...
   --sanitized  also the modules that need no GPU under sanitizers, and the stored fuzzing inputs
-  --full       also what --sanitized adds, sanitizers over everything, the thread sanitizer over the modules that
-               need no GPU, removal of every technique in turn, a build of the smallest game, tables with 9216 light
-               samples, the editor's tests ten times, shadow volumes of large meshes and gltf-validator (installs npm,
-               which downloads them), fuzzing
-               (installs clang), 10,000 frames of scenes that change at random, programs killed 200
-               times, all stability sweeps
+  --full       also what --sanitized adds, each source file compiled by itself, sanitizers over everything, the thread
+               sanitizer over the modules that need no GPU, removal of every technique in turn, a build of the smallest
+               game, tables with 9216 light samples, the editor's tests ten times, shadow volumes of large meshes and
+               gltf-validator (installs npm, which downloads them), fuzzing (installs clang), 10,000 frames of scenes that
+               change at random, programs killed 200 times, all stability sweeps
   --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
                build/ (1.2 GB, as root)
   --windows    also the Godot add-on's libraries for Windows x86_64 and Linux arm64, cross-compiled, and loaded under Wine
@@ -22,7 +21,7 @@ Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--windows] [--jobs N
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
                drivers command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
-               also godot; with --windows also windows windows_program; with --full also sanitized_all threads tables editor_repeats large_meshes validator
+               also godot; with --windows also windows windows_program; with --full also separate_files sanitized_all threads tables editor_repeats large_meshes validator
                fuzz soak kills extremes; only when named: blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
@@ -378,6 +377,9 @@ part_windows_program() {
     GNOMON_ALL_MASKS=$is_full run_part "windows program" python3 tests/run_unittest.py tests/platforms/test_program.py
     run_part "windows engine" python3 tests/run_engine.py --processes "$jobs" bin/gnomon_tests.exe
 }
+part_separate_files() {
+    run_part "separate files" python3 tests/separate_files/test_separate_files.py --processes "$jobs"
+}
 part_sanitized_all() {
     run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
         run_part "all sanitized" env ASAN_OPTIONS=detect_leaks=0 bin/gnomon_tests.release_address_undefined # Mesa leaks
@@ -452,7 +454,7 @@ if [ ${#only[@]} -gt 0 ]; then
     run_parts blender
 fi
 if [ "$is_full" = yes ]; then
-    for part in sanitized_all threads tables fuzz large_meshes validator soak extremes kills editor_repeats; do
+    for part in separate_files sanitized_all threads tables fuzz large_meshes validator soak extremes kills editor_repeats; do
         run_parts "$part"
     done
 fi

@@ -1,3 +1,5 @@
+// build: alone
+// It calls a generated function, which small programs that link other files of core lack.
 #include "modules/core/embedded_shaders.h"
 
 #include "modules/core/error.h"

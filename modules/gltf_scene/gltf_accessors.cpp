@@ -15,7 +15,6 @@ const uint64_t MAX_DECODED_COUNT = 4 * GLTF_MAX_INDEX_COUNT;
 // Limit on the elements of an accessor without bufferView. They are all zero and need no bytes in
 // the file, so that nothing else limits their number.
 const uint64_t MAX_ZERO_COUNT = uint64_t(1) << 22;
-const char NEXT_STEP[] = "Export the file again.";
 
 bool is_attribute_type(int p_component_type) {
 	return p_component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
@@ -135,7 +134,7 @@ void GltfAccessors::locate_elements(
 				text("is ", p_offset, ": ", r_layout.count, " elements need ", needed_bytes,
 						" bytes, bufferViews[", view_index, "] has ",
 						view_bytes.size() - std::min(p_offset, view_bytes.size()), " there. ",
-						NEXT_STEP));
+						EXPORT_AGAIN));
 	}
 	r_layout.bytes = view_bytes.subspan(p_offset, needed_bytes);
 }
@@ -210,7 +209,7 @@ void GltfAccessors::read_elements(
 		const uint32_t target = read_index(targets.get_element(index), targets.component_type);
 		if (target >= p_layout.count) {
 			messages.fail(text(path, ".indices[", index, "]"),
-					text("is ", target, ", must be 0..", p_layout.count - 1, ". ", NEXT_STEP));
+					text("is ", target, ", must be 0..", p_layout.count - 1, ". ", EXPORT_AGAIN));
 		}
 		p_convert(target, values.get_element(index));
 	}
@@ -291,7 +290,7 @@ std::vector<uint32_t> GltfAccessors::read_indices(size_t p_accessor_index, size_
 		if (indices[index] >= p_vertex_count) {
 			messages.fail(text("accessors[", p_accessor_index, "][", index, "]"),
 					text("is ", indices[index], ", must be 0..", p_vertex_count - 1, ". ",
-							NEXT_STEP));
+							EXPORT_AGAIN));
 		}
 	}
 	return indices;

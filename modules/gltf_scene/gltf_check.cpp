@@ -21,15 +21,15 @@ const double MIN_NEAR_M = 1e-6;
 const double MAX_FOV_RAD = 3.14159;						 // must be below pi
 const double MIN_FOV_RAD = 1e-4;						 // a narrower view would show nothing
 const double DEFAULT_OUTER_CONE_RAD = 0.785398163397448; // KHR_lights_punctual: pi / 4
-const double MAX_CONE_RAD = 1.57079632679490 + 1e-6; // exporters round pi / 2 up as often as down
-const double MAX_EMISSIVE_CD_M2 = 1e9;				 // about the luminance of the sun's disc
-const double LAST_ROW_TOLERANCE = 1e-6;				 // for exporters that compute in float
-const uint64_t MAX_OFFSET_BYTES = INT32_MAX;		 // tinygltf's limit
-const uint64_t MAX_STRIDE_BYTES = 252;				 // limit of glTF 2.0
+const double MAX_READ_CONE_RAD =
+		1.57079632679490 + 1e-6;			 // exporters round pi / 2 up as often as down
+const double MAX_EMISSIVE_CD_M2 = 1e9;		 // about the luminance of the sun's disc
+const double LAST_ROW_TOLERANCE = 1e-6;		 // for exporters that compute in float
+const uint64_t MAX_OFFSET_BYTES = INT32_MAX; // tinygltf's limit
+const uint64_t MAX_STRIDE_BYTES = 252;		 // limit of glTF 2.0
 // Offsets, scales and rotations of texture coordinates; a float has no useful precision above.
 const double MAX_UV_TRANSFORM = 1e6;
 const double MIN_QUATERNION_LENGTH = 1e-6; // longer ones are normalized, see read_node_transform
-const char NEXT_STEP[] = "Correct it or export the file again.";
 
 /// Returns whether a file may require the extension: it is supported, or (other KHR_materials_
 /// extensions) only affects how surfaces look, and is ignored.
@@ -427,8 +427,8 @@ void GltfChecker::check_cones(const GltfObject &p_light) {
 	}
 	const GltfObject spot = *p_light.find_object("spot");
 	double outer =
-			spot.read_number("outerConeAngle", DEFAULT_OUTER_CONE_RAD, 0, MAX_CONE_RAD, "rad");
-	double inner = spot.read_number("innerConeAngle", 0, 0, MAX_CONE_RAD, "rad");
+			spot.read_number("outerConeAngle", DEFAULT_OUTER_CONE_RAD, 0, MAX_READ_CONE_RAD, "rad");
+	double inner = spot.read_number("innerConeAngle", 0, 0, MAX_READ_CONE_RAD, "rad");
 	if (!(outer > 0)) {
 		spot.report_value("outerConeAngle", "above 0", text(DEFAULT_OUTER_CONE_RAD));
 		outer = DEFAULT_OUTER_CONE_RAD;

@@ -19,7 +19,7 @@ const uint32_t CHUNK_BIN = 0x004E4942;	// "BIN\0"
 const size_t HEADER_BYTES = 12;			// magic, version, length
 const size_t CHUNK_HEADER_BYTES = 8;	// length, type
 const size_t MIN_GLB_BYTES = HEADER_BYTES + CHUNK_HEADER_BYTES;
-const char NEXT_STEP[] = "Copy or export the file again.";
+const char COPY_OR_EXPORT[] = "Copy or export the file again.";
 
 uint32_t read_u32(std::span<const uint8_t> p_bytes, size_t p_offset) {
 	uint32_t value = 0;
@@ -48,7 +48,7 @@ std::string_view to_text(std::span<const uint8_t> p_bytes) {
 
 GltfContainer parse_glb(std::span<const uint8_t> p_bytes, const GltfMessages &p_messages) {
 	const auto fail_glb = [&](const std::string &p_problem) {
-		throw Error(p_messages.describe("GLB", p_problem + " " + NEXT_STEP));
+		throw Error(p_messages.describe("GLB", p_problem + " " + COPY_OR_EXPORT));
 	};
 	if (p_bytes.size() < MIN_GLB_BYTES) {
 		fail_glb(text("has ", p_bytes.size(), " bytes, must be at least ", MIN_GLB_BYTES, "."));

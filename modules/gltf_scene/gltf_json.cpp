@@ -12,7 +12,6 @@ namespace gnomon {
 
 namespace {
 
-const char NEXT_STEP[] = "Correct it or export the file again.";
 const size_t MAX_MESSAGE_LENGTH = 300; // bytes
 const size_t MAX_VALUE_LENGTH = 60;	   // bytes
 
@@ -63,7 +62,7 @@ void GltfMessages::fail(std::string_view p_path, std::string_view p_problem) con
 
 void GltfMessages::fail_value(
 		std::string_view p_path, std::string_view p_value, std::string_view p_range) const {
-	fail(p_path, text("is ", p_value, ", must be ", p_range, ". ", NEXT_STEP));
+	fail(p_path, text("is ", p_value, ", must be ", p_range, ". ", CORRECT_OR_EXPORT));
 }
 
 std::string to_one_line(std::string_view p_text) {
@@ -102,8 +101,8 @@ std::string describe_json(const Json &p_value) {
 GltfObject::GltfObject(Json &r_json, std::string p_path, GltfMessages &p_messages) :
 		json(&r_json), path(std::move(p_path)), messages(&p_messages) {
 	if (!json->is_object()) {
-		throw Error(messages->describe(
-				path, text("is ", describe_json(*json), ", must be an object. ", NEXT_STEP)));
+		throw Error(messages->describe(path,
+				text("is ", describe_json(*json), ", must be an object. ", CORRECT_OR_EXPORT)));
 	}
 }
 
@@ -137,7 +136,7 @@ std::optional<GltfObject> GltfObject::find_object(std::string_view p_key) const 
 GltfObject GltfObject::require_object(std::string_view p_key) const {
 	const std::optional<GltfObject> object = find_object(p_key);
 	if (!object) {
-		fail_at(p_key, text("is missing, must be an object. ", NEXT_STEP));
+		fail_at(p_key, text("is missing, must be an object. ", CORRECT_OR_EXPORT));
 	}
 	return *object;
 }
@@ -214,7 +213,7 @@ size_t GltfObject::require_index_at(
 	if (!index || *index >= p_count) {
 		fail_at(text(p_key, "[", p_position, "]"),
 				text("is ", describe_json(value), ", must be ", describe_indices(p_count), ". ",
-						NEXT_STEP));
+						CORRECT_OR_EXPORT));
 	}
 	return *index;
 }
@@ -301,7 +300,7 @@ void GltfObject::fail_value(std::string_view p_key, std::string_view p_range) co
 	const Json *value = find(p_key);
 	fail_at(p_key,
 			text(value ? "is " + describe_json(*value) : "is missing", ", must be ", p_range, ". ",
-					NEXT_STEP));
+					CORRECT_OR_EXPORT));
 }
 
 void GltfObject::report_value(

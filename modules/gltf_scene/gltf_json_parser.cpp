@@ -7,8 +7,6 @@ namespace gnomon {
 
 namespace {
 
-const char NEXT_STEP[] = "Correct it or export the file again.";
-
 /// Throws an Error if the parsed text would have too many levels, keys or values, before parsing
 /// uses memory for them. Only brackets and commas outside of quotes are counted, so the text need
 /// not be valid JSON.
@@ -30,7 +28,7 @@ void check_json_limits(std::string_view p_text, const GltfMessages &p_messages) 
 			if (brackets.size() > GLTF_MAX_JSON_DEPTH) {
 				throw Error(p_messages.describe("JSON",
 						text("is nested deeper than ", GLTF_MAX_JSON_DEPTH, " levels. ",
-								NEXT_STEP)));
+								CORRECT_OR_EXPORT)));
 			}
 		} else if ((character == '}' || character == ']') && !brackets.empty()) {
 			brackets.pop_back();
@@ -40,7 +38,7 @@ void check_json_limits(std::string_view p_text, const GltfMessages &p_messages) 
 			if (++comma_counts.back() >= GLTF_MAX_JSON_KEY_COUNT && brackets.back() == '{') {
 				throw Error(p_messages.describe("JSON",
 						text("has an object of more than ", GLTF_MAX_JSON_KEY_COUNT, " keys. ",
-								NEXT_STEP)));
+								CORRECT_OR_EXPORT)));
 			}
 		}
 		if (value_count > GLTF_MAX_JSON_VALUE_COUNT) {
@@ -65,11 +63,11 @@ Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages) {
 		throw Error(p_messages.describe("JSON",
 				text("cannot be parsed: ",
 						to_one_line(prefix == what.npos ? what : what.substr(prefix + 2)), ". ",
-						NEXT_STEP)));
+						CORRECT_OR_EXPORT)));
 	}
 	if (!json.is_object()) {
-		throw Error(p_messages.describe(
-				"JSON", text("is ", describe_json(json), ", must be an object. ", NEXT_STEP)));
+		throw Error(p_messages.describe("JSON",
+				text("is ", describe_json(json), ", must be an object. ", CORRECT_OR_EXPORT)));
 	}
 	return json;
 }

@@ -12,14 +12,13 @@ namespace {
 
 const int JOINTS_PER_SET = 4; // JOINTS_n and WEIGHTS_n are VEC4
 const int MAX_JOINT_SETS = 2;
-const char NEXT_STEP[] = "Export the file again.";
 
 void check_count(const GltfMessages &p_messages, const std::string &p_path, size_t p_count,
 		size_t p_vertex_count) {
 	if (p_count != p_vertex_count) {
 		p_messages.fail(p_path,
 				text("has ", p_count, " elements, must be ", p_vertex_count, ", one per POSITION. ",
-						NEXT_STEP));
+						EXPORT_AGAIN));
 	}
 }
 
@@ -168,7 +167,7 @@ std::shared_ptr<const Skin> read_skin(const tinygltf::Model &p_model, size_t p_i
 		if (values.size() / 16 < skin->joints.size()) {
 			p_messages.fail(path + ".inverseBindMatrices",
 					text("has ", values.size() / 16, " elements, must be at least ",
-							skin->joints.size(), ", one per joint. ", NEXT_STEP));
+							skin->joints.size(), ", one per joint. ", EXPORT_AGAIN));
 		}
 		for (size_t i = 0; i < 16 * skin->joints.size(); ++i) {
 			if (!std::isfinite(values[i])) {

@@ -15,7 +15,7 @@ namespace {
 
 const uint8_t PNG_SIGNATURE[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
 const uint8_t JPEG_SIGNATURE[] = { 0xff, 0xd8, 0xff };
-const char NEXT_STEP[] = "Export the image again.";
+const char EXPORT_IMAGE_AGAIN[] = "Export the image again.";
 const png_byte ANIMATION_CHUNK[] = "acTL"; // APNG 1.0: marks an animated image
 
 /// Describes an image format that is not supported, for the error message.
@@ -118,7 +118,7 @@ std::shared_ptr<const Image> decode_png(
 		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_warning) {
 	PngReader reader(p_bytes);
 	if (!reader.read_header()) {
-		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
+		fail("is a PNG image that cannot be read: ", reader.problem, ". ", EXPORT_IMAGE_AGAIN);
 	}
 	const glm::uvec2 size_px(png_get_image_width(reader.png, reader.info),
 			png_get_image_height(reader.png, reader.info));
@@ -129,7 +129,7 @@ std::shared_ptr<const Image> decode_png(
 		rows.push_back(texels.data() + y * size_px.x * 4);
 	}
 	if (!reader.read_rows(rows.data())) {
-		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
+		fail("is a PNG image that cannot be read: ", reader.problem, ". ", EXPORT_IMAGE_AGAIN);
 	}
 	if (reader.is_animated()) {
 		r_warning = "is an animated PNG image, of which the first frame is shown. Export it as one "
@@ -151,7 +151,7 @@ std::shared_ptr<const Image> decode_jpeg(
 	} decoder;
 	const auto reject = [&] {
 		fail("is a JPEG image that cannot be read: ", tjGetErrorStr2(decoder.handle), ". ",
-				NEXT_STEP);
+				EXPORT_IMAGE_AGAIN);
 	};
 	int width_px = 0, height_px = 0, subsampling = 0, color_space = 0;
 	if (tjDecompressHeader3(decoder.handle, p_bytes.data(), p_bytes.size(), &width_px, &height_px,
@@ -160,7 +160,7 @@ std::shared_ptr<const Image> decode_jpeg(
 		reject();
 	}
 	if (color_space == TJCS_CMYK || color_space == TJCS_YCCK) {
-		fail("is a JPEG image with CMYK colours, must have RGB colours. ", NEXT_STEP);
+		fail("is a JPEG image with CMYK colours, must have RGB colours. ", EXPORT_IMAGE_AGAIN);
 	}
 	check_size(uint64_t(width_px), uint64_t(height_px));
 	const glm::uvec2 size_px(width_px, height_px);
@@ -172,7 +172,7 @@ std::shared_ptr<const Image> decode_jpeg(
 			reject();
 		}
 		r_warning = text("is a damaged JPEG image, of which a part is shown: ",
-				tjGetErrorStr2(decoder.handle), ". ", NEXT_STEP);
+				tjGetErrorStr2(decoder.handle), ". ", EXPORT_IMAGE_AGAIN);
 	}
 	return make_image(std::move(p_name), size_px, std::move(texels));
 }
@@ -194,7 +194,8 @@ std::shared_ptr<const Image> decode_image(
 			fail("is ", format.name, " image, must be PNG or JPEG. Convert it to one of them.");
 		}
 	}
-	fail("is ", p_bytes.empty() ? "empty" : "no image", ", must be PNG or JPEG. ", NEXT_STEP);
+	fail("is ", p_bytes.empty() ? "empty" : "no image", ", must be PNG or JPEG. ",
+			EXPORT_IMAGE_AGAIN);
 }
 
 } // namespace gnomon

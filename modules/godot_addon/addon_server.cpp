@@ -20,7 +20,7 @@ const uint32_t MAX_OUTLINE_EDGES = 1 << 18;
 const char FRAME_SIGNAL[] = "frame_pre_draw"; // emitted by the RenderingServer before each frame
 
 /// Returns why no masks can be made, or an empty string if they can.
-std::string find_unsupported_reason(const godot::RenderingServer &p_server) {
+std::string find_unsupported_renderer(const godot::RenderingServer &p_server) {
 	const std::string method = p_server.get_current_rendering_method().to_utf8();
 	if (method != "forward_plus") {
 		return text("the renderer is ", method, ". Set rendering/renderer/rendering_method to ",
@@ -42,7 +42,7 @@ std::string find_unsupported_reason(const godot::RenderingServer &p_server) {
 } // namespace
 
 AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
-	const std::string unsupported_reason = find_unsupported_reason(server);
+	const std::string unsupported_reason = find_unsupported_renderer(server);
 	if (!unsupported_reason.empty()) {
 		set_shadow_node_listener([unsupported_reason] {
 			log_warning("Lights keep Godot's own shadows: ", unsupported_reason, ".");

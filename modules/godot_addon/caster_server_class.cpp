@@ -12,8 +12,7 @@ using godot::get_interface;
 using godot::StringName;
 using godot::Variant;
 
-const char CLASS_NAME[] = "GnomonServer";
-const char BASE_NAME[] = "Object";
+const char SERVER_BASE_NAME[] = "Object";
 
 std::unique_ptr<ServerCasters> server_casters;
 void *singleton = nullptr;
@@ -38,7 +37,7 @@ Variant count_casters(void *, std::span<const Variant>) {
 	return int64_t(get_server_casters().get().size());
 }
 
-const std::vector<MethodEntry> &get_methods() {
+const std::vector<MethodEntry> &get_server_methods() {
 	static const std::vector<MethodEntry> methods = {
 		{ "add_caster", &add_caster,
 				{ { "instance", BuiltInType::RID }, { "mesh", BuiltInType::RID },
@@ -54,18 +53,18 @@ const std::vector<MethodEntry> &get_methods() {
 	return methods;
 }
 
-void *create_instance(void *, GDExtensionBool) {
+void *create_server_instance(void *, GDExtensionBool) {
 	void *object = nullptr;
 	log_failures([&] {
-		const StringName base(BASE_NAME);
-		const StringName name(CLASS_NAME);
+		const StringName base(SERVER_BASE_NAME);
+		const StringName name(CASTER_SERVER_NAME);
 		object = get_interface().classdb_construct_object2(base.get());
 		get_interface().object_set_instance(object, name.get(), object);
 	});
 	return object;
 }
 
-void free_instance(void *, void *) {}
+void free_server_instance(void *, void *) {}
 
 } // namespace
 
@@ -114,30 +113,30 @@ std::string write_server_documentation() {
 }
 
 void register_caster_server() {
-	const StringName name(CLASS_NAME);
-	const StringName base(BASE_NAME);
+	const StringName name(CASTER_SERVER_NAME);
+	const StringName base(SERVER_BASE_NAME);
 	GDExtensionClassCreationInfo5 info = {};
 	info.is_exposed = true;
-	info.create_instance_func = &create_instance;
-	info.free_instance_func = &free_instance;
+	info.create_instance_func = &create_server_instance;
+	info.free_instance_func = &free_server_instance;
 	const godot::Interface &interface = get_interface();
 	interface.classdb_register_extension_class5(interface.extension, name.get(), base.get(), &info);
-	for (const MethodEntry &entry : get_methods()) {
+	for (const MethodEntry &entry : get_server_methods()) {
 		register_method(name, entry);
 	}
-	singleton = create_instance(nullptr, false);
+	singleton = create_server_instance(nullptr, false);
 	godot::Engine(godot::find_singleton("Engine"))
-			.register_singleton(CLASS_NAME, godot::Object(singleton));
+			.register_singleton(CASTER_SERVER_NAME, godot::Object(singleton));
 }
 
 void unregister_caster_server() {
 	server_casters.reset();
 	if (singleton) {
-		godot::Engine(godot::find_singleton("Engine")).unregister_singleton(CLASS_NAME);
+		godot::Engine(godot::find_singleton("Engine")).unregister_singleton(CASTER_SERVER_NAME);
 		get_interface().object_destroy(singleton);
 		singleton = nullptr;
 	}
-	const StringName name(CLASS_NAME);
+	const StringName name(CASTER_SERVER_NAME);
 	get_interface().classdb_unregister_extension_class(get_interface().extension, name.get());
 }
 

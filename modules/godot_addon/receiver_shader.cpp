@@ -30,7 +30,7 @@ const UnsupportedFeature UNSUPPORTED_FEATURES[] = {
 
 const char ATTENUATION[] = "gnomon_get_attenuation"; // function in gnomon.gdshaderinc
 
-std::string find_unsupported_reason(const ShaderText &p_shader, bool p_is_generated) {
+std::string find_unpatched_reason(const ShaderText &p_shader, bool p_is_generated) {
 	if (p_shader.find_function("light")) {
 		return "has a shader with a light() of its own, see addons/gnomon/gnomon.gdshaderinc";
 	}
@@ -91,7 +91,7 @@ ReceiverShader make_receiver_shader(const std::string &p_code, bool p_is_generat
 			   light && shader.has_word(*light, ATTENUATION)) {
 		receiver.kind = ReceiverKind::OWN;
 	} else {
-		receiver.reason = find_unsupported_reason(shader, p_is_generated);
+		receiver.reason = find_unpatched_reason(shader, p_is_generated);
 		if (receiver.reason.empty()) {
 			receiver.kind = ReceiverKind::PATCHED;
 			receiver.code = patch(shader);

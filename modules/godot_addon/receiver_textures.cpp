@@ -15,9 +15,8 @@ const char MASKS_GLOBAL[] = "gnomon_masks";
 const char DEPTH_GLOBAL[] = "gnomon_depth";
 const char LIGHTS_GLOBAL[] = "gnomon_lights";
 const char ALBEDO_GLOBAL[] = "gnomon_albedo";
-const float NO_FADE_M = 1e30f; // depth from which the shadow of a light that does not fade fades
-const uint32_t MIN_LAYER_COUNT = 2; // Godot makes no arrays of one layer
-const uint32_t SIZE_STEP_PX = 64;	// no new array for each pixel of a window resize
+const float NO_FADE_M = 1e30f;	  // depth from which the shadow of a light that does not fade fades
+const uint32_t SIZE_STEP_PX = 64; // no new array for each pixel of a window resize
 
 /// Returns the row that gnomon_is_masked_view() compares with the view that is drawn.
 ReceiverRow make_view_row(const GodotView &p_view, bool p_has_faded) {
@@ -25,8 +24,8 @@ ReceiverRow make_view_row(const GodotView &p_view, bool p_has_faded) {
 	return { glm::vec4(glm::vec3(world_from_camera[3]), p_view.horizontal_scale),
 		glm::vec4(glm::vec3(world_from_camera[0]), float(p_view.size_px.x)),
 		glm::vec4(glm::vec3(world_from_camera[2]), float(p_view.size_px.y)),
-		glm::vec4(p_view.has_depth_samples() ? float(p_view.sample_count) : 0.0f, p_view.depth_offset,
-				p_has_faded ? 1.0f : 0.0f, 0.0f) };
+		glm::vec4(p_view.has_depth_samples() ? float(p_view.sample_count) : 0.0f,
+				p_view.depth_offset, p_has_faded ? 1.0f : 0.0f, 0.0f) };
 }
 
 ReceiverRow make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world,
@@ -114,7 +113,7 @@ void ReceiverTextures::reserve(const ReceiverSpace &p_space) {
 	}
 	const glm::uvec2 old_size_px = space.size_px;
 	space.add({ (p_space.size_px + SIZE_STEP_PX - 1u) / SIZE_STEP_PX * SIZE_STEP_PX,
-			glm::max(p_space.mask_count, MIN_LAYER_COUNT), p_space.has_depth });
+			glm::max(p_space.mask_count, MIN_ARRAY_LAYER_COUNT), p_space.has_depth });
 	OwnedTexture new_masks(device,
 			device.create_texture(
 					{ "Gnomon's masks", Format::R16_SFLOAT, space.size_px, space.mask_count,

@@ -1,19 +1,13 @@
 #include "modules/godot_addon/scaled_masks.h"
 
 #include "modules/render_graph/compute_pass.h"
+#include "modules/rendering_device_godot/godot_device.h"
 
 #include "godot_addon/godot_addon_shared.h"
 
 #include <algorithm>
 
 namespace gnomon {
-
-namespace {
-
-// Godot makes no arrays of one layer.
-const uint32_t MIN_LAYER_COUNT = 2;
-
-} // namespace
 
 glm::uvec2 ScaledMasks::compute_size(glm::uvec2 p_size_px, float p_scale) {
 	return glm::max(glm::uvec2(glm::ceil(glm::vec2(p_size_px) * p_scale)), 1u);
@@ -54,7 +48,7 @@ RGTexture ScaledMasks::create_target(RGTexture p_result) {
 		return p_result;
 	}
 	target = graph.create_texture(
-			{ "scaled masks", Format::R16_SFLOAT, size_px, std::max(count, MIN_LAYER_COUNT),
+			{ "scaled masks", Format::R16_SFLOAT, size_px, std::max(count, MIN_ARRAY_LAYER_COUNT),
 					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_TARGET,
 					/*is_array=*/true });
 	return target;

@@ -9,14 +9,12 @@ namespace gnomon {
 
 namespace {
 
-const char CLASS_NAME[] = "GnomonServer";
-
 void check_transform(const godot::Transform3D &p_transform, const char *p_method) {
 	const glm::dmat4 matrix = p_transform.to_matrix();
 	for (int column = 0; column < 4; ++column) {
 		for (int row = 0; row < 3; ++row) {
 			if (!std::isfinite(matrix[column][row])) {
-				fail(CLASS_NAME, ".", p_method, ": the transform has the value ",
+				fail(CASTER_SERVER_NAME, ".", p_method, ": the transform has the value ",
 						matrix[column][row], ", must be finite.");
 			}
 		}
@@ -44,12 +42,12 @@ void ServerCasters::release_mesh(godot::RID p_mesh) {
 void ServerCasters::add(godot::RID p_instance, godot::RID p_mesh,
 		const godot::Transform3D &p_world_from_mesh, int64_t p_layers, godot::RID p_material) {
 	if (!p_instance.id || !p_mesh.id) {
-		fail(CLASS_NAME, ".add_caster: the ", p_instance.id ? "mesh" : "instance",
+		fail(CASTER_SERVER_NAME, ".add_caster: the ", p_instance.id ? "mesh" : "instance",
 				" is an empty RID. Pass those of RenderingServer.instance_create2().");
 	}
 	check_transform(p_world_from_mesh, "add_caster");
 	if (p_layers < 1 || p_layers > int64_t(~0u)) {
-		fail(CLASS_NAME, ".add_caster: layers is ", p_layers, ", must be 1 to ", ~0u,
+		fail(CASTER_SERVER_NAME, ".add_caster: layers is ", p_layers, ", must be 1 to ", ~0u,
 				": a bit for each render layer.");
 	}
 	if (casters.contains(p_instance)) {
@@ -58,7 +56,7 @@ void ServerCasters::add(godot::RID p_instance, godot::RID p_mesh,
 	const SharedMesh &shared = share_mesh(p_mesh);
 	if (shared.surfaces.empty()) {
 		release_mesh(p_mesh);
-		fail(CLASS_NAME, ".add_caster: RID(", p_mesh.id,
+		fail(CASTER_SERVER_NAME, ".add_caster: RID(", p_mesh.id,
 				") is no mesh with triangles. Add the caster after its mesh has surfaces, and "
 				"before the mesh is freed.");
 	}
@@ -74,7 +72,7 @@ void ServerCasters::add(godot::RID p_instance, godot::RID p_mesh,
 ServerCaster &ServerCasters::find(godot::RID p_instance, const char *p_method) {
 	const auto found = casters.find(p_instance);
 	if (found == casters.end()) {
-		fail(CLASS_NAME, ".", p_method, ": RID(", p_instance.id,
+		fail(CASTER_SERVER_NAME, ".", p_method, ": RID(", p_instance.id,
 				") is no caster. Add it with add_caster first.");
 	}
 	return found->second;

@@ -7,6 +7,9 @@
 
 namespace gnomon {
 
+/// The class and the singleton that scripts call.
+inline const char CASTER_SERVER_NAME[] = "GnomonServer";
+
 /// A caster that exists only on the RenderingServer, such as a tile of a terrain.
 struct ServerCaster {
 	godot::RID mesh;

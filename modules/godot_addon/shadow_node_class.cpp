@@ -16,8 +16,8 @@ using godot::String;
 using godot::StringName;
 using godot::Variant;
 
-const char CLASS_NAME[] = "GnomonShadow3D";
-const char BASE_NAME[] = "Node3D";
+const char NODE_CLASS_NAME[] = "GnomonShadow3D";
+const char NODE_BASE_NAME[] = "Node3D";
 const char GETTER_NAME[] = "_get_value";
 const char SETTER_NAME[] = "_set_value";
 const char INSPECT_NAME[] = "_inspect_shader"; // called by Material.inspect_native_shader_code()
@@ -99,11 +99,11 @@ std::string make_range_hint(const PropertyInfo &p_info) {
 	return hint + (p_info.unit.empty() ? "" : ",suffix:" + p_info.unit);
 }
 
-void *create_instance(void *, GDExtensionBool p_notifies) {
+void *create_node_instance(void *, GDExtensionBool p_notifies) {
 	void *object = nullptr;
 	log_failures([&] {
-		const StringName base(BASE_NAME);
-		const StringName name(CLASS_NAME);
+		const StringName base(NODE_BASE_NAME);
+		const StringName name(NODE_CLASS_NAME);
 		auto node = std::make_unique<ShadowNode>(nullptr);
 		object = get_interface().classdb_construct_object2(base.get());
 		*node = ShadowNode(object);
@@ -115,7 +115,7 @@ void *create_instance(void *, GDExtensionBool p_notifies) {
 	return object;
 }
 
-void free_instance(void *, void *p_instance) {
+void free_node_instance(void *, void *p_instance) {
 	delete &to_node(p_instance);
 }
 
@@ -213,7 +213,7 @@ Variant get_warning(void *p_instance, std::span<const Variant>) {
 	return lines;
 }
 
-const std::vector<MethodEntry> &get_methods() {
+const std::vector<MethodEntry> &get_node_methods() {
 	static const std::vector<MethodEntry> methods = {
 		{ GETTER_NAME, &get_value, { { "index", BuiltInType::INT } }, BuiltInType::VARIANT },
 		{ SETTER_NAME, &set_value,
@@ -266,18 +266,18 @@ const std::vector<ShadowNode *> &get_shadow_nodes() {
 }
 
 void register_shadow_node_class() {
-	const StringName name(CLASS_NAME);
-	const StringName base(BASE_NAME);
+	const StringName name(NODE_CLASS_NAME);
+	const StringName base(NODE_BASE_NAME);
 	GDExtensionClassCreationInfo5 info = {};
 	info.is_exposed = true;
 	info.validate_property_func = &validate_property;
-	info.create_instance_func = &create_instance;
-	info.free_instance_func = &free_instance;
+	info.create_instance_func = &create_node_instance;
+	info.free_instance_func = &free_node_instance;
 	info.get_virtual_func = &get_virtual;
 	info.notification_func = &notify;
 	const godot::Interface &interface = get_interface();
 	interface.classdb_register_extension_class5(interface.extension, name.get(), base.get(), &info);
-	for (const MethodEntry &entry : get_methods()) {
+	for (const MethodEntry &entry : get_node_methods()) {
 		register_method(name, entry);
 	}
 	std::string group;
@@ -295,7 +295,7 @@ void register_shadow_node_class() {
 }
 
 void unregister_shadow_node_class() {
-	const StringName name(CLASS_NAME);
+	const StringName name(NODE_CLASS_NAME);
 	get_interface().classdb_unregister_extension_class(get_interface().extension, name.get());
 }
 

@@ -80,7 +80,7 @@ glm::vec2 get_first_sample(uint32_t p_sample_count) {
 	}
 }
 
-std::string find_unsupported_reason(
+std::string find_unsupported_view(
 		const glm::mat4 &p_projection, glm::uvec2 p_size_px, int64_t p_view_count) {
 	if (p_view_count > 1) {
 		return "has several views at once (XR)";
@@ -124,7 +124,7 @@ GodotView read_view(GodotDevice &r_device, const godot::RenderData &p_data,
 		return view;
 	}
 	view.unsupported_reason =
-			find_unsupported_reason(projection, view.size_px, p_buffers.get_view_count());
+			find_unsupported_view(projection, view.size_px, p_buffers.get_view_count());
 	if (view.unsupported_reason.empty()) {
 		const glm::dmat4 world_from_camera = view.camera_transform.to_matrix();
 		view.camera.name = "Camera";

@@ -17,8 +17,6 @@ namespace gnomon {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Speed of the fly camera in scene sizes per second: it crosses any scene in a few seconds.
 constexpr double SPEED_PER_SCENE_SIZE = 0.4;
 constexpr double ROTATION_RAD_PER_PX = 0.004; // per pixel of mouse drag
@@ -156,7 +154,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	request.reference = reference;
 	GameState state{ r_scene, request, p_options.playback, reference != nullptr };
 	RenderResult result;
-	Clock::time_point last = Clock::now();
+	std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
 	uint32_t drawn_count = 0;
 	const bool has_files = !p_options.capture.empty() || !p_options.dot.empty();
 	bool has_drawn_last = false;
@@ -166,7 +164,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	FrameSnapshots snapshots;
 	request.scene = snapshots.build(r_scene, camera, SceneChange::ANY);
 	while (window.poll()) {
-		const Clock::time_point now = Clock::now();
+		const std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now();
 		const double seconds = std::chrono::duration<double>(now - last).count();
 		last = now;
 		for (const Window::KeyPress &press : window.get_key_presses()) {

@@ -15,7 +15,6 @@ namespace gnomon {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 
 const char *const LIGHTING_PASS = "lighting"; // not counted, since it is not part of the shadow
 
@@ -56,13 +55,14 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 	for (uint32_t index = 0; index < p_limits.warm_up_count; ++index) {
 		r_renderer.render(p_request);
 	}
-	const Clock::time_point start = Clock::now();
+	const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 	while (samples.get_frame_count() < p_limits.frame_count) {
 		if (p_progress) {
 			p_progress(double(samples.get_frame_count()) / p_limits.frame_count);
 		}
 		samples.add_frame(select_passes(r_renderer.render(p_request), p_request));
-		const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+		const double seconds =
+				std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 		const bool can_stop = seconds >= p_limits.seconds ||
 				(p_limits.median_error > 0 &&
 						samples.compute_median_error() <= p_limits.median_error);
@@ -88,12 +88,14 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 	RenderResult result;
 	for (uint32_t index = 0; index < p_count; ++index) {
 		progress.update(0.5 + 0.5 * double(index) / p_count);
-		const Clock::time_point start = Clock::now();
+		const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 		if (p_build_snapshot) {
 			p_request.scene = p_build_snapshot();
 		}
 		result = r_renderer.render(p_request);
-		call_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+		call_ms.push_back(
+				std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+						.count());
 		gpu_ms.push_back(result.gpu_ms);
 		wall_ms.push_back(result.wall_ms);
 	}
@@ -110,7 +112,8 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 		{ "passes", to_json(timing.passes) }, { "total", to_json(timing.total) },
 		{ "frame", to_json(compute_frame_cost(gpu_ms, wall_ms)) },
 		{ "call_ms", compute_percentile(call_ms, 0.5) }, { "pass_count", result.timings.size() },
-		{ "counters", counters }, { "draws", result.commands.draws }, { "dispatches", result.commands.dispatches },
+		{ "counters", counters }, { "draws", result.commands.draws },
+		{ "dispatches", result.commands.dispatches },
 		{ "bytes", r_renderer.get_device().get_memory_use().used_bytes } };
 	return json.dump(2) + "\n";
 }

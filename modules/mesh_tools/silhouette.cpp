@@ -1,18 +1,10 @@
 #include "modules/mesh_tools/silhouette.h"
 
-#include <cmath>
+#include "modules/core/finite.h"
+
 #include <cstdlib>
 
 namespace gnomon {
-
-namespace {
-
-bool is_finite(const glm::dvec4 &p_value) {
-	return std::isfinite(p_value.x) && std::isfinite(p_value.y) && std::isfinite(p_value.z) &&
-			std::isfinite(p_value.w);
-}
-
-} // namespace
 
 std::vector<uint8_t> compute_light_facing(
 		const MeshTopology &p_topology, const glm::dvec4 &p_light_position_node) {

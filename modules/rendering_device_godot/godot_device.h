@@ -17,6 +17,9 @@
 
 namespace gnomon {
 
+/// Godot makes no array textures of fewer layers.
+const uint32_t MIN_ARRAY_LAYER_COUNT = 2;
+
 struct GodotBuffer {
 	BufferDesc desc;
 	godot::RID rid;				// none: READBACK, which lives on the CPU alone
@@ -215,8 +218,8 @@ private:
 	/// times what is between two timestamps, and has room for few of them.
 	std::vector<GpuSpan> spans;
 	static constexpr std::string_view TIMED_SPAN_PREFIX = "Gnomon: "; // of timestamps
-	bool is_any_timed = false; // some span needed a time
-	bool is_span_timed = false; // the last timestamp began a span
+	bool is_any_timed = false;										  // some span needed a time
+	bool is_span_timed = false;				// the last timestamp began a span
 	std::map<std::string, double> timed_ms; // by span
 
 	SlotTable<BufferRID, GodotBuffer> buffers{ "buffer" };

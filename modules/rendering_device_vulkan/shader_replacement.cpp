@@ -21,7 +21,7 @@ bool uses_any(const RasterPipelineDesc &p_desc, const Replacements &p_shaders) {
 			p_shaders.contains(p_desc.fragment_shader);
 }
 
-const ReflectedBinding *find_binding(const ReflectedShader &p_shader, uint32_t p_number) {
+const ReflectedBinding *find_declared_binding(const ReflectedShader &p_shader, uint32_t p_number) {
 	for (const ReflectedBinding &binding : p_shader.bindings) {
 		if (binding.binding == p_number) {
 			return &binding;
@@ -42,9 +42,9 @@ void check_interface(const std::string &p_name, std::span<const uint32_t> p_word
 				"again.");
 	};
 	for (const ReflectedBinding &binding : replacement.bindings) {
-		const ReflectedBinding *built_binding = find_binding(built, binding.binding);
-		// A shader may declare one number several times; find_binding returns the first.
-		if (!is_same_kind(*find_binding(replacement, binding.binding), binding)) {
+		const ReflectedBinding *built_binding = find_declared_binding(built, binding.binding);
+		// A shader may declare one number several times; find_declared_binding returns the first.
+		if (!is_same_kind(*find_declared_binding(replacement, binding.binding), binding)) {
 			refuse(text("declares binding ", binding.binding, " as two kinds of resource"));
 		}
 		if ((built_binding != nullptr && !is_same_kind(*built_binding, binding)) ||
@@ -53,7 +53,7 @@ void check_interface(const std::string &p_name, std::span<const uint32_t> p_word
 		}
 	}
 	for (const ReflectedBinding &binding : built.bindings) {
-		if (find_binding(replacement, binding.binding) == nullptr) {
+		if (find_declared_binding(replacement, binding.binding) == nullptr) {
 			refuse(text("no longer declares binding ", binding.binding));
 		}
 	}

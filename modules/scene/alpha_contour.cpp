@@ -9,7 +9,6 @@ namespace gnomon {
 
 namespace {
 
-const int32_t UNITS = CONTOUR_UNITS_PER_TEXEL;
 const double MIN_BULGE = 4; // units from a segment: 1/64 texel, where a point is worth it
 const double FULL_ALPHA_SUM = 4 * 255.0; // sum over four texels whose alpha is 1
 
@@ -25,8 +24,9 @@ public:
 	bool is_border(int64_t p_node) const { return p_node == 1 || p_node == get_count() - 2; }
 	/// Returns a node's position in units; nodes outside are at the same position as the border.
 	int32_t get_position(int64_t p_node) const {
-		const int64_t end = int64_t(texel_count) * UNITS;
-		return static_cast<int32_t>(std::clamp<int64_t>((p_node - 2) * UNITS + UNITS / 2, 0, end));
+		const int64_t end = int64_t(texel_count) * CONTOUR_UNITS_PER_TEXEL;
+		return static_cast<int32_t>(std::clamp<int64_t>(
+				(p_node - 2) * CONTOUR_UNITS_PER_TEXEL + CONTOUR_UNITS_PER_TEXEL / 2, 0, end));
 	}
 	/// Returns one of the two texels whose mean is the alpha at a node: at a border those on both
 	/// sides of it, otherwise twice the node's own. p_side: 0 or 1.
@@ -309,7 +309,7 @@ PolygonLoop TexelBorderFinder::trace_loop(
 		p_corner += DIRECTIONS[direction];
 		const int left = (direction + 1) % 4;
 		const int right = (direction + 3) % 4;
-		const glm::ivec2 position = p_corner * UNITS;
+		const glm::ivec2 position = p_corner * CONTOUR_UNITS_PER_TEXEL;
 		if (is_border(p_corner, left)) {
 			if (is_border(p_corner, right)) { // two texels touch at a corner: separate them
 				loop.push_back(position - DIRECTIONS[direction]);

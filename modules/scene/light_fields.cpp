@@ -23,11 +23,11 @@ void write_light_type(Node3D &r_node, const PropertyValue &p_value) {
 	}
 }
 
-PropertyValue read_color(const Node3D &p_node) {
+PropertyValue read_light_color(const Node3D &p_node) {
 	return glm::dvec3(to<Light3D>(p_node).color);
 }
 
-void write_color(Node3D &r_node, const PropertyValue &p_value) {
+void write_light_color(Node3D &r_node, const PropertyValue &p_value) {
 	to<Light3D>(r_node).color = glm::vec3(std::get<glm::dvec3>(p_value));
 }
 
@@ -63,7 +63,7 @@ std::vector<NodeField> make_light_fields() {
 				&read_light_type, &write_light_type },
 		{ make_info("color", PropertyType::VECTOR3, glm::dvec3(1.0), "0,1,0.01",
 				  "Colour of the light, linear red, green and blue.", "", "Light"),
-				&read_color, &write_color },
+				&read_light_color, &write_light_color },
 		{ make_info("intensity", PropertyType::FLOAT, 1.0, "0,1000000,0.1",
 				  "Luminous intensity in candela; of a directional light illuminance in lux. 0 "
 				  "switches the light off.",

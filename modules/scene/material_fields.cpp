@@ -56,12 +56,12 @@ template <float Material::*MEMBER> void write_value(Node3D &r_node, const Proper
 	});
 }
 
-template <glm::vec3 Material::*MEMBER> PropertyValue read_color(const Node3D &p_node) {
+template <glm::vec3 Material::*MEMBER> PropertyValue read_material_color(const Node3D &p_node) {
 	return glm::dvec3(get_material(p_node).*MEMBER);
 }
 
 template <glm::vec3 Material::*MEMBER>
-void write_color(Node3D &r_node, const PropertyValue &p_value) {
+void write_material_color(Node3D &r_node, const PropertyValue &p_value) {
 	change_materials(r_node, [&](Material &r_material) {
 		r_material.*MEMBER = glm::vec3(std::get<glm::dvec3>(p_value));
 	});
@@ -85,7 +85,7 @@ NodeField make_color_field(const char *p_name, double p_default, const char *p_t
 	PropertyInfo info = make_info(
 			p_name, PropertyType::VECTOR3, glm::dvec3(p_default), "0,1,0.01", p_tooltip, "", GROUP);
 	info.is_color = true;
-	return { info, &read_color<MEMBER>, &write_color<MEMBER>, &has_material };
+	return { info, &read_material_color<MEMBER>, &write_material_color<MEMBER>, &has_material };
 }
 
 template <float Material::*MEMBER>

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/finite.h"
 #include "modules/scene/mesh_rig.h"
 
 #include <atomic>
@@ -16,10 +17,6 @@ namespace {
 const double MIN_NORMAL_LENGTH = 1e-6;
 // Normals that are unit to within float rounding stay bit for bit as they came.
 const double UNIT_TOLERANCE = 1e-6;
-
-bool is_finite(const glm::vec3 &p_vector) {
-	return std::isfinite(p_vector.x) && std::isfinite(p_vector.y) && std::isfinite(p_vector.z);
-}
 
 uint64_t make_mesh_id() {
 	static std::atomic<uint64_t> next_id = 1;

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,6 @@
 namespace gnomon {
 
 namespace {
-
-bool is_finite(const glm::vec3 &p_vector) {
-	return std::isfinite(p_vector.x) && std::isfinite(p_vector.y) && std::isfinite(p_vector.z);
-}
 
 void check_counts(const MeshRig &p_rig, size_t p_vertex_count, const std::string &p_name) {
 	const uint32_t influences = p_rig.influence_count;
@@ -36,7 +33,8 @@ void check_counts(const MeshRig &p_rig, size_t p_vertex_count, const std::string
 				fail(p_name, ": morph target ", target, " has ", deltas->size(),
 						" elements, must be ", p_vertex_count, ", one a vertex. Export it again.");
 			}
-			const auto bad = std::find_if_not(deltas->begin(), deltas->end(), is_finite);
+			const auto bad = std::find_if(deltas->begin(), deltas->end(),
+					[](const glm::vec3 &p_delta) { return !is_finite(p_delta); });
 			if (bad != deltas->end()) {
 				fail(p_name, ": morph target ", target, ", vertex ", bad - deltas->begin(),
 						" is not finite. Correct it or export the mesh again.");

@@ -3,6 +3,7 @@
 #include "modules/scene/scene_tree_reader.h"
 
 #include "modules/core/error.h"
+#include "modules/core/finite.h"
 #include "modules/scene/mesh_pose.h"
 #include "modules/scene/skin_transforms.h"
 
@@ -15,17 +16,6 @@ namespace gnomon {
 namespace {
 
 const double MIN_SCENE_SIZE_M = 1e-9; // S is a divisor, also in a scene of one point
-
-bool is_finite(const glm::dmat4 &p_matrix) {
-	for (int column = 0; column < 4; ++column) {
-		for (int row = 0; row < 4; ++row) {
-			if (!std::isfinite(p_matrix[column][row])) {
-				return false;
-			}
-		}
-	}
-	return true;
-}
 
 /// Fills the snapshot from the tree. Passes the world transform down, because
 /// Node3D::compute_world_from_node would walk up to the root for each node.

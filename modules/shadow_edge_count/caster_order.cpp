@@ -12,7 +12,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t CURVE_BITS = 20; // cells of 2 mm in a world of 2 km
+constexpr uint32_t WORLD_CURVE_BITS = 20; // cells of 2 mm in a world of 2 km
 constexpr uint32_t EDGES_PER_GROUP = EDGE_COUNT_CLUSTER_SIZE * 32;
 // Growth of the groups' area since the last sort at which casters are sorted again.
 constexpr double MAX_GROWTH = 1.5;
@@ -30,12 +30,12 @@ double compute_area(const Bounds &p_bounds) {
 	return 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
-std::vector<uint32_t> sort_along_curve(std::span<const OrderedCaster> p_casters) {
+std::vector<uint32_t> sort_casters(std::span<const OrderedCaster> p_casters) {
 	Bounds centers;
 	for (const OrderedCaster &caster : p_casters) {
 		centers.add(compute_center(caster.bounds_world));
 	}
-	const HilbertCurve curve(centers.minimum, centers.maximum, CURVE_BITS);
+	const HilbertCurve curve(centers.minimum, centers.maximum, WORLD_CURVE_BITS);
 	std::vector<std::pair<uint64_t, uint32_t>> keys;
 	keys.reserve(p_casters.size());
 	for (uint32_t index = 0; index < p_casters.size(); ++index) {
@@ -85,7 +85,7 @@ const std::vector<uint32_t> &CasterOrder::update(
 		std::iota(order.begin(), order.end(), 0u);
 		sorted_area_m2 = 0;
 	} else if (!has_order || has_grown()) {
-		order = sort_along_curve(casters);
+		order = sort_casters(casters);
 		sorted_area_m2 = sum_group_areas(casters, order);
 		++sort_count;
 	}

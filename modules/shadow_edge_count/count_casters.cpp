@@ -45,11 +45,12 @@ struct CasterMesh {
 	double end_half_width_m = std::numeric_limits<double>::infinity();
 };
 
-/// The instance's caster mesh and, for receivers that see a wide penumbra, a coarser LOD
-/// . Only at rest: a pose moves vertices out of the bounds of their source part.
+/// The instance's caster mesh and, for receivers that see a wide penumbra, a coarser LOD.
+/// Only at rest: a pose moves vertices out of the bounds of their source part.
 std::vector<CasterMesh> list_caster_meshes(const InstanceSnapshot &p_instance,
 		const LightSnapshot &p_light, const Bounds &p_scene_bounds, double p_disc_radius) {
-	std::vector<CasterMesh> meshes(1, { p_instance.caster_mesh });
+	std::vector<CasterMesh> meshes;
+	meshes.push_back({ p_instance.caster_mesh });
 	if (!p_instance.caster_levels || p_instance.pose || p_disc_radius <= 0) {
 		return meshes;
 	}

@@ -13,7 +13,7 @@ static_assert(NO_FACE == EDGE_COUNT_NO_FACE);
 
 namespace {
 
-constexpr uint32_t CURVE_BITS = 10; // the curve has 2^CURVE_BITS cells per axis
+constexpr uint32_t MESH_CURVE_BITS = 10; // the curve has 2^MESH_CURVE_BITS cells per axis
 
 /// Sorts things by their positions along a Hilbert curve through a cube around the mesh, so that
 /// clusters of consecutive ones are compact. p_get_middle(index): where a thing is. Returns their
@@ -26,7 +26,7 @@ std::vector<uint32_t> sort_along_curve(
 		minimum = glm::min(minimum, glm::dvec3(position));
 		maximum = glm::max(maximum, glm::dvec3(position));
 	}
-	const HilbertCurve curve(minimum, maximum, CURVE_BITS);
+	const HilbertCurve curve(minimum, maximum, MESH_CURVE_BITS);
 	std::vector<std::pair<uint64_t, uint32_t>> keys;
 	keys.reserve(p_count);
 	for (size_t index = 0; index < p_count; ++index) {

@@ -8,7 +8,6 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
 // Memory of the states between two rounds: those of 7,168 receivers with 256 points.
 constexpr uint64_t MAX_STATE_BYTES = 7168 * sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(4);
 // Rounds that find no unfinished subgroup take a few microseconds each.
@@ -34,7 +33,7 @@ CountRoundLimits choose_round_limits(
 	}
 	const glm::uvec2 blocks =
 			(p_size_px + (EDGE_COUNT_BLOCK_PX - 1u)) / uint32_t(EDGE_COUNT_BLOCK_PX);
-	const uint32_t block_lanes = BLOCK_PIXELS * p_shape.lanes_per_receiver;
+	const uint32_t block_lanes = EDGE_COUNT_BLOCK_PIXELS * p_shape.lanes_per_receiver;
 	const uint32_t lanes = blocks.x * blocks.y * block_lanes;
 	const uint32_t state_bytes = sizeof(uint32_t) * EDGE_COUNT_STATE_WORDS(p_shape.sets_per_lane);
 	const uint32_t slot_lanes = std::min(lanes,
@@ -70,7 +69,7 @@ CountRounds create_rounds_buffers(RenderGraph &r_graph, const shader::CountLight
 	rounds.counts = make_words("unfinished counts", EDGE_COUNT_UNFINISHED_COUNTS,
 			BufferUsage::STORAGE | BufferUsage::COPY_TARGET);
 	// Without rounds nothing is added, but the passes need buffers.
-	const uint64_t subgroup_count = uint64_t(p_light.leaf_capacity) * BLOCK_PIXELS *
+	const uint64_t subgroup_count = uint64_t(p_light.leaf_capacity) * EDGE_COUNT_BLOCK_PIXELS *
 			p_shape.lanes_per_receiver / p_shape.subgroup_size;
 	rounds.items = make_words("unfinished subgroups", slot_count == 0 ? 1 : subgroup_count);
 	for (uint32_t round = 0; round <= p_light.unfinished_round_count; ++round) {

@@ -9,6 +9,8 @@
 
 namespace gnomon {
 
+inline constexpr uint32_t EDGE_COUNT_BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
+
 // Rounds: subgroups of receivers with very many edges are counted in several dispatches, see
 // EDGE_COUNT_MAX_ITERATIONS.
 

@@ -26,7 +26,6 @@ constexpr uint32_t LEAVES_PER_TWO_BLOCKS = 3;
 // on a CPU with two cores.
 constexpr uint32_t CPU_CHUNK_LEAVES = 4096;
 constexpr uint32_t GPU_CHUNK_LEAVES = 16384;
-constexpr uint32_t BLOCK_PIXELS = EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
@@ -110,7 +109,7 @@ struct KindPass {
 	uint32_t rungs = ~0u; // bit i: those on rung i
 	// If edges are counted: how many of a leaf's 64 receivers are, and with how many sets of
 	// points.
-	uint32_t receiver_count = BLOCK_PIXELS;
+	uint32_t receiver_count = EDGE_COUNT_BLOCK_PIXELS;
 	uint32_t sample_set_count = 1;
 	float nearest_w = 0; // of the filter, see CountLeafPush
 };
@@ -122,7 +121,7 @@ struct CountingPass {
 	uint32_t kind; // EDGE_COUNT_LEAVES_*
 	uint32_t point_count;
 	uint32_t rungs = ~0u; // see KindPass
-	uint32_t receiver_count = BLOCK_PIXELS;
+	uint32_t receiver_count = EDGE_COUNT_BLOCK_PIXELS;
 	bool may_be_unfinished = false; // some subgroups may have edges left for rounds
 	bool has_few_points = false;	// fewer than the light
 };
@@ -140,20 +139,20 @@ std::vector<CountingPass> list_counting_passes(const CountSettings &p_settings) 
 		{ "resolve smooth", "shadow_edge_count/resolve_few_pixels.comp", EDGE_COUNT_LEAVES_SMOOTH,
 				points, is_lowered ? full : full | few_pixels_rung, EDGE_COUNT_FEW_PIXELS },
 		{ "resolve", "shadow_edge_count/resolve.comp", EDGE_COUNT_LEAVES_LISTED, points, full,
-				BLOCK_PIXELS,
+				EDGE_COUNT_BLOCK_PIXELS,
 				/*may_be_unfinished=*/true },
 		{ "resolve without lists", "shadow_edge_count/resolve.comp", EDGE_COUNT_LEAVES_UNLISTED,
-				points, full, BLOCK_PIXELS, /*may_be_unfinished=*/true },
+				points, full, EDGE_COUNT_BLOCK_PIXELS, /*may_be_unfinished=*/true },
 	};
 	if (is_lowered) {
 		passes.push_back({ "resolve smooth, 64 points", "shadow_edge_count/resolve_few_pixels.comp",
 				EDGE_COUNT_LEAVES_SMOOTH, few_points, few_points_rung | few_pixels_rung,
 				EDGE_COUNT_FEW_PIXELS,
 				/*may_be_unfinished=*/false, /*has_few_points=*/true });
-		passes.push_back(
-				{ "resolve, 64 points", "shadow_edge_count/resolve.comp", EDGE_COUNT_LEAVES_LISTED,
-						few_points, few_points_rung, BLOCK_PIXELS, /*may_be_unfinished=*/true,
-						/*has_few_points=*/true });
+		passes.push_back({ "resolve, 64 points", "shadow_edge_count/resolve.comp",
+				EDGE_COUNT_LEAVES_LISTED, few_points, few_points_rung, EDGE_COUNT_BLOCK_PIXELS,
+				/*may_be_unfinished=*/true,
+				/*has_few_points=*/true });
 	}
 	if (p_settings.has_time_budget()) {
 		passes.push_back({ "resolve, 16 pixels", "shadow_edge_count/resolve_few_pixels.comp",

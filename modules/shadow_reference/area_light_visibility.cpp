@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/core/finite.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/disc_samples.h"
 #include "modules/shadow_reference/spread_visibility.h"

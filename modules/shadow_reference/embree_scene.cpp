@@ -1,6 +1,7 @@
 #include "modules/shadow_reference/embree_scene.h"
 
 #include "modules/core/error.h"
+#include "modules/core/finite.h"
 #include "modules/shadow_reference/light_disc.h"
 
 #include <algorithm>

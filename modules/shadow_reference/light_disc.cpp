@@ -1,5 +1,7 @@
 #include "modules/shadow_reference/light_disc.h"
 
+#include "modules/core/finite.h"
+
 #include "shared/light_shared.h"
 
 #include <algorithm>
@@ -24,10 +26,6 @@ glm::vec3 normalize_safely(const glm::vec3 &p_vector) {
 }
 
 } // namespace
-
-bool is_finite(const glm::vec3 &p_value) {
-	return std::isfinite(p_value.x) && std::isfinite(p_value.y) && std::isfinite(p_value.z);
-}
 
 void find_basis(const glm::vec3 &p_normal, glm::vec3 &r_x, glm::vec3 &r_y) {
 	const float sign = std::copysign(1.0f, p_normal.z);

@@ -45,6 +45,4 @@ bool find_disc_view(const AreaLight &p_light, const glm::vec3 &p_position,
 /// Computes two unit vectors perpendicular to a unit vector and to each other (Duff et al. 2017).
 void find_basis(const glm::vec3 &p_normal, glm::vec3 &r_x, glm::vec3 &r_y);
 
-bool is_finite(const glm::vec3 &p_value);
-
 } // namespace gnomon

@@ -8,7 +8,8 @@ namespace gnomon {
 
 namespace {
 
-uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters) {
+uint64_t compute_edges_key(
+		const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters) {
 	uint64_t key = 1;
 	for (const SilhouetteCaster &caster : p_casters.casters) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[caster.instance_index];
@@ -31,7 +32,7 @@ void CachedEdges::plan(const ShadowTechnique::Inputs &p_inputs, const Silhouette
 		return reset();
 	}
 	if (p_inputs.may_skip && p_inputs.may_reuse && p_are_all_drawn) {
-		key = compute_key(p_inputs, p_casters);
+		key = compute_edges_key(p_inputs, p_casters);
 		is_cached = key == cached_key;
 		is_unchanged = key == last_key;
 	}

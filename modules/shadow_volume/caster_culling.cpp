@@ -28,7 +28,7 @@ size_t compute_words_bytes(size_t p_caster_count) {
 }
 
 /// Equal keys mean the same views, and the same casters and transforms in the same order.
-uint64_t compute_key(
+uint64_t compute_culling_key(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_instances) {
 	uint64_t key = compute_value_hash(uint64_t(p_instances.size()), 1);
 	for (const uint32_t index : p_instances) {
@@ -76,7 +76,7 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 	if (p_mode == Mode::AUTO && p_instances.size() < MIN_CASTER_COUNT) {
 		return skip("few casters");
 	}
-	const uint64_t last_key = std::exchange(key, compute_key(p_inputs, p_instances));
+	const uint64_t last_key = std::exchange(key, compute_culling_key(p_inputs, p_instances));
 	const bool has_same_count = p_inputs.may_reuse && last_result &&
 			last_result->is_hidden.size() == p_instances.size();
 	// The debug view shows the occluders, so they must be drawn in this frame.

@@ -65,7 +65,7 @@ struct OccluderDraw {
 	shader::OccluderPush push;
 };
 
-std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
+std::vector<OccluderDraw> build_occluder_draws(const ShadowTechnique::Inputs &p_inputs,
 		const LightView &p_view, const std::vector<uint32_t> &p_occluders) {
 	std::vector<OccluderDraw> draws;
 	for (uint32_t index : p_occluders) {
@@ -244,8 +244,8 @@ OccluderMap add_occluder_passes(RenderGraph &r_graph, const ShadowTechnique::Inp
 		r_graph.add_pass(text("occluders view ", view))
 				.depth(map, LoadOp::CLEAR, 0.0f, view)
 				.execute([pipelines,
-								 draws = build_draws(p_inputs, p_inputs.views[view], p_occluders)](
-								 PassContext &p_context) {
+								 draws = build_occluder_draws(p_inputs, p_inputs.views[view],
+										 p_occluders)](PassContext &p_context) {
 					record_draws(p_context.commands, pipelines, draws);
 				});
 	}

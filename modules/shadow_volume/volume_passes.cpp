@@ -75,9 +75,9 @@ PipelineRID get_pipeline(const ShadowTechnique::Inputs &p_inputs, const VolumeSe
 	return p_inputs.device.get_raster_pipeline(desc);
 }
 
-std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
-		const SilhouetteCasters &p_listed) {
+std::vector<VolumeDraw> build_volume_draws(RenderGraph &r_graph,
+		const ShadowTechnique::Inputs &p_inputs, const VolumeSettings &p_settings,
+		const VolumeCasters &p_casters, const SilhouetteCasters &p_listed) {
 	const LightView camera = make_volume_camera(p_inputs);
 	const glm::mat4 shift(compute_shift(p_inputs.scene.camera));
 	std::vector<VolumeDraw> draws;
@@ -246,7 +246,7 @@ void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_in
 		lists = r_edges.add_passes(r_graph, p_inputs, listed, p_predicates);
 	}
 	const std::vector<VolumeDraw> draws =
-			build_draws(r_graph, p_inputs, p_settings, p_casters, listed);
+			build_volume_draws(r_graph, p_inputs, p_settings, p_casters, listed);
 	for (uint32_t group = 0; group < p_casters.group_count; ++group) {
 		const std::string suffix = p_casters.group_count > 1 ? text(" ", group) : "";
 		PassBuilder pass = r_graph.add_pass("volumes" + suffix);

@@ -108,6 +108,9 @@ BREACHES = (
      lambda root: add_file(root, "modules/core/a_windows.cpp", "#define NOGDI\n#include <Windows.h>\n")),
     ("a thread_local in a module that is built for Godot", "check_thread_locals",
      lambda root: add_file(root, "modules/shadow_moon/a.cpp", "static thread_local std::string text;\n")),
+    ("a private function of the same name in two files", "check_private_names",
+     lambda root: [add_file(root, "modules/core/%s.cpp" % name, "namespace {\n\nint find(%s p_value) {\n}\n\n} // namespace\n" % kind)
+                   for name, kind in (("a", "int"), ("b", "double"))]),
     ("the device's testing header in the renderer", "check_test_headers",
      lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device/tests/testing.h"\n')),
     ("the device's testing header in rendering_device itself", "check_test_headers",

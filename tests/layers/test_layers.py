@@ -37,6 +37,8 @@ REGISTRATION = re.compile(
     r"(?:(?:Shadow|MaskFilter)Registry::add\s*\(|ShadowTechniqueInfo|MaskFilterInfo)[\s\w=({]*?\"([a-z0-9_]+)\""
 )
 REGISTRY = re.compile(r"(?:Shadow|MaskFilter)Registry::add")
+PRIVATE_TYPE = re.compile(r"(?:struct|class|enum class|enum|union) (\w+)")
+PRIVATE_VALUE = re.compile(r"[\w:<>,&*\s]*?[\s*&>](\w+)(?:\(|\[| = |\{|;)")
 CLASS_MADE = re.compile(r"make_unique<\s*(?:gnomon::)?([A-Z]\w+)\s*>")
 
 
@@ -224,6 +226,33 @@ def check_thread_locals(tree):
                 yield "%s:%d: thread_local in a module that is built for Godot" % (path, number)
 
 
+def list_private_names(text):
+    """Return the names that a .cpp file declares in anonymous namespaces."""
+    names = set()
+    is_private = False
+    for line in text.splitlines():
+        if line == "namespace {":
+            is_private = True
+        elif line.startswith("} // namespace"):
+            is_private = False
+        elif is_private and line[:1].isalpha() and not line.startswith("using "):
+            found = PRIVATE_TYPE.match(line) or PRIVATE_VALUE.match(line)
+            if found:
+                names.add(found.group(1))
+    return names
+
+
+def check_private_names(tree):
+    """Files of a folder, which may be compiled as one, declare no name twice in anonymous namespaces. The compiler would notice most,
+    but of two functions with other parameters it might call the wrong one."""
+    owners = {}
+    for path in tree.find_sources((".cpp",), ("modules/", "tests/")):
+        for name in sorted(list_private_names(tree.get_text(path))):
+            first = owners.setdefault((os.path.dirname(path), name), path)
+            if first != path:
+                yield "%s: %s is declared in %s too; give it a name of its own or share it in a header" % (path, name, first)
+
+
 def check_test_headers(tree):
     """Only tests include headers in a tests folder, such as those that give tests access to a device."""
     for path in tree.find_sources(CPP):
@@ -341,6 +370,7 @@ RULES = (
     check_backends,
     check_system_headers,
     check_thread_locals,
+    check_private_names,
     check_test_headers,
     check_window_library,
     check_modules_without_device,

@@ -114,7 +114,7 @@ void draw_view(EditorContext &r_context, const char *p_view, void *p_image, ImVe
 }
 
 /// Draws mask, reference and their difference side by side, as large as possible.
-void draw_images(EditorContext &r_context) {
+void draw_error_images(EditorContext &r_context) {
 	const ErrorState &state = r_context.error;
 	const ImVec2 space = ImGui::GetContentRegionAvail();
 	const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -164,7 +164,7 @@ void draw_error(EditorContext &r_context) {
 	ImGui::SameLine();
 	ImGui::BeginChild("images");
 	if (state.refusal.empty()) {
-		draw_images(r_context);
+		draw_error_images(r_context);
 	}
 	ImGui::EndChild();
 	ImGui::EndTabItem();

@@ -1,5 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/error_report/light_variant.h"
+#include "modules/scene/tests/test_trees.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,12 +12,6 @@ using namespace gnomon;
 
 namespace {
 
-template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
-	auto node = std::make_unique<T>();
-	node->name = p_name;
-	return static_cast<T *>(p_parent.add_child(std::move(node)));
-}
-
 const double LENGTH_TOLERANCE_M = 1e-9; // tolerance of positions computed in double, metres
 const glm::dvec3 CASTER_CENTER_M(2, 1, 0);
 
@@ -24,11 +19,11 @@ const glm::dvec3 CASTER_CENTER_M(2, 1, 0);
 /// rotated, translated and scaled group. A lampshade that casts no shadow is a child of the light.
 struct SmallScene {
 	Scene scene;
-	Camera3D *camera = add<Camera3D>(*scene.root, "Camera");
-	MeshInstance3D *caster = add<MeshInstance3D>(*scene.root, "Caster");
-	Node3D *group = add<Node3D>(*scene.root, "Group");
-	Light3D *light = add<Light3D>(*group, "Lamp");
-	MeshInstance3D *shade = add<MeshInstance3D>(*light, "Shade");
+	Camera3D *camera = add_child<Camera3D>(*scene.root, "Camera");
+	MeshInstance3D *caster = add_child<MeshInstance3D>(*scene.root, "Caster");
+	Node3D *group = add_child<Node3D>(*scene.root, "Group");
+	Light3D *light = add_child<Light3D>(*group, "Lamp");
+	MeshInstance3D *shade = add_child<MeshInstance3D>(*light, "Shade");
 
 	SmallScene() {
 		scene.scene_size_m = 4;

@@ -64,7 +64,7 @@ std::vector<std::map<std::string, std::string>> read_rows(const Report &p_report
 
 /// Returns a report with one configuration of the matrix and two cells: the baseline "hard", and
 /// "soft".
-Report make_report() {
+Report make_listed_report() {
 	Report report;
 	report.program = "1.0 abc";
 	report.sample_count = 1024;
@@ -119,7 +119,7 @@ void check_no_numbers(const std::map<std::string, std::string> &p_row) {
 } // namespace
 
 TEST_CASE("[ErrorReport] each value of a cell is in the CSV column of its name") {
-	const auto rows = read_rows(make_report());
+	const auto rows = read_rows(make_listed_report());
 	const std::map<std::string, std::string> expected = { { "program", "1.0 abc" },
 		{ "device", "GPU 1" }, { "driver", "driver 2" }, { "cpu", "CPU 3" }, { "threads", "4" },
 		{ "configuration", "sphere/Spot/0.4" }, { "group", "matrix" }, { "sweep", "" },
@@ -148,7 +148,7 @@ TEST_CASE("[ErrorReport] each value of a cell is in the CSV column of its name")
 }
 
 TEST_CASE("[ErrorReport] the CSV field of an absent `wrong` is empty") {
-	Report report = make_report();
+	Report report = make_listed_report();
 	report.cells[1].error->all.penumbra.wrong.reset();
 	const auto row = read_rows(report)[1];
 	CHECK(row.at("penumbra_wrong").empty());
@@ -157,7 +157,7 @@ TEST_CASE("[ErrorReport] the CSV field of an absent `wrong` is empty") {
 }
 
 TEST_CASE("[ErrorReport] only CSV fields with commas, quotes or line ends are quoted") {
-	Report report = make_report();
+	Report report = make_listed_report();
 	report.program = "a,b";
 	report.cells[1].setting = "the \"best\"";
 	report.cells[1].message = "first\nsecond\r\nthird";
@@ -175,7 +175,7 @@ TEST_CASE("[ErrorReport] only CSV fields with commas, quotes or line ends are qu
 }
 
 TEST_CASE("[ErrorReport] a CSV row with an empty first field has all fields") {
-	Report report = make_report();
+	Report report = make_listed_report();
 	report.program.clear();
 	report.machines.clear();
 	const auto rows = read_rows(report);
@@ -185,7 +185,7 @@ TEST_CASE("[ErrorReport] a CSV row with an empty first field has all fields") {
 }
 
 TEST_CASE("[ErrorReport] the CSV row of a failed cell has a message and no measured values") {
-	Report report = make_report();
+	Report report = make_listed_report();
 	report.cells[1].status = ReportStatus::FAILED; // although the cell has an error metric
 	report.cells[1].message = "no memory";
 	const auto row = read_rows(report)[1];
@@ -196,7 +196,7 @@ TEST_CASE("[ErrorReport] the CSV row of a failed cell has a message and no measu
 }
 
 TEST_CASE("[ErrorReport] the CSV row of a missing cell has neither values nor a machine") {
-	Report report = make_report();
+	Report report = make_listed_report();
 	report.cells[1].status = ReportStatus::MISSING;
 	report.configurations[0].status = ReportStatus::MISSING;
 	const auto row = read_rows(report)[1];
@@ -209,7 +209,7 @@ TEST_CASE("[ErrorReport] the CSV row of a missing cell has neither values nor a 
 }
 
 TEST_CASE("[ErrorReport] the CSV row of a scaling cell has a time and no reference") {
-	Report report = make_report();
+	Report report = make_listed_report();
 	report.configurations[0].group = TRIANGLES_GROUP;
 	report.cells[1].error.reset();
 	const auto row = read_rows(report)[1];

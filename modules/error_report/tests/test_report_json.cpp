@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 /// Measures a scripted plan with one scene: 3 configurations and 7 cells (see make_scripted_plan).
-Report make_report(const std::filesystem::path &p_folder) {
+Report make_scripted_report(const std::filesystem::path &p_folder) {
 	const ReportPlan plan = make_scripted_plan(1);
 	ScriptedMaskSource masks;
 	RecordStore store(get_record_folder(p_folder));
@@ -27,7 +27,7 @@ Report make_report(const std::filesystem::path &p_folder) {
 
 TEST_CASE("[ErrorReport] a loaded report.json equals the saved report") {
 	TemporaryFolder folder;
-	const Report report = make_report(folder.path);
+	const Report report = make_scripted_report(folder.path);
 	const Json json = to_json(report);
 	save_file_atomically(folder.path / "report.json", json.dump());
 	CHECK(to_json(load_report(folder.path / "report.json")) == json);
@@ -40,7 +40,7 @@ TEST_CASE("[ErrorReport] a loaded report.json equals the saved report") {
 
 TEST_CASE("[ErrorReport] an older report without `wrong` is loaded with unset values") {
 	TemporaryFolder folder;
-	const Json json = to_json(make_report(folder.path));
+	const Json json = to_json(make_scripted_report(folder.path));
 	CHECK(json.at("cells")[0].at("error").at("all").at("receiver").contains("wrong"));
 	CHECK(json.at("ranking")[0].contains("penumbra_wrong"));
 	Json older = json;
@@ -65,7 +65,7 @@ TEST_CASE("[ErrorReport] an older report without `wrong` is loaded with unset va
 TEST_CASE("[ErrorReport] a report of version 1 is loaded with its old key names") {
 	TemporaryFolder folder;
 	const std::filesystem::path path = folder.path / "report.json";
-	Report report = make_report(folder.path);
+	Report report = make_scripted_report(folder.path);
 	ReportStability stability;
 	stability.condition = { 4.0, 0.5, 0.25, 0.125, ErrorCause::REFERENCE };
 	report.cells[0].stability = stability;
@@ -94,7 +94,7 @@ TEST_CASE("[ErrorReport] a report of version 1 is loaded with its old key names"
 TEST_CASE("[ErrorReport] an invalid report file is an Error that names the file") {
 	TemporaryFolder folder;
 	const std::filesystem::path path = folder.path / "report.json";
-	const Json whole = to_json(make_report(folder.path));
+	const Json whole = to_json(make_scripted_report(folder.path));
 	const auto check_refused = [&](const std::string &p_text) {
 		save_file_atomically(path, p_text);
 		CHECK_THROWS_WITH_AS(load_report(path), doctest::Contains("report.json"), Error);
@@ -122,7 +122,7 @@ TEST_CASE("[ErrorReport] an invalid report file is an Error that names the file"
 
 TEST_CASE("[ErrorReport] the page contains library, data and images, and escapes names") {
 	TemporaryFolder folder;
-	Report report = make_report(folder.path);
+	Report report = make_scripted_report(folder.path);
 	report.project = "<b>&</script><script>alert(1)</script>";
 	report.cells[0].setting = "</script>";
 	const RecordStore store(get_record_folder(folder.path));
@@ -147,7 +147,7 @@ TEST_CASE("[ErrorReport] the page contains library, data and images, and escapes
 
 TEST_CASE("[ErrorReport] empty pixel sets have no metrics, and names may be invalid UTF-8") {
 	TemporaryFolder folder;
-	Report report = make_report(folder.path);
+	Report report = make_scripted_report(folder.path);
 	report.cells[0].error->all.penumbra = {};
 	report.configurations[0].scene = "caf\xe9";
 	const Json json = to_json(report);

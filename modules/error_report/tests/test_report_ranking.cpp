@@ -12,7 +12,7 @@ namespace {
 
 /// Returns a report without cells: two machines and the techniques "hard" (the baseline), "soft"
 /// and "best".
-Report make_report(size_t p_configuration_count = 1) {
+Report make_ranked_report(size_t p_configuration_count = 1) {
 	Report report;
 	report.machines = { { "a", "", "", 2 }, { "b", "", "", 8 } };
 	report.techniques = { { "hard", "", "", "", true }, { "soft", "", "", "" },
@@ -43,7 +43,7 @@ ReportCell &add_cell(Report &r_report, size_t p_configuration, const std::string
 } // namespace
 
 TEST_CASE("[ErrorReport] no cell is both cheaper and closer than one on the Pareto front") {
-	Report report = make_report(2);
+	Report report = make_ranked_report(2);
 	add_cell(report, 0, "hard", 8, 0.1); // dominated by the cell of 4 ms
 	add_cell(report, 0, "hard", 1, 0.4);
 	add_cell(report, 1, "hard", 0.5, 0.001); // in another configuration
@@ -53,7 +53,7 @@ TEST_CASE("[ErrorReport] no cell is both cheaper and closer than one on the Pare
 }
 
 TEST_CASE("[ErrorReport] of cells with equal cost the front has the closest, on a tie the first") {
-	Report report = make_report();
+	Report report = make_ranked_report();
 	add_cell(report, 0, "hard", 2, 0.3);
 	add_cell(report, 0, "soft", 2, 0.2);
 	add_cell(report, 0, "best", 2, 0.2);
@@ -62,7 +62,7 @@ TEST_CASE("[ErrorReport] of cells with equal cost the front has the closest, on 
 }
 
 TEST_CASE("[ErrorReport] cells without a penumbra error are in no front and no ranking") {
-	Report report = make_report();
+	Report report = make_ranked_report();
 	add_cell(report, 0, "hard", 1, 0.01).status = ReportStatus::FAILED;
 	add_cell(report, 0, "hard", 1, 0.01, "later").status = ReportStatus::MISSING;
 	add_cell(report, 0, "soft", 1, 0).error.reset();
@@ -74,7 +74,7 @@ TEST_CASE("[ErrorReport] cells without a penumbra error are in no front and no r
 }
 
 TEST_CASE("[ErrorReport] find_within_budget returns the closest cell within the budget") {
-	Report report = make_report();
+	Report report = make_ranked_report();
 	add_cell(report, 0, "hard", 1, 0.4);
 	add_cell(report, 0, "soft", 4, 0.1);
 	add_cell(report, 0, "soft", 5, 0.3); // within a budget of 5, and not the closest
@@ -86,7 +86,7 @@ TEST_CASE("[ErrorReport] find_within_budget returns the closest cell within the 
 }
 
 TEST_CASE("[ErrorReport] settings are ranked by mean error, and rows have median times") {
-	Report report = make_report(3);
+	Report report = make_ranked_report(3);
 	const double costs_ms[] = { 1, 2, 10 };
 	for (size_t at = 0; at < 3; ++at) {
 		add_cell(report, at, "hard", costs_ms[at], 0.5);
@@ -115,7 +115,7 @@ TEST_CASE("[ErrorReport] settings are ranked by mean error, and rows have median
 }
 
 TEST_CASE("[ErrorReport] the mean of `wrong` is unset if one cell has no value") {
-	Report report = make_report(2);
+	Report report = make_ranked_report(2);
 	add_cell(report, 0, "soft", 1, 0.4);
 	add_cell(report, 1, "soft", 1, 0.4).error->all.penumbra.wrong.reset();
 	const std::vector<RankingRow> rows = rank_settings(report);
@@ -125,7 +125,7 @@ TEST_CASE("[ErrorReport] the mean of `wrong` is unset if one cell has no value")
 }
 
 TEST_CASE("[ErrorReport] the best setting is chosen separately in each configuration") {
-	Report report = make_report(2);
+	Report report = make_ranked_report(2);
 	add_cell(report, 0, "soft", 1, 0.3, "few");
 	add_cell(report, 0, "soft", 9, 0.1, "many");
 	add_cell(report, 1, "soft", 3, 0.2, "few");
@@ -142,7 +142,7 @@ TEST_CASE("[ErrorReport] the best setting is chosen separately in each configura
 }
 
 TEST_CASE("[ErrorReport] time ratios are relative to the baseline in the same configuration") {
-	Report report = make_report(2);
+	Report report = make_ranked_report(2);
 	add_cell(report, 0, "soft", 6, 0.1);
 	add_cell(report, 0, "hard", 4, 0.4);
 	add_cell(report, 1, "hard", 2, 0.4);
@@ -153,7 +153,7 @@ TEST_CASE("[ErrorReport] time ratios are relative to the baseline in the same co
 }
 
 TEST_CASE("[ErrorReport] without a baseline of the same machine there is no time ratio") {
-	Report report = make_report();
+	Report report = make_ranked_report();
 	add_cell(report, 0, "hard", 4, 0.4);
 	add_cell(report, 0, "soft", 6, 0.1);
 	ReportCell &hard = report.cells[0];
@@ -173,7 +173,7 @@ TEST_CASE("[ErrorReport] without a baseline of the same machine there is no time
 }
 
 TEST_CASE("[ErrorReport] count() includes references, but not of configurations that have none") {
-	Report report = make_report(4);
+	Report report = make_ranked_report(4);
 	report.configurations[0].status = ReportStatus::OK;
 	report.configurations[1].status = ReportStatus::FAILED;
 	report.configurations[3].group = LIGHTS_GROUP; // has no reference
@@ -186,7 +186,7 @@ TEST_CASE("[ErrorReport] count() includes references, but not of configurations 
 }
 
 TEST_CASE("[ErrorReport] points of scaling curves are sorted by value, without failed cells") {
-	Report report = make_report(5);
+	Report report = make_ranked_report(5);
 	const std::pair<const char *, double> groups[] = { { LIGHTS_GROUP, 16 }, { LIGHTS_GROUP, 1 },
 		{ LIGHTS_GROUP, 4 }, { TRIANGLES_GROUP, 2000 }, { MATRIX_GROUP, 0.4 } };
 	for (size_t at = 0; at < 5; ++at) {
@@ -203,7 +203,7 @@ TEST_CASE("[ErrorReport] points of scaling curves are sorted by value, without f
 			R"("points":[{"value":4.0,"cost_ms":9.0,"cell":5}]},{"technique":"soft",)"
 			R"("points":[{"value":1.0,"cost_ms":2.0,"cell":1},)"
 			R"({"value":4.0,"cost_ms":3.0,"cell":2},{"value":16.0,"cost_ms":1.0,"cell":0}]}]}])");
-	CHECK(scaling_to_json(make_report()).empty());
+	CHECK(scaling_to_json(make_ranked_report()).empty());
 }
 
 TEST_CASE("[ErrorReport] ranking rows have the documented keys, and omit unset values") {

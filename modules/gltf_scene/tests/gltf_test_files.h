@@ -113,7 +113,7 @@ struct GltfTestBuffer {
 
 // Component types of glTF.
 const int GLTF_TEST_BYTE = 5120, GLTF_TEST_SHORT = 5122, GLTF_TEST_USHORT = 5123,
-		  GLTF_TEST_UINT = 5125, GLTF_TEST_FLOAT = 5126;
+		  GLTF_TEST_UBYTE = 5121, GLTF_TEST_UINT = 5125, GLTF_TEST_FLOAT = 5126;
 
 /// Returns a document without content.
 inline Json make_empty_document() {

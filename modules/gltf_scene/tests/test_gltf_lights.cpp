@@ -9,7 +9,7 @@ using namespace gnomon;
 
 namespace {
 
-Json &get_light(Json &r_json) {
+Json &get_light_json(Json &r_json) {
 	return r_json["extensions"]["KHR_lights_punctual"]["lights"][0];
 }
 
@@ -34,7 +34,7 @@ Json add_area(Json p_json, const Json &p_area) {
 TEST_CASE("[GltfLights] type, colour, intensity, range and cones are read") {
 	GltfTestFolder folder;
 	Json json = make_spot_light_document();
-	get_light(json)["range"] = 7;
+	get_light_json(json)["range"] = 7;
 	const auto scene = folder.load(json);
 	const Light3D &light = *scene->find_nodes<Light3D>().at(0);
 	CHECK(light.name == "Lamp");
@@ -52,7 +52,7 @@ TEST_CASE("[GltfLights] a spot light without a spot object has the default cones
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_spot_light_document();
-	get_light(json).erase("spot");
+	get_light_json(json).erase("spot");
 	const auto scene = folder.load(json);
 	CHECK(scene->find_nodes<Light3D>().at(0)->outer_cone_rad ==
 			doctest::Approx(std::numbers::pi / 4));
@@ -64,7 +64,7 @@ TEST_CASE("[GltfLights] a light has the name of its node, else of its definition
 	Json json = make_spot_light_document();
 	json["nodes"][0].erase("name");
 	CHECK(folder.load(json)->find_nodes<Light3D>().at(0)->name == "Bulb");
-	get_light(json).erase("name");
+	get_light_json(json).erase("name");
 	CHECK(folder.load(json)->find_nodes<Light3D>().at(0)->name == "Light 0");
 }
 
@@ -72,11 +72,11 @@ TEST_CASE("[GltfLights] size and angle are read under each of their names") {
 	GltfTestFolder folder;
 	for (const char *name : { "light_size", "radius", "shadow_soft_size" }) {
 		Json json = make_spot_light_document();
-		get_light(json)["extras"][name] = 0.25;
+		get_light_json(json)["extras"][name] = 0.25;
 		CHECK(load_number(folder, json, "light_size") == 0.25);
 	}
 	Json json = make_spot_light_document();
-	get_light(json)["extras"]["angle"] = 0.5;
+	get_light_json(json)["extras"]["angle"] = 0.5;
 	CHECK(load_number(folder, json, "light_angular_distance") ==
 			doctest::Approx(0.5 * 180 / std::numbers::pi).epsilon(1e-12));
 	json = add_area(make_spot_light_document(), { { "type", "disk" }, { "size", 0.5 } });
@@ -90,9 +90,9 @@ TEST_CASE("[GltfLights] an area light overrides the light's extras, which overri
 	Json json = make_spot_light_document();
 	json["nodes"][0]["extras"] = { { "light_size", 0.3 }, { "penumbra_outer_width", 0.6 } };
 	CHECK(load_number(folder, json, "light_size") == 0.3);
-	get_light(json)["extras"]["shadow_soft_size"] = 0.2;
+	get_light_json(json)["extras"]["shadow_soft_size"] = 0.2;
 	CHECK(load_number(folder, json, "light_size") == 0.2);
-	get_light(json)["extras"]["light_size"] = 0.15;
+	get_light_json(json)["extras"]["light_size"] = 0.15;
 	CHECK(load_number(folder, json, "light_size") == 0.15);
 	json = add_area(json, { { "type", "disk" }, { "size", 0.2 } });
 	CHECK(load_number(folder, json, "light_size") == 0.1);
@@ -121,7 +121,7 @@ TEST_CASE("[GltfLights] an empty area light does not shift the indices of those 
 TEST_CASE("[GltfLights] penumbra widths may be -1; invalid values are reported and ignored") {
 	GltfTestFolder folder;
 	Json json = make_spot_light_document();
-	Json &extras = get_light(json)["extras"];
+	Json &extras = get_light_json(json)["extras"];
 	extras = { { "penumbra_outer_width", -1 }, { "penumbra_inner_width", 0 } };
 	CHECK(load_number(folder, json, "penumbra_outer_width") == -1);
 	CHECK(load_number(folder, json, "penumbra_inner_width") == 0);
@@ -150,7 +150,7 @@ TEST_CASE("[GltfLights] an invalid value of an alias is reported under the alias
 	GltfTestLog log;
 	Json json = make_spot_light_document();
 	// 3 rad are 172 degrees; light_angular_distance is at most 90.
-	get_light(json)["extras"] = { { "angle", 3 }, { "radius", 20000 } };
+	get_light_json(json)["extras"] = { { "angle", 3 }, { "radius", 20000 } };
 	folder.load(json);
 	CHECK(GltfTestLog::contains(log.errors, "lights[0].extras.angle is 3"));
 	CHECK(GltfTestLog::contains(
@@ -161,7 +161,7 @@ TEST_CASE("[GltfLights] a flag can be a boolean or a number") {
 	GltfTestFolder folder;
 	Json json = make_spot_light_document();
 	for (const Json &value : { Json(0), Json(false) }) {
-		get_light(json)["extras"] = { { "shadow_enabled", value } };
+		get_light_json(json)["extras"] = { { "shadow_enabled", value } };
 		const auto scene = folder.load(json);
 		CHECK(std::get<bool>(scene->find_nodes<Light3D>().at(0)->properties.at("shadow_enabled")) ==
 				false);
@@ -180,7 +180,7 @@ TEST_CASE("[GltfLights] invalid values of punctual lights are reported and repla
 		CAPTURE(value.dump());
 		GltfTestLog log;
 		Json json = make_spot_light_document();
-		get_light(json)[name] = value;
+		get_light_json(json)[name] = value;
 		const auto scene = folder.load(json);
 		const Light3D &light = *scene->find_nodes<Light3D>().at(0);
 		CHECK(log.errors.size() == 1);
@@ -195,7 +195,7 @@ TEST_CASE("[GltfLights] a spot light with equal cone angles keeps its hard edge"
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_spot_light_document();
-	get_light(json)["spot"] = { { "outerConeAngle", 0.5 }, { "innerConeAngle", 0.5 } };
+	get_light_json(json)["spot"] = { { "outerConeAngle", 0.5 }, { "innerConeAngle", 0.5 } };
 	const auto scene = folder.load(json);
 	const Light3D &light = *scene->find_nodes<Light3D>().at(0);
 	CHECK(log.errors.empty());
@@ -208,7 +208,7 @@ TEST_CASE("[GltfLights] a light of unknown type is skipped; a missing light is a
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_spot_light_document();
-	get_light(json)["type"] = "laser";
+	get_light_json(json)["type"] = "laser";
 	CHECK(folder.load(json)->find_nodes<Light3D>().empty());
 	CHECK(GltfTestLog::contains(log.errors, "lights[0].type is \"laser\""));
 	json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
@@ -228,7 +228,7 @@ TEST_CASE("[GltfLights] technique properties are checked if they are registered,
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_spot_light_document();
-	get_light(json)["extras"] =
+	get_light_json(json)["extras"] =
 			Json::parse(R"({"later_taps": 8.0, "later_bias": 0.5, "later_on": true,
 		"later_mode": "soft", "later_count": 3, "later_list": [1, 2]})");
 	const auto scene = folder.load(json, options);
@@ -238,7 +238,7 @@ TEST_CASE("[GltfLights] technique properties are checked if they are registered,
 					{ "later_on", true }, { "later_mode", std::string("soft") },
 					{ "later_count", int64_t(3) } });
 	CHECK(log.errors.empty());
-	get_light(json)["extras"] = { { "later_taps", 65 } };
+	get_light_json(json)["extras"] = { { "later_taps", 65 } };
 	// Not used: the light's own value hides it, even though that is invalid.
 	json["nodes"][0]["extras"] = { { "later_taps", 4 } };
 	CHECK(folder.load(json, options)->find_nodes<Light3D>().at(0)->properties.empty());

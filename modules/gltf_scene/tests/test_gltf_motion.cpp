@@ -13,7 +13,6 @@ using namespace gnomon;
 
 namespace {
 
-const int GLTF_TEST_UBYTE = 5121; // componentType UNSIGNED_BYTE
 const float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 const std::vector<float> IDENTITY = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
 

@@ -19,8 +19,6 @@ using namespace gnomon;
 
 namespace {
 
-const int GLTF_TEST_UBYTE = 5121; // componentType UNSIGNED_BYTE
-
 /// Four RGBA8 texels, the content of encode_small_png.
 const std::vector<uint8_t> TEXELS = { 255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 10, 20, 30,
 	40 };

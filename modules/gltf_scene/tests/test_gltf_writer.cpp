@@ -4,6 +4,7 @@
 #include "modules/core/tests/killed_process.h"
 #endif
 #include "modules/gltf_scene/tests/gltf_test_files.h"
+#include "modules/scene/tests/test_trees.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -42,16 +43,10 @@ Light3D &get_light(Scene &p_scene) {
 	return *p_scene.find_nodes<Light3D>().at(0);
 }
 
-template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
-	auto node = std::make_unique<T>();
-	node->name = p_name;
-	return static_cast<T *>(p_parent.add_child(std::move(node)));
-}
-
 std::unique_ptr<Scene> make_generated_scene() {
 	auto scene = std::make_unique<Scene>();
 	scene->scene_size_m = 4;
-	auto *box = add<MeshInstance3D>(*scene->root, "Box");
+	auto *box = add_child<MeshInstance3D>(*scene->root, "Box");
 	box->parent_from_node = glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(0, 1, 0));
 	box->is_planar_receiver = true;
 	auto wax = std::make_shared<Material>();
@@ -65,12 +60,12 @@ std::unique_ptr<Scene> make_generated_scene() {
 	wax->is_double_sided = true;
 	box->surfaces.push_back(
 			{ make_mesh("box", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 }), wax });
-	auto *copy = add<MeshInstance3D>(*box, "Copy");
+	auto *copy = add_child<MeshInstance3D>(*box, "Copy");
 	copy->surfaces = box->surfaces;
 	copy->casts_shadow = false;
 	copy->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 1e9 + 0.1, 0));
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
-		auto *light = add<Light3D>(*scene->root, "Light " + std::to_string(int(type)));
+		auto *light = add_child<Light3D>(*scene->root, "Light " + std::to_string(int(type)));
 		light->type = type;
 		light->intensity = 12.3f;
 		light->color = glm::vec3(0.1f, 0.7f, 1);
@@ -82,7 +77,7 @@ std::unique_ptr<Scene> make_generated_scene() {
 		light->parent_from_node = glm::inverse(
 				glm::lookAt(glm::dvec3(1.8, 6, 1.2), glm::dvec3(0, 0.4, 0), glm::dvec3(0, 1, 0)));
 	}
-	auto *camera = add<Camera3D>(*scene->root, "Camera");
+	auto *camera = add_child<Camera3D>(*scene->root, "Camera");
 	camera->vertical_fov_rad = 0.6435f;
 	camera->near_m = 0.02f;
 	return scene;
@@ -277,9 +272,9 @@ TEST_CASE("[GltfWriter] a staged node is not saved, unless one of its descendant
 	GltfTestLog log;
 	const Json json = make_desk(folder);
 	const auto scene = folder.load(json);
-	auto *stage = add<Node3D>(*scene->root, "Stage");
+	auto *stage = add_child<Node3D>(*scene->root, "Stage");
 	stage->is_staged = true;
-	auto *light = add<Light3D>(*stage, "Added");
+	auto *light = add_child<Light3D>(*stage, "Added");
 	light->is_staged = true;
 	save_gltf(*scene, folder.path / "again.gltf");
 	CHECK(folder.read_json("again.gltf") == json);
@@ -307,7 +302,7 @@ TEST_CASE("[GltfWriter] a process killed while saving leaves the old or the new 
 		const fs::path path = folder.path / name;
 		const auto before = make_generated_scene();
 		const auto after = make_generated_scene();
-		add<MeshInstance3D>(*after->root, "More")
+		add_child<MeshInstance3D>(*after->root, "More")
 				->surfaces.push_back({ make_mesh("more", { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 3, 0 } },
 											   {}, { 0, 1, 2 }),
 						std::make_shared<Material>() });
@@ -346,12 +341,12 @@ TEST_CASE("[GltfWriter] nodes can be added, removed and given another parent") {
 		auto light = std::move(scene->root->children[1]);
 		light->parent = nullptr;
 		scene->root->children.clear();
-		auto *box = add<MeshInstance3D>(*scene->root, "Box");
+		auto *box = add_child<MeshInstance3D>(*scene->root, "Box");
 		box->surfaces.push_back(
 				{ make_mesh("box", { { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 } }, {}, { 0, 1, 2 }),
 						std::make_shared<Material>() });
 		box->add_child(std::move(light));
-		add<Camera3D>(*scene->root, "Camera");
+		add_child<Camera3D>(*scene->root, "Camera");
 		save_gltf(*scene, folder.path / name);
 		const auto again = load_gltf(folder.path / name);
 		CHECK(find_difference(*scene, *again) == "");

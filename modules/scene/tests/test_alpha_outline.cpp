@@ -28,7 +28,7 @@ std::shared_ptr<const Image> make_alpha_image(
 }
 
 /// Returns the outline's fraction of the tile's area.
-double compute_area(const AlphaOutline &p_outline) {
+double compute_outline_area(const AlphaOutline &p_outline) {
 	int64_t twice = 0;
 	for (size_t i = 0; i < p_outline.triangles.size(); i += 3) {
 		const int64_t signed_area =
@@ -146,7 +146,7 @@ TEST_CASE("[AlphaOutline] the outline of a disc has the disc's area and few edge
 	test.image = image.get();
 	const AlphaOutline outline = make_alpha_outline(test, EDGE_BUDGET);
 	const double expected = 3.14159265 * radius_px * radius_px / (64 * 64);
-	CHECK(std::abs(compute_area(outline) / expected - 1) < 0.01);
+	CHECK(std::abs(compute_outline_area(outline) / expected - 1) < 0.01);
 	// 29 chords are within the default tolerance, 1/8 texel, of the circle.
 	CHECK(outline.edge_count >= 12);
 	CHECK(outline.edge_count <= 40);
@@ -179,7 +179,7 @@ TEST_CASE("[AlphaOutline] noise is outlined with any wrap mode, and as squares i
 		const AlphaOutline half_tone = make_alpha_outline(test, 200);
 		CHECK(half_tone.block_size_px > 1);
 		CHECK(half_tone.edge_count <= 200);
-		CHECK(std::abs(compute_area(half_tone) - compute_area(squares)) < 0.01);
+		CHECK(std::abs(compute_outline_area(half_tone) - compute_outline_area(squares)) < 0.01);
 	}
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("[AlphaOutline] a half-tone has few triangles where blocks are fully c
 		CHECK(half_tone.triangles.size() / 3 <= 2 * max_edges);
 		const AlphaOutline exact = make_alpha_outline(test, /*p_edge_budget=*/100000);
 		CHECK(exact.block_size_px == 0);
-		CHECK(std::abs(compute_area(half_tone) - compute_area(exact)) < 0.01);
+		CHECK(std::abs(compute_outline_area(half_tone) - compute_outline_area(exact)) < 0.01);
 	}
 }
 
@@ -214,7 +214,7 @@ TEST_CASE("[AlphaOutline] each straight border of a large image becomes one edge
 	const AlphaOutline outline = make_alpha_outline(test, EDGE_BUDGET);
 	CHECK(outline.block_size_px == 0);
 	CHECK(outline.edge_count == 16); // 4 stripes
-	CHECK(compute_area(outline) == doctest::Approx(0.5).epsilon(0.01));
+	CHECK(compute_outline_area(outline) == doctest::Approx(0.5).epsilon(0.01));
 }
 
 TEST_CASE("[AlphaOutline] outlines of tiles that repeat match at the tile borders") {

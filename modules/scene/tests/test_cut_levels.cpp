@@ -42,7 +42,7 @@ std::shared_ptr<const Mesh> make_card(float p_repeats) {
 			{ 0, 1, 2, 0, 2, 3 }, attributes);
 }
 
-double compute_area(const Mesh &p_mesh) {
+double compute_levels_area(const Mesh &p_mesh) {
 	double area = 0;
 	for (size_t i = 0; i < p_mesh.indices.size(); i += 3) {
 		const glm::dvec3 a(p_mesh.positions_node[p_mesh.indices[i]]);
@@ -90,7 +90,7 @@ TEST_CASE("[CutLevels] coarser outlines have fewer edges and as much area") {
 		CHECK(mesh == cut.levels->get_mesh(level));
 		CHECK(mesh->get_triangle_count() < finer_count);
 		finer_count = mesh->get_triangle_count();
-		CHECK(compute_area(*mesh) == doctest::Approx(0.5).epsilon(0.002));
+		CHECK(compute_levels_area(*mesh) == doctest::Approx(0.5).epsilon(0.002));
 	}
 	CHECK(finer_count < 30); // the coarsest level
 }

@@ -60,7 +60,7 @@ std::shared_ptr<const Mesh> make_grid(uint32_t p_count, double p_repeats, double
 }
 
 /// Returns the area of a mesh in the plane of make_grid; of others, that of its projection onto it.
-double compute_area(const Mesh &p_mesh) {
+double compute_mesh_area(const Mesh &p_mesh) {
 	double area = 0;
 	for (size_t i = 0; i < p_mesh.indices.size(); i += 3) {
 		const glm::dvec3 a = p_mesh.positions_node[p_mesh.indices[i]];
@@ -113,7 +113,7 @@ uint32_t count_open_edges(const Mesh &p_mesh) {
 
 TEST_CASE("[CutMesh] a cut mesh has the area where the alpha test passes, for each wrap mode") {
 	Material material = make_material(make_wave_image({ 24, 32 }, 0.7));
-	const double whole_area = compute_area(*make_grid(1, 1));
+	const double whole_area = compute_mesh_area(*make_grid(1, 1));
 	for (const TextureWrap wrap :
 			{ TextureWrap::REPEAT, TextureWrap::MIRROR, TextureWrap::CLAMP }) {
 		for (const bool is_nearest : { false, true }) {
@@ -132,7 +132,7 @@ TEST_CASE("[CutMesh] a cut mesh has the area where the alpha test passes, for ea
 					const CutMesh cut = cut_mesh(grid, material);
 					REQUIRE(cut.mesh);
 					CHECK(cut.block_size_px == 0);
-					CHECK(compute_area(*cut.mesh) / whole_area ==
+					CHECK(compute_mesh_area(*cut.mesh) / whole_area ==
 							doctest::Approx(sample_coverage(material, repeats, offset))
 									.epsilon(0.01));
 					CHECK(cut.mesh->source.mesh.lock() == grid);
@@ -154,8 +154,8 @@ TEST_CASE("[CutMesh] adjacent triangles make the same points: only holes have op
 		// per texel that it crosses, of 24.
 		CHECK(fine >= coarse);
 		CHECK(fine <= coarse + 6 * count * 24);
-		CHECK(compute_area(*cut.mesh) ==
-				doctest::Approx(compute_area(*cut_mesh(make_grid(1, 1), material).mesh))
+		CHECK(compute_mesh_area(*cut.mesh) ==
+				doctest::Approx(compute_mesh_area(*cut_mesh(make_grid(1, 1), material).mesh))
 						.epsilon(1e-5));
 	}
 }
@@ -277,7 +277,7 @@ TEST_CASE("[CutMesh] an outlier among the texture coordinates does not make many
 		CHECK(cut.block_size_px > 0);
 		// Squares of many tiles: a few triangles each, in at most 2 to the power of 13 columns.
 		CHECK((cut.mesh ? cut.mesh->get_triangle_count() : 0) < 4u << 13);
-		CHECK((cut.mesh ? compute_area(*cut.mesh) : 0) <= 1.001 * compute_area(*mesh));
+		CHECK((cut.mesh ? compute_mesh_area(*cut.mesh) : 0) <= 1.001 * compute_mesh_area(*mesh));
 	}
 }
 
@@ -290,9 +290,9 @@ TEST_CASE("[CutMesh] triangles that are thin in texture space stay within the me
 		const auto thin = make_mesh(
 				"thin", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0.5f } }, {}, { 0, 1, 2 }, attributes);
 		const auto cut = cut_mesh(thin, material, small).mesh;
-		return std::pair(cut ? cut->get_triangle_count() : 0, cut ? compute_area(*cut) : 0.0);
+		return std::pair(cut ? cut->get_triangle_count() : 0, cut ? compute_mesh_area(*cut) : 0.0);
 	};
-	const double whole_area = compute_area(*make_grid(1, 1)) / 2;
+	const double whole_area = compute_mesh_area(*make_grid(1, 1)) / 2;
 	for (const std::vector<glm::vec2> &uvs : {
 				 std::vector<glm::vec2>{ { 0, 0 }, { 100, 100 }, { 100, 100.001f } },
 				 std::vector<glm::vec2>{ { 0, 0 }, { 4000, 4000 }, { 4000, 4000.001f } },
@@ -323,7 +323,7 @@ TEST_CASE("[CutMesh] nearly equal vertex alphas give the same cut") {
 	CHECK(cut_with(0.9f)->positions_node == cut_with(0.901f)->positions_node);
 	CHECK(cut_with(1.0f)->positions_node ==
 			cut_mesh(make_grid(1, 1), material).mesh->positions_node);
-	CHECK(compute_area(*cut_with(0.6f)) < compute_area(*cut_with(0.9f)));
+	CHECK(compute_mesh_area(*cut_with(0.6f)) < compute_mesh_area(*cut_with(0.9f)));
 	// Alpha below the cutoff leaves nothing, however close to it.
 	CHECK(cut_with(0.499f) == nullptr);
 	CHECK(cut_with(NAN) == nullptr);
@@ -390,7 +390,7 @@ TEST_CASE("[CutMesh] random masks at random texture coordinates keep their area"
 		const double offset = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 0.5 : uniform(random);
 		const CutMesh cut = cut_mesh(make_grid(1 + i % 4, repeats, offset), material);
 		const double coverage =
-				cut.mesh ? compute_area(*cut.mesh) / compute_area(*make_grid(1, 1)) : 0.0;
+				cut.mesh ? compute_mesh_area(*cut.mesh) / compute_mesh_area(*make_grid(1, 1)) : 0.0;
 		// Of the whole area. Lines approximate hyperbolas, which matters if alpha changes from
 		// texel to texel.
 		const double tolerance = material.base_color_texture.is_magnified_nearest ? 0.02 : 0.08;

@@ -43,7 +43,7 @@ PolygonLoop make_polygon(
 }
 
 /// A circle as of a contour: one point for every 45 units or so. p_is_hole: runs clockwise.
-PolygonLoop make_circle(const glm::ivec2 &p_center, double p_radius, bool p_is_hole = false) {
+PolygonLoop make_round_loop(const glm::ivec2 &p_center, double p_radius, bool p_is_hole = false) {
 	const int count = std::max(16, int(p_radius / 7));
 	PolygonLoop loop;
 	for (int i = 0; i < count; ++i) {
@@ -80,11 +80,11 @@ std::vector<PolygonLoop> make_shapes(uint32_t p_seed) {
 			const int size = radius(random);
 			switch (random() % 3) {
 				case 0:
-					loops.push_back(make_circle(center, size));
+					loops.push_back(make_round_loop(center, size));
 					break;
 				case 1:
-					loops.push_back(make_circle(center, size));
-					loops.push_back(make_circle(center, size * 0.7, /*p_is_hole=*/true));
+					loops.push_back(make_round_loop(center, size));
+					loops.push_back(make_round_loop(center, size * 0.7, /*p_is_hole=*/true));
 					break;
 				default: {
 					const int height = radius(random);
@@ -96,7 +96,7 @@ std::vector<PolygonLoop> make_shapes(uint32_t p_seed) {
 	return loops;
 }
 
-double compute_area(const PolygonLoop &p_loop) {
+double compute_loop_area(const PolygonLoop &p_loop) {
 	int64_t twice = 0;
 	for (size_t i = 0; i < p_loop.size(); ++i) {
 		twice += compute_twice_signed_area(CENTER, p_loop[i], p_loop[(i + 1) % p_loop.size()]);
@@ -114,7 +114,8 @@ TEST_CASE("[Loops] a noisy polygon that starts inside a side gets one point per 
 		const auto simplified = simplify_loops({ loop }, /*p_tolerance=*/200, SIZE);
 		REQUIRE(simplified.size() == 1);
 		REQUIRE(simplified[0].size() == sides);
-		CHECK(compute_area(simplified[0]) == doctest::Approx(compute_area(loop)).epsilon(1e-4));
+		CHECK(compute_loop_area(simplified[0]) ==
+				doctest::Approx(compute_loop_area(loop)).epsilon(1e-4));
 		for (const glm::ivec2 &point : simplified[0]) {
 			double nearest = 1e9;
 			for (uint32_t i = 0; i < sides; ++i) {
@@ -140,7 +141,8 @@ TEST_CASE("[Loops] a circle gets as few points as the tolerance allows, and line
 		const auto simplified = simplify_loops({ loop }, tolerance, SIZE);
 		CHECK(simplified[0].size() >= expected);
 		CHECK(simplified[0].size() <= expected + 1);
-		CHECK(compute_area(simplified[0]) == doctest::Approx(compute_area(loop)).epsilon(2e-4));
+		CHECK(compute_loop_area(simplified[0]) ==
+				doctest::Approx(compute_loop_area(loop)).epsilon(2e-4));
 		// Chords have their ends on the circle. Lines that fit it cross it, so their ends are
 		// outside: by 2/3 of the tolerance if the chords use all of it.
 		for (const glm::ivec2 &point : simplified[0]) {
@@ -164,8 +166,8 @@ TEST_CASE("[Loops] small shapes that are close together keep their areas at ever
 			size_t before_count = 0;
 			for (size_t i = 0; i < loops.size(); ++i) {
 				CAPTURE(i);
-				CHECK(compute_area(simplified[i]) ==
-						doctest::Approx(compute_area(loops[i])).epsilon(0.01));
+				CHECK(compute_loop_area(simplified[i]) ==
+						doctest::Approx(compute_loop_area(loops[i])).epsilon(0.01));
 				point_count += simplified[i].size();
 				before_count += loops[i].size();
 			}
@@ -178,18 +180,18 @@ TEST_CASE("[Loops] small shapes that are close together keep their areas at ever
 TEST_CASE("[Loops] only loops whose fitted lines meet get more points") {
 	const int32_t TOLERANCE = 1024;
 	const double RADIUS = 1536; // six texels
-	const PolygonLoop alone = make_circle(CENTER, RADIUS);
+	const PolygonLoop alone = make_round_loop(CENTER, RADIUS);
 	const glm::ivec2 far(12000, 0);
-	const PolygonLoop one = make_circle(CENTER + far, RADIUS);
+	const PolygonLoop one = make_round_loop(CENTER + far, RADIUS);
 	const PolygonLoop other =
-			make_circle(CENTER + far + glm::ivec2(0, int(2 * RADIUS) + 40), RADIUS);
+			make_round_loop(CENTER + far + glm::ivec2(0, int(2 * RADIUS) + 40), RADIUS);
 	const auto separate = simplify_loops({ alone }, TOLERANCE, SIZE);
 	const auto simplified = simplify_loops({ alone, one, other }, TOLERANCE, SIZE);
 	CHECK(simplified[0] == separate[0]);
 	CHECK(simplified[1].size() + simplified[2].size() > 2 * separate[0].size());
 	CHECK(find_intersections(simplified).empty());
 	for (const PolygonLoop &loop : simplified) {
-		CHECK(compute_area(loop) == doctest::Approx(compute_area(alone)).epsilon(0.004));
+		CHECK(compute_loop_area(loop) == doctest::Approx(compute_loop_area(alone)).epsilon(0.004));
 	}
 }
 
@@ -201,7 +203,7 @@ TEST_CASE("[Loops] tiny and thin loops remain triangles at least") {
 	for (const PolygonLoop &loop : { tiny, thin }) {
 		const auto simplified = simplify_loops({ loop }, /*p_tolerance=*/100, SIZE);
 		CHECK(simplified[0].size() >= 3);
-		CHECK(compute_area(simplified[0]) > 0);
+		CHECK(compute_loop_area(simplified[0]) > 0);
 	}
 }
 
@@ -222,7 +224,7 @@ TEST_CASE("[Loops] lines do not pass over a tiny hole or island near a border") 
 		if (is_hole) {
 			std::reverse(diamond.begin(), diamond.end());
 		}
-		const std::vector<PolygonLoop> loops = { make_circle(CENTER, RADIUS), diamond };
+		const std::vector<PolygonLoop> loops = { make_round_loop(CENTER, RADIUS), diamond };
 		const auto simplified = simplify_loops(loops, /*p_tolerance=*/1024, SIZE);
 		CHECK(find_intersections(simplified).empty());
 		CHECK(compute_nesting(simplified) == std::vector<int>{ 0, is_hole ? 1 : 0 });

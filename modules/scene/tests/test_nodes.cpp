@@ -1,25 +1,16 @@
 #include "modules/core/error.h"
 #include "modules/scene/nodes.h"
+#include "modules/scene/tests/test_trees.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 using namespace gnomon;
 
-namespace {
-
-template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
-	auto node = std::make_unique<T>();
-	node->name = p_name;
-	return static_cast<T *>(p_parent.add_child(std::move(node)));
-}
-
-} // namespace
-
 TEST_CASE("[Node3D] the world transform is the product of the parents' and the node's own") {
 	Scene scene;
-	Node3D *arm = add<Node3D>(*scene.root, "Arm");
-	Light3D *lamp = add<Light3D>(*arm, "Lamp");
+	Node3D *arm = add_child<Node3D>(*scene.root, "Arm");
+	Light3D *lamp = add_child<Light3D>(*arm, "Lamp");
 	arm->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(1e9, 0, 0));
 	lamp->parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(2.0));
 	const glm::dvec4 point = lamp->compute_world_from_node() * glm::dvec4(0.25, 0, 0, 1);
@@ -29,9 +20,9 @@ TEST_CASE("[Node3D] the world transform is the product of the parents' and the n
 
 TEST_CASE("[Scene] nodes are found by class in tree order, and by name") {
 	Scene scene;
-	Light3D *first = add<Light3D>(*scene.root, "A");
-	add<Camera3D>(*first, "Camera");
-	Light3D *second = add<Light3D>(*scene.root, "B");
+	Light3D *first = add_child<Light3D>(*scene.root, "A");
+	add_child<Camera3D>(*first, "Camera");
+	Light3D *second = add_child<Light3D>(*scene.root, "B");
 	CHECK(scene.find_nodes<Light3D>() == std::vector<Light3D *>{ first, second });
 	CHECK(&scene.find_node<Light3D>("B", "light") == second);
 }
@@ -42,8 +33,8 @@ TEST_CASE("[Scene] an unknown name is an error that lists the existing ones") {
 	CHECK_THROWS_WITH_AS(scene.find_node<Light3D>("Lamp", "light"),
 			"Scene \"desk.gltf\" has no light \"Lamp\", and no other light. Add one to the scene.",
 			Error);
-	add<Light3D>(*scene.root, "A");
-	add<Light3D>(*scene.root, "B");
+	add_child<Light3D>(*scene.root, "A");
+	add_child<Light3D>(*scene.root, "B");
 	CHECK_THROWS_WITH_AS(scene.find_node<Light3D>("Lamp", "light"),
 			"Scene \"desk.gltf\" has no light \"Lamp\". Name one of these: \"A\", \"B\".", Error);
 }

@@ -1,5 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/scene/scene_snapshot.h"
+#include "modules/scene/tests/test_trees.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,18 +13,12 @@ using namespace gnomon;
 
 namespace {
 
-template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
-	auto node = std::make_unique<T>();
-	node->name = p_name;
-	return static_cast<T *>(p_parent.add_child(std::move(node)));
-}
-
 /// A camera, a light and one triangle, whose bounds are (0, 0, 0)..(1, 1, 0).
 struct SmallScene {
 	Scene scene;
-	Camera3D *camera = add<Camera3D>(*scene.root, "Camera");
-	Light3D *light = add<Light3D>(*scene.root, "Lamp");
-	MeshInstance3D *instance = add<MeshInstance3D>(*scene.root, "Box");
+	Camera3D *camera = add_child<Camera3D>(*scene.root, "Camera");
+	Light3D *light = add_child<Light3D>(*scene.root, "Lamp");
+	MeshInstance3D *instance = add_child<MeshInstance3D>(*scene.root, "Box");
 	SmallScene() {
 		instance->surfaces.push_back(
 				{ make_mesh("m", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 }),

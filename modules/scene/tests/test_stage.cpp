@@ -14,7 +14,7 @@ using namespace gnomon;
 
 namespace {
 
-template <typename T> T &add(Scene &r_scene, const std::string &p_name) {
+template <typename T> T &add_to_scene(Scene &r_scene, const std::string &p_name) {
 	auto node = std::make_unique<T>();
 	node->name = p_name;
 	return static_cast<T &>(*r_scene.root->add_child(std::move(node)));
@@ -25,7 +25,7 @@ template <typename T> T &add(Scene &r_scene, const std::string &p_name) {
 std::unique_ptr<Scene> make_model(
 		double p_scale = 1.0, const glm::dvec3 &p_position = glm::dvec3(0.0)) {
 	auto scene = std::make_unique<Scene>();
-	MeshInstance3D &box = add<MeshInstance3D>(*scene, "Stage light");
+	MeshInstance3D &box = add_to_scene<MeshInstance3D>(*scene, "Stage light");
 	box.surfaces.push_back(
 			{ make_box_mesh("box", glm::vec3(1, 2, 0.5f)), std::make_shared<Material>() });
 	box.parent_from_node =
@@ -110,7 +110,7 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 		CAPTURE(half.x);
 		CAPTURE(aspect);
 		Scene scene;
-		add<MeshInstance3D>(scene, "Model")
+		add_to_scene<MeshInstance3D>(scene, "Model")
 				.surfaces.push_back({ make_box_mesh("box", half), std::make_shared<Material>() });
 		stage_scene(scene, StageMode::AUTO, aspect);
 		const Camera3D &camera = *scene.find_nodes<Camera3D>()[0];
@@ -145,8 +145,8 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 
 TEST_CASE("[Stage] AUTO adds only what a file lacks, ON adds everything") {
 	const auto scene = make_model();
-	add<Camera3D>(*scene, "Eye");
-	add<Light3D>(*scene, "Lamp");
+	add_to_scene<Camera3D>(*scene, "Eye");
+	add_to_scene<Light3D>(*scene, "Lamp");
 	CHECK(stage_scene(*scene, StageMode::AUTO) == "");
 	CHECK(stage_scene(*scene, StageMode::OFF) == "");
 	CHECK(scene->find_nodes<Node3D>().size() == 4);
@@ -156,7 +156,7 @@ TEST_CASE("[Stage] AUTO adds only what a file lacks, ON adds everything") {
 	CHECK(scene->find_nodes<Light3D>()[0]->is_staged);
 
 	const auto lit = make_model();
-	add<Light3D>(*lit, "Lamp");
+	add_to_scene<Light3D>(*lit, "Lamp");
 	CHECK(stage_scene(*lit, StageMode::AUTO).starts_with("Staged: a camera was added."));
 	CHECK(lit->find_nodes<Light3D>().size() == 1);
 	CHECK(lit->find_nodes<MeshInstance3D>().size() == 1);

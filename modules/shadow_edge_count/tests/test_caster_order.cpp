@@ -17,7 +17,7 @@ namespace {
 constexpr double EXTENT_M = 2000.0;
 
 /// Small casters, evenly spread over a square in random order.
-std::vector<OrderedCaster> make_casters(uint32_t p_count) {
+std::vector<OrderedCaster> make_ordered_casters(uint32_t p_count) {
 	TestRandom random;
 	std::vector<OrderedCaster> casters;
 	for (uint32_t index = 0; index < p_count; ++index) {
@@ -41,7 +41,7 @@ void move(OrderedCaster &r_caster, const glm::dvec3 &p_offset) {
 } // namespace
 
 TEST_CASE("[EdgeCount] groups of casters in a large world are compact, whatever the file's order") {
-	const std::vector<OrderedCaster> casters = make_casters(20'000);
+	const std::vector<OrderedCaster> casters = make_ordered_casters(20'000);
 	CasterOrder order;
 	const std::vector<uint32_t> sorted = order.update(casters);
 	std::vector<uint32_t> unique = sorted;
@@ -54,7 +54,7 @@ TEST_CASE("[EdgeCount] groups of casters in a large world are compact, whatever 
 }
 
 TEST_CASE("[EdgeCount] moving casters are sorted again only when their groups have grown by half") {
-	std::vector<OrderedCaster> casters = make_casters(2000);
+	std::vector<OrderedCaster> casters = make_ordered_casters(2000);
 	CasterOrder order;
 	const std::vector<uint32_t> sorted = order.update(casters);
 	const double sorted_area_m2 = sum_group_areas(casters, sorted);
@@ -75,7 +75,7 @@ TEST_CASE("[EdgeCount] moving casters are sorted again only when their groups ha
 }
 
 TEST_CASE("[EdgeCount] one caster that crosses the world sorts the others two times at most") {
-	std::vector<OrderedCaster> casters = make_casters(2000);
+	std::vector<OrderedCaster> casters = make_ordered_casters(2000);
 	CasterOrder order;
 	order.update(casters);
 	move(casters[50], -casters[50].bounds_world.minimum);
@@ -89,7 +89,7 @@ TEST_CASE("[EdgeCount] one caster that crosses the world sorts the others two ti
 }
 
 TEST_CASE("[EdgeCount] casters that move one by one are measured, and sorted, like all at once") {
-	std::vector<OrderedCaster> casters = make_casters(2000);
+	std::vector<OrderedCaster> casters = make_ordered_casters(2000);
 	CasterOrder order;
 	order.update(casters);
 	TestRandom random;
@@ -114,7 +114,7 @@ TEST_CASE("[EdgeCount] casters that move one by one are measured, and sorted, li
 }
 
 TEST_CASE("[EdgeCount] another number of casters, or no reuse, sorts them again") {
-	std::vector<OrderedCaster> casters = make_casters(1000);
+	std::vector<OrderedCaster> casters = make_ordered_casters(1000);
 	CasterOrder order;
 	order.update(casters);
 	order.update(casters);
@@ -129,7 +129,7 @@ TEST_CASE("[EdgeCount] another number of casters, or no reuse, sorts them again"
 TEST_CASE("[EdgeCount] few casters keep their order, and casters without extent have one") {
 	CasterOrder order;
 	CHECK(order.update({}).empty());
-	const std::vector<OrderedCaster> few = make_casters(CasterOrder::MAX_UNSORTED);
+	const std::vector<OrderedCaster> few = make_ordered_casters(CasterOrder::MAX_UNSORTED);
 	CHECK(order.update(few) == make_file_order(few.size()));
 	const std::vector<OrderedCaster> same(
 			1000, { { glm::dvec3(3.0), glm::dvec3(3.0) }, /*edge_count=*/1 });

@@ -112,7 +112,7 @@ enum class LightSetup { SPOT_ON_AXIS, SPOT_FAR_OFF, DIRECTIONAL };
 
 /// Two solids and an open mesh at random positions above the ground. p_radius_sizes: R as a
 /// fraction of S; directional: a tangent.
-CountScene make_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_random) {
+CountScene make_culled_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_random) {
 	CountScene scene;
 	scene.is_directional = p_setup == LightSetup::DIRECTIONAL;
 	scene.radius = scene.is_directional ? p_radius_sizes : p_radius_sizes * scene.scene_size;
@@ -204,7 +204,7 @@ TEST_CASE("[GPU][EdgeCount] edges that a box of receivers rejects change nothing
 			CAPTURE(radius);
 			CullCheck check;
 			for (int scene = 0; scene < 3; ++scene) {
-				check_boxes(fixture, make_scene(setup, radius, random), random, check);
+				check_boxes(fixture, make_culled_scene(setup, radius, random), random, check);
 			}
 			CHECK(check.max_change < 1e-12); // 0 but for rounding
 			CHECK(check.wrong_weight_count == 0);

@@ -12,8 +12,6 @@ using namespace gnomon;
 
 namespace {
 
-const glm::dvec3 UP(0.0, 1.0, 0.0);
-
 /// Difference of the shader's visibility from that of the double version.
 struct Agreement {
 	double mean = 0; // over receivers
@@ -42,14 +40,15 @@ std::vector<glm::vec4> run_receivers(const CountScene &p_scene, KernelFixture &r
 }
 
 /// Compares the shader with the double version, for receivers on the ground.
-Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
+Agreement compare_kernels(const CountScene &p_scene, KernelFixture &r_fixture) {
 	std::vector<glm::dvec3> receivers;
 	TestRandom random;
 	const size_t count = 2000;
 	for (size_t index = 0; index < count; ++index) {
 		const glm::dvec3 position(random.next(-1.6, 1.4), 0.0, random.next(-1.5, 1.3));
 		// Rounded to float32, so that both get the same position.
-		receivers.push_back(glm::dvec3(glm::vec3(p_scene.make_receiver(position, UP))));
+		receivers.push_back(
+				glm::dvec3(glm::vec3(p_scene.make_receiver(position, glm::dvec3(0.0, 1.0, 0.0)))));
 	}
 	const std::vector<glm::vec4> results = run_receivers(p_scene, r_fixture, receivers);
 	Agreement agreement;
@@ -82,7 +81,7 @@ TEST_CASE("[GPU][EdgeCount] the shader matches the double version in the shadow 
 			scene.add(make_count_sphere(0.8, 8),
 					glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.3, 0.0)));
 			scene.build();
-			const Agreement agreement = compare(scene, fixture);
+			const Agreement agreement = compare_kernels(scene, fixture);
 			CHECK(agreement.mean < 5e-5);
 			CHECK(agreement.mismatch_count <= 2); // receivers on an outline, where rounding decides
 		}
@@ -102,7 +101,7 @@ TEST_CASE("[GPU][EdgeCount] the shader matches the double version where solids o
 						glm::dvec3(0.2, 1.0, 0.1)));
 	}
 	scene.build();
-	const Agreement agreement = compare(scene, fixture);
+	const Agreement agreement = compare_kernels(scene, fixture);
 	CHECK(agreement.mean < 5e-4);
 	// If an edge passes through one of the 64 points, rounding decides on which side the point is.
 	CHECK(agreement.maximum < 0.05);	  // about three points
@@ -183,7 +182,8 @@ TEST_CASE("[GPU][EdgeCount] numbers of solids match the double version behind, i
 		for (int index = 0; index < 4000; ++index) {
 			const glm::dvec3 position(
 					random.next(-1, 1), random.next(-0.5, 6.5), random.next(-1, 1));
-			receivers.push_back(glm::dvec3(glm::vec3(scene.make_receiver(position, UP))));
+			receivers.push_back(glm::dvec3(
+					glm::vec3(scene.make_receiver(position, glm::dvec3(0.0, 1.0, 0.0)))));
 		}
 		const std::vector<glm::vec4> results = run_receivers(scene, fixture, receivers);
 		size_t mismatch_count = 0;

@@ -94,7 +94,7 @@ std::vector<glm::vec4> sweep(KernelFixture &r_fixture, const CountScene &p_scene
 }
 
 /// Closed meshes that pierce each other, an open one, and two sheets that share no vertex.
-CountScene make_scene(bool p_is_directional, double p_scale, TestRandom &r_random) {
+CountScene make_swept_scene(bool p_is_directional, double p_scale, TestRandom &r_random) {
 	CountScene scene;
 	scene.is_directional = p_is_directional;
 	scene.light *= p_scale;
@@ -138,7 +138,7 @@ TEST_CASE("[GPU][EdgeCount] numbers of faces that a sweep decides are those of a
 			for (int repetition = 0; repetition < 4; ++repetition) {
 				CAPTURE(is_directional);
 				CAPTURE(scale);
-				const CountScene scene = make_scene(is_directional, scale, random);
+				const CountScene scene = make_swept_scene(is_directional, scale, random);
 				std::vector<glm::vec4> pairs;
 				for (int pair = 0; pair < 2000; ++pair) {
 					// From the size of a pixel to that of the scene; also inside of solids.

@@ -14,7 +14,7 @@ using namespace gnomon;
 
 namespace {
 
-const glm::dvec3 UP(0.0, 1.0, 0.0);
+const glm::dvec3 GROUND_NORMAL(0.0, 1.0, 0.0);
 
 void add_ground(CountScene &r_scene, double p_scale = 1) {
 	r_scene.add(make_box_mesh("box", glm::vec3(4.2, 0.2, 4.2) * float(p_scale)),
@@ -43,7 +43,8 @@ struct Difference {
 /// 2 p_half_width, shifted from the origin to where the light casts the shadow. p_is_inside:
 /// returns true for points inside a solid, which are skipped since no camera sees them.
 template <typename Predicate>
-Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_is_inside) {
+Difference compare_visibility(
+		const CountScene &p_scene, double p_half_width, Predicate p_is_inside) {
 	const int steps = 16;
 	const uint32_t ray_count = 1024;
 	Difference difference;
@@ -55,8 +56,8 @@ Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_i
 			if (p_is_inside(position)) {
 				continue;
 			}
-			const double reference = p_scene.trace(position, UP, ray_count);
-			const double counted = p_scene.count(position, UP);
+			const double reference = p_scene.trace(position, GROUND_NORMAL, ray_count);
+			const double counted = p_scene.count(position, GROUND_NORMAL);
 			REQUIRE(counted >= 0.0);
 			REQUIRE(counted <= 1.0);
 			const double error = std::abs(counted - reference);
@@ -71,8 +72,8 @@ Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_i
 	return difference;
 }
 
-Difference compare(const CountScene &p_scene, double p_half_width) {
-	return compare(p_scene, p_half_width, [](const glm::dvec3 &) { return false; });
+Difference compare_visibility(const CountScene &p_scene, double p_half_width) {
+	return compare_visibility(p_scene, p_half_width, [](const glm::dvec3 &) { return false; });
 }
 
 } // namespace
@@ -85,7 +86,7 @@ TEST_CASE("[EdgeCount] the shadow of one solid matches ray tracing, for lights o
 		add_ground(scene);
 		add_tilted_box(scene);
 		scene.build();
-		const Difference difference = compare(scene, 1.4);
+		const Difference difference = compare_visibility(scene, 1.4);
 		CHECK(difference.mean < 0.002); // includes the noise of the rays
 		CHECK(difference.maximum < 0.008);
 		CHECK((difference.penumbra_count > 0) == (radius > 0));
@@ -103,7 +104,7 @@ TEST_CASE("[EdgeCount] the shadow of a sphere matches ray tracing, for both kind
 		scene.add(make_count_sphere(0.8, 8),
 				glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.3, 0.0)));
 		scene.build();
-		const Difference difference = compare(scene, 1.4);
+		const Difference difference = compare_visibility(scene, 1.4);
 		CHECK(difference.mean < 0.002);
 		CHECK(difference.maximum < 0.008);
 		CHECK(difference.penumbra_count > 10);
@@ -124,7 +125,7 @@ TEST_CASE("[EdgeCount] overlapping shadows of several solids match ray tracing")
 							glm::dvec3(0.2, 1.0, 0.1)));
 		}
 		scene.build();
-		const Difference difference = compare(scene, 1.4);
+		const Difference difference = compare_visibility(scene, 1.4);
 		CHECK(difference.mean < (sample_set_count == 1 ? 0.01 : 0.006));
 		CHECK(difference.maximum < (sample_set_count == 1 ? 0.06 : 0.04));
 		CHECK(difference.penumbra_count > 50);
@@ -135,12 +136,12 @@ TEST_CASE("[EdgeCount] a solid that is sunk into the ground leaks no light") {
 	CountScene scene;
 	scene.radius = 0.4;
 	add_ground(scene);
-	const glm::dmat4 transform =
-			glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.97, 0.1)), 0.4, UP);
+	const glm::dmat4 transform = glm::rotate(
+			glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.97, 0.1)), 0.4, GROUND_NORMAL);
 	const glm::dvec3 half(0.35, 1.02, 0.35);
 	scene.add(make_box_mesh("box", glm::vec3(half)), transform);
 	scene.build();
-	const Difference difference = compare(scene, 1.4, [&](const glm::dvec3 &p_position) {
+	const Difference difference = compare_visibility(scene, 1.4, [&](const glm::dvec3 &p_position) {
 		const glm::dvec3 own = glm::dvec3(glm::inverse(transform) * glm::dvec4(p_position, 1.0));
 		return glm::all(glm::lessThan(glm::abs(own), half));
 	});
@@ -165,7 +166,7 @@ TEST_CASE("[EdgeCount] shadows of open meshes match ray tracing from both sides"
 				glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 1.2, 0.1)), 0.3,
 						glm::dvec3(1.0, 0.2, 0.4)));
 		scene.build();
-		const Difference difference = compare(scene, 1.4);
+		const Difference difference = compare_visibility(scene, 1.4);
 		CHECK(difference.mean < 0.002);
 		CHECK(difference.maximum < 0.008);
 	}
@@ -186,7 +187,7 @@ TEST_CASE("[EdgeCount] the scale of the scene does not change visibility") {
 		scene.build();
 		for (int step = 0; step < 100; ++step) {
 			const glm::dvec3 position(-1.4 + 0.011 * step, 0.0, -1.2 + 0.017 * step);
-			values[index].push_back(scene.count(position * scale, UP));
+			values[index].push_back(scene.count(position * scale, GROUND_NORMAL));
 		}
 	}
 	for (size_t step = 0; step < values[0].size(); ++step) {
@@ -201,12 +202,12 @@ TEST_CASE("[EdgeCount] visibility is exactly 1 with nothing before the light and
 	CountScene scene;
 	add_ground(scene);
 	scene.build();
-	CHECK(scene.count({ 0.3, 0.0, 0.2 }, UP) == 1.0);
+	CHECK(scene.count({ 0.3, 0.0, 0.2 }, GROUND_NORMAL) == 1.0);
 	scene.add(make_box_mesh("box", glm::vec3(2.0, 0.3, 2.0)),
 			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.5, 0.0)));
 	scene.build();
-	CHECK(scene.count({ -0.4, 0.0, -0.3 }, UP) == 0.0);
-	CHECK(scene.count({ 0.0, 1.8, 0.0 }, UP) == 1.0); // on top of the box
+	CHECK(scene.count({ -0.4, 0.0, -0.3 }, GROUND_NORMAL) == 0.0);
+	CHECK(scene.count({ 0.0, 1.8, 0.0 }, GROUND_NORMAL) == 1.0); // on top of the box
 }
 
 TEST_CASE("[EdgeCount] shadows of casters that cut the light's disc match ray tracing") {
@@ -231,7 +232,7 @@ TEST_CASE("[EdgeCount] shadows of casters that cut the light's disc match ray tr
 						glm::rotate(glm::translate(glm::dmat4(1.0), scene.light + offset),
 								angle_rad, glm::dvec3(0.3, 1.0, 0.1)));
 				scene.build();
-				const Difference difference = compare(scene, 1.4);
+				const Difference difference = compare_visibility(scene, 1.4);
 				CHECK(difference.maximum < 0.01);
 			}
 		}

@@ -12,8 +12,6 @@ using namespace gnomon;
 
 namespace {
 
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-
 /// The first entry of the plan that starts with p_begin. The test fails if there is none.
 FramePlanEntry find_entry(const MaskResult &p_result, const std::string &p_begin) {
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {

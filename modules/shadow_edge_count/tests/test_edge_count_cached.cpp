@@ -12,7 +12,8 @@ using namespace gnomon;
 
 namespace {
 
-MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_reuse = true) {
+MaskResult render_again(
+		MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_reuse = true) {
 	return render_frame(
 			r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_reuse = p_may_reuse });
 }
@@ -84,9 +85,9 @@ void check_changes(LightType p_type) {
 	for (const Step &step : steps) {
 		CAPTURE(std::string(step.what));
 		step.change();
-		const MaskResult reused = render(caching, scene);
+		const MaskResult reused = render_again(caching, scene);
 		CHECK((count_casters(reused, /*p_is_found=*/true) > 0) == step.finds);
-		CHECK(reused.visibility == render(fresh, scene, /*p_may_reuse=*/false).visibility);
+		CHECK(reused.visibility == render_again(fresh, scene, /*p_may_reuse=*/false).visibility);
 	}
 }
 
@@ -98,8 +99,8 @@ TEST_CASE("[GPU][EdgeCount] in a static scene no faces or edges are found again"
 		CAPTURE(int(type));
 		SmallScene scene(type);
 		add_globe(scene);
-		const MaskResult first = render(fixture, scene);
-		const MaskResult second = render(fixture, scene);
+		const MaskResult first = render_again(fixture, scene);
+		const MaskResult second = render_again(fixture, scene);
 		CHECK(first.visibility == second.visibility);
 		CHECK(count_casters(first, /*p_is_found=*/true) >= 3);
 		CHECK(count_casters(first, /*p_is_found=*/false) == 0);
@@ -124,11 +125,11 @@ TEST_CASE("[GPU][EdgeCount] edges of a static caster are reused, and the mask eq
 	SmallScene scene;
 	MeshInstance3D &globe = add_globe(scene);
 	const auto check = [&](int p_found_count, int p_cached_count) {
-		const MaskResult reused = render(caching, scene);
+		const MaskResult reused = render_again(caching, scene);
 		CHECK(count_casters(reused, /*p_is_found=*/true) == p_found_count);
 		CHECK(count_casters(reused, /*p_is_found=*/false) == p_cached_count);
-		CHECK(reused.visibility == render(fresh, scene, /*p_may_reuse=*/false).visibility);
-		CHECK(reused.visibility == render(caching, scene).visibility);
+		CHECK(reused.visibility == render_again(fresh, scene, /*p_may_reuse=*/false).visibility);
+		CHECK(reused.visibility == render_again(caching, scene).visibility);
 	};
 	check(3, 0);
 	for (int step = 0; step < 3; ++step) {
@@ -171,7 +172,7 @@ TEST_CASE("[GPU][EdgeCount] masks are equal bit for bit in repeated frames and o
 				CAPTURE(device);
 				CAPTURE(repeat);
 				const std::vector<float> mask =
-						render(fixture, scene, /*p_may_reuse=*/false).visibility;
+						render_again(fixture, scene, /*p_may_reuse=*/false).visibility;
 				std::vector<float> &expected = first[type == LightType::OMNI ? 1 : 0];
 				expected = expected.empty() ? mask : expected;
 				CHECK(mask == expected);
@@ -205,7 +206,7 @@ TEST_CASE("[GPU][EdgeCount] the mask does not depend on previous contents of mem
 		CAPTURE(value);
 		MaskFixture fixture;
 		fill_memory(*fixture.device, value);
-		const MaskResult result = render(fixture, scene);
+		const MaskResult result = render_again(fixture, scene);
 		expected = expected.empty() ? result.visibility : expected;
 		CHECK(result.visibility == expected);
 	}

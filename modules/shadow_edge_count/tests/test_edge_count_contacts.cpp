@@ -11,8 +11,6 @@ using namespace gnomon;
 
 namespace {
 
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-
 /// Compares the mask with the double version, and, in a build with the reference, with that.
 /// Returns the difference from the reference, or zeros without one. p_reference_limit: limit of the
 /// mean of that difference.

@@ -10,18 +10,17 @@ using namespace gnomon;
 
 namespace {
 
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-const glm::uvec2 SIZE_PX(72);
+const glm::uvec2 EXTREMES_SIZE_PX(72);
 
 /// Difference of the mask from the reference. In a build without the reference its errors are 0.
 MaskDifference compare_with_reference(
 		MaskFixture &r_fixture, SmallScene &r_scene, int64_t p_sample_count = 1024) {
-	const MaskResult frame = render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
+	const MaskResult frame = render_frame(r_fixture, r_scene, { .size_px = EXTREMES_SIZE_PX });
 	if (!has_reference()) {
 		return compare_masks(frame.visibility, frame);
 	}
-	return compare_masks(
-			frame.visibility, render_reference(r_fixture, r_scene, SIZE_PX, p_sample_count));
+	return compare_masks(frame.visibility,
+			render_reference(r_fixture, r_scene, EXTREMES_SIZE_PX, p_sample_count));
 }
 
 /// A box with each of its triangles twice, the second time with inverted winding if p_is_flipped.
@@ -84,11 +83,12 @@ TEST_CASE("[GPU][EdgeCount] the removed property edge_count_layers only logs one
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.light->name = "Old lamp";
-	const MaskResult plain = render_frame(fixture, scene, { .size_px = SIZE_PX });
+	const MaskResult plain = render_frame(fixture, scene, { .size_px = EXTREMES_SIZE_PX });
 	CHECK(lines.empty());
 	scene.light->properties["edge_count_layers"] = int64_t(3);
 	for (int frame = 0; frame < 3; ++frame) {
-		CHECK(render_frame(fixture, scene, { .size_px = SIZE_PX }).visibility == plain.visibility);
+		CHECK(render_frame(fixture, scene, { .size_px = EXTREMES_SIZE_PX }).visibility ==
+				plain.visibility);
 	}
 	set_log_sink(before);
 	REQUIRE(lines.size() == 1);
@@ -104,7 +104,7 @@ TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 		add_globe(scene);
 		scene.light->properties["light_size"] = 0.0;
 		scene.light->properties["light_angular_distance"] = 0.0;
-		const MaskResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
+		const MaskResult frame = render_frame(fixture, scene, { .size_px = EXTREMES_SIZE_PX });
 		size_t dark_count = 0;
 		size_t between_count = 0;
 		for (size_t index = 0; index < frame.visibility.size(); ++index) {
@@ -166,8 +166,8 @@ TEST_CASE("[GPU][EdgeCount] a light of any size exactly at a corner of a caster 
 			const glm::vec3 half_size(0.2f, 0.3f, 0.25f);
 			add_mesh(scene.scene, "Corner", make_box_mesh("box", half_size),
 					corner + glm::dvec3(half_size));
-			const MaskResult frame =
-					render_frame(fixture, scene, { .size_px = SIZE_PX, .wants_surfaces = true });
+			const MaskResult frame = render_frame(
+					fixture, scene, { .size_px = EXTREMES_SIZE_PX, .wants_surfaces = true });
 			const MaskDifference difference =
 					compare_masks(frame.visibility, count_in_double(scene, frame));
 			CHECK(difference.penumbra_count > 1000);
@@ -187,10 +187,11 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the light's plane still casts 
 			CAPTURE(mesh->name);
 			SmallScene scene(type);
 			scene.light->properties["light_size"] = 0.1;
-			const MaskResult without = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			const MaskResult without =
+					render_frame(fixture, scene, { .size_px = EXTREMES_SIZE_PX });
 			CHECK(without.plan.is_skipped("Light", "faces that cut the light's disc"));
 			add_mesh(scene.scene, "Near", mesh, { 1.05, 3.8, 0.62 });
-			const MaskResult with = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			const MaskResult with = render_frame(fixture, scene, { .size_px = EXTREMES_SIZE_PX });
 			CHECK(compute_mask_difference(with, without) > 0.02);
 			const MaskDifference difference = compare_with_reference(fixture, scene);
 			CHECK(difference.mean < 0.004);
@@ -299,7 +300,7 @@ TEST_CASE("[GPU][EdgeCount] a caster scaled down towards the light casts the sam
 			plate.parent_from_node = glm::scale(
 					glm::translate(scene.light->parent_from_node, glm::dvec3(0, 0, -near_m)),
 					glm::dvec3(near_m));
-			const MaskResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			const MaskResult frame = render_frame(fixture, scene, { .size_px = EXTREMES_SIZE_PX });
 			if (first.empty()) {
 				first = frame.visibility;
 				CHECK(compare_with_reference(fixture, scene).penumbra_mean < 0.006);

@@ -10,8 +10,6 @@ using namespace gnomon;
 
 namespace {
 
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-
 /// Rotates everything in the scene, including the light and the camera.
 void rotate_scene(SmallScene &r_scene, double p_angle_rad, const glm::dvec3 &p_axis) {
 	const glm::dmat4 rotation = glm::rotate(glm::dmat4(1.0), p_angle_rad, glm::normalize(p_axis));

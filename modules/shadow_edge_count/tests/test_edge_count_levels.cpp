@@ -14,7 +14,7 @@ using namespace gnomon;
 
 namespace {
 
-const glm::uvec2 SIZE_PX(192);
+const glm::uvec2 LEVELS_SIZE_PX(192);
 
 /// A round leaf with a radius of 26 of its image's 64 texels. Alpha changes over 5 texels.
 Material make_leaf_material() {
@@ -80,7 +80,7 @@ SmallScene make_leaves(LightType p_type) {
 
 /// Renders the mask, with or without a coarse level. Without, each caster has only the level that
 /// select_casters chooses for the light.
-MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_levels) {
+MaskResult render_levels(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_levels) {
 	auto snapshot = std::make_shared<SceneSnapshot>(*p_scene.snap());
 	const LightSnapshot light = snapshot->lights[0];
 	if (!p_has_levels) {
@@ -92,7 +92,7 @@ MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_has_
 	}
 	MaskRequest request;
 	request.scene = snapshot;
-	request.size_px = SIZE_PX;
+	request.size_px = LEVELS_SIZE_PX;
 	request.technique_override = "edge_count";
 	request.light = light.name;
 	request.wants_surfaces = true;
@@ -129,8 +129,8 @@ TEST_CASE("[GPU][EdgeCount] only receivers that see a wide penumbra get coarse o
 		CAPTURE(std::string(get_light_type_name(type)));
 		const SmallScene scene = make_leaves(type);
 		const auto snapshot = scene.snap();
-		const MaskResult fine = render(fixture, scene, /*p_has_levels=*/false);
-		const MaskResult found = render(fixture, scene, /*p_has_levels=*/true);
+		const MaskResult fine = render_levels(fixture, scene, /*p_has_levels=*/false);
+		const MaskResult found = render_levels(fixture, scene, /*p_has_levels=*/true);
 		REQUIRE(found.receiver == fine.receiver);
 		// Receivers high on leaves: the leaves above them are near, so their penumbras are narrow.
 		size_t near_count = 0;

@@ -9,11 +9,9 @@ using namespace gnomon;
 
 namespace {
 
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-
 /// A small scene. An omni light is rotated, so that borders between its views cross what the camera
 /// sees.
-SmallScene make_scene(LightType p_type) {
+SmallScene make_mask_scene(LightType p_type) {
 	SmallScene scene(p_type);
 	if (p_type == LightType::OMNI) {
 		scene.light->parent_from_node =
@@ -53,7 +51,7 @@ TEST_CASE("[GPU][EdgeCount] the mask matches the double version, for every kind 
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
-		SmallScene scene = make_scene(type);
+		SmallScene scene = make_mask_scene(type);
 		add_globe(scene);
 		const MaskDifference difference = compare_with_double(
 				render_frame(fixture, scene, { .wants_surfaces = true }), scene);
@@ -74,7 +72,7 @@ TEST_CASE("[GPU][EdgeCount] the mask matches the double version where solids ove
 		std::vector<float> masks[2];
 		for (const int quality_index : { 0, 1 }) {
 			CAPTURE(quality_index);
-			SmallScene scene = make_scene(type);
+			SmallScene scene = make_mask_scene(type);
 			add_overlapping_solids(scene);
 			scene.light->properties["light_size"] = 0.5;
 			scene.light->properties["light_angular_distance"] = 14.0;

@@ -9,7 +9,7 @@ using namespace gnomon;
 namespace {
 
 /// Overlapping casters near the ground, and a large light, so that all kinds of leaves occur.
-SmallScene make_scene(LightType p_type, const char *p_quality) {
+SmallScene make_shapes_scene(LightType p_type, const char *p_quality) {
 	SmallScene scene(p_type);
 	add_globe(scene);
 	add_mesh(scene.scene, "Second globe", make_count_sphere(0.5, 24), { 0.5, 0.9, 0.4 });
@@ -31,7 +31,7 @@ TEST_CASE(
 		for (const char *quality : { "64", "256" }) {
 			CAPTURE(std::string(get_light_type_name(type)));
 			CAPTURE(std::string(quality));
-			SmallScene scene = make_scene(type, quality);
+			SmallScene scene = make_shapes_scene(type, quality);
 			for (const double interpolation : { 0.0, 0.5 }) {
 				scene.light->properties["edge_count_interpolation"] = interpolation;
 				const MaskResult expected = render_frame(on_cpu, scene);

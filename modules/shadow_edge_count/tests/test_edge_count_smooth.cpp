@@ -12,10 +12,10 @@ using namespace gnomon;
 
 namespace {
 
-const glm::uvec2 SIZE_PX(256);
+const glm::uvec2 SMOOTH_SIZE_PX(256);
 
 /// Casters high above the ground.
-SmallScene make_scene(LightType p_type) {
+SmallScene make_high_scene(LightType p_type) {
 	SmallScene scene(p_type);
 	scene.box->surfaces.clear();
 	add_globe(scene, 0.7, { 0.3, 0.9, -0.2 });
@@ -33,7 +33,7 @@ SmallScene make_scene(LightType p_type) {
 MaskResult render_interpolated(
 		MaskFixture &r_fixture, SmallScene &r_scene, double p_interpolation) {
 	r_scene.light->properties["edge_count_interpolation"] = p_interpolation;
-	return render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
+	return render_frame(r_fixture, r_scene, { .size_px = SMOOTH_SIZE_PX });
 }
 
 /// Largest difference of two masks, and number of pixels that are not equal bit for bit.
@@ -59,14 +59,14 @@ TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
-		SmallScene scene = make_scene(type);
+		SmallScene scene = make_high_scene(type);
 		const MaskResult counted = render_interpolated(fixture, scene, 0.0);
 		const MaskResult interpolated = render_interpolated(fixture, scene, 0.5);
 		const Change change = compare(counted, interpolated);
 		CHECK(change.count > 2000);
 		CHECK(change.maximum < 0.04f); // about ten of the light's 256 points
 		if (has_reference()) {
-			const MaskResult reference = render_reference(fixture, scene, SIZE_PX, 4096);
+			const MaskResult reference = render_reference(fixture, scene, SMOOTH_SIZE_PX, 4096);
 			const double error = compare_masks(counted.visibility, reference).penumbra_mean;
 			CHECK(compare_masks(interpolated.visibility, reference).penumbra_mean < error + 2e-4);
 		}
@@ -104,7 +104,7 @@ TEST_CASE("[GPU][EdgeCount] no interpolation across a thin wall, however far all
 
 TEST_CASE("[GPU][EdgeCount] nothing is interpolated if a face cuts the light's disc") {
 	MaskFixture fixture;
-	SmallScene scene = make_scene(LightType::OMNI);
+	SmallScene scene = make_high_scene(LightType::OMNI);
 	add_mesh(scene.scene, "Cutter", make_box_mesh("cutter", { 0.3f, 0.02f, 0.3f }),
 			glm::dvec3(scene.light->parent_from_node[3]) + glm::dvec3(0.2, 0.05, 0.1));
 	const MaskResult counted = render_interpolated(fixture, scene, 0.0);

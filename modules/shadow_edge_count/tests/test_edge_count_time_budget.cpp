@@ -1,5 +1,5 @@
-// Lights with a time budget: the ladder of leaves, what each rung does to the mask, and the rate that
-// is learned from the times of frames.
+// Lights with a time budget: the ladder of leaves, what each rung does to the mask, and the rate
+// that is learned from the times of frames.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -18,7 +18,7 @@ public:
 	static inline uint32_t limit = EDGE_COUNT_NO_COST_LIMIT;
 };
 
-SmallScene make_scene(LightType p_type, const char *p_quality) {
+SmallScene make_costly_scene(LightType p_type, const char *p_quality) {
 	SmallScene scene(p_type);
 	add_mesh(scene.scene, "Globe", make_count_sphere(0.45, 120), { -0.8, 1.0, 0.6 });
 	add_mesh(scene.scene, "Second globe", make_count_sphere(0.5, 80), { 0.5, 0.9, 0.4 });
@@ -59,7 +59,7 @@ TEST_CASE("[GPU][EdgeCount] with time for everything the mask is that without a 
 	for (const char *quality : { "64", "256" }) {
 		CAPTURE(std::string(quality));
 		MaskFixture fixture;
-		SmallScene scene = make_scene(LightType::SPOT, quality);
+		SmallScene scene = make_costly_scene(LightType::SPOT, quality);
 		const MaskResult expected = render_frame(fixture, scene);
 		CHECK(find_rungs(expected).empty());
 		const MaskResult limited = render_limited(fixture, scene, EDGE_COUNT_NO_COST_LIMIT);
@@ -79,9 +79,9 @@ TEST_CASE("[GPU][EdgeCount] with less time more leaves have fewer points, fewer 
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		MaskFixture fixture;
-		SmallScene few_points = make_scene(type, "64");
+		SmallScene few_points = make_costly_scene(type, "64");
 		const MaskResult coarse = render_frame(fixture, few_points);
-		SmallScene scene = make_scene(type, "256");
+		SmallScene scene = make_costly_scene(type, "256");
 		const MaskResult fine = render_frame(fixture, scene);
 		bool are_all_seen[4] = {};
 		double last_error = 0;
@@ -140,7 +140,7 @@ TEST_CASE("[GPU][EdgeCount] with time for everything, leaves without lists are c
 TEST_CASE("[GPU][EdgeCount] a light with 64 points has no rung of fewer points") {
 	const ReplacedTechnique<LimitedEdgeCount> technique;
 	MaskFixture fixture;
-	SmallScene scene = make_scene(LightType::SPOT, "64");
+	SmallScene scene = make_costly_scene(LightType::SPOT, "64");
 	for (uint32_t limit = 1u << 15; limit >= 1u << 6; limit /= 4) {
 		CAPTURE(limit);
 		const std::vector<int> rungs = find_rungs(render_limited(fixture, scene, limit));
@@ -152,8 +152,9 @@ TEST_CASE("[GPU][EdgeCount] a light with 64 points has no rung of fewer points")
 TEST_CASE("[GPU][EdgeCount] the ladder stays where it is while the cost is near the limit") {
 	const ReplacedTechnique<LimitedEdgeCount> technique;
 	MaskFixture fixture;
-	SmallScene scene = make_scene(LightType::SPOT, "256");
-	// Down to a limit, then limits that are a little higher: nothing changes. A much higher one does.
+	SmallScene scene = make_costly_scene(LightType::SPOT, "256");
+	// Down to a limit, then limits that are a little higher: nothing changes. A much higher one
+	// does.
 	const uint32_t limit = 10'000;
 	const MaskResult low = render_limited(fixture, scene, limit);
 	const std::vector<int> rungs = find_rungs(low);
@@ -172,7 +173,7 @@ TEST_CASE("[GPU][EdgeCount] the ladder stays where it is while the cost is near 
 
 TEST_CASE("[GPU][EdgeCount] a time of 0.1 ms filters all leaves with many edges") {
 	MaskFixture fixture;
-	SmallScene scene = make_scene(LightType::SPOT, "256");
+	SmallScene scene = make_costly_scene(LightType::SPOT, "256");
 	scene.light->properties["edge_count_time_budget"] = 0.1;
 	MaskResult result;
 	for (int frame = 0; frame < 4; ++frame) {

@@ -22,7 +22,7 @@ struct Cube {
 const Cube UPPER = { { 0, 3.2, 0 }, 0.4 };
 const Cube LOWER = { { 0, 1.9, 0 }, 0.8 };
 
-SmallScene make_scene(LightType p_type = LightType::DIRECTIONAL) {
+SmallScene make_case_scene(LightType p_type = LightType::DIRECTIONAL) {
 	SmallScene scene(p_type);
 	scene.box->surfaces.clear();
 	for (const Cube &cube : { UPPER, LOWER }) {
@@ -123,7 +123,7 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 	std::map<int, int> right_counts;
 	// From above, and from below the large cube's bottom to see the ground under it.
 	for (const glm::dvec3 eye : { glm::dvec3(-2.5, 6.0, 3.0), glm::dvec3(-3.5, 1.0, 4.2) }) {
-		SmallScene scene = make_scene();
+		SmallScene scene = make_case_scene();
 		scene.camera->parent_from_node = look_at(eye, { 0, 1.0, 0 });
 		MaskRequest request;
 		request.scene = scene.snap();
@@ -194,7 +194,7 @@ TEST_CASE("[GPU][PenumbraFins] a width of 0 skips only its half, and the mask st
 	MaskFixture fixture;
 	for (const char *width : { "penumbra_outer_width", "penumbra_inner_width" }) {
 		CAPTURE(width);
-		SmallScene scene = make_scene(LightType::SPOT);
+		SmallScene scene = make_case_scene(LightType::SPOT);
 		scene.light->properties[width] = 0.0;
 		const MaskResult lean = fixture.render_mask(scene, "penumbra_fins");
 		const MaskResult all =
@@ -209,7 +209,7 @@ TEST_CASE("[GPU][PenumbraFins] a width of 0 skips only its half, and the mask st
 TEST_CASE("[GPU][PenumbraFins] all peeling and fin methods give the same mask") {
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
-		SmallScene scene = make_scene(type);
+		SmallScene scene = make_case_scene(type);
 		const MaskResult first = fixture.render_mask(scene, "penumbra_fins");
 		for (const std::string peeling : { "passes", "one_pass" }) {
 			for (const std::string method : { "geometry_shader", "compute" }) {
@@ -227,7 +227,7 @@ TEST_CASE("[GPU][PenumbraFins] the mask is valid with widths larger than the cas
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		for (const std::string id : { "penumbra_fins", "outer_fins" }) {
 			for (double width_m : { 1.0, 10.0, 1e4 }) {
-				SmallScene scene = make_scene(type);
+				SmallScene scene = make_case_scene(type);
 				scene.light->properties["penumbra_outer_width"] = width_m;
 				scene.light->properties["penumbra_inner_width"] = width_m;
 				CHECK(is_valid_mask(fixture.render_mask(scene, id)));
@@ -240,7 +240,7 @@ TEST_CASE("[GPU][PenumbraFins] the mask is valid with widths larger than the cas
 
 TEST_CASE("[GPU][PenumbraFins] the plan reports an instance that is scaled to a line") {
 	MaskFixture fixture;
-	SmallScene scene = make_scene(LightType::SPOT);
+	SmallScene scene = make_case_scene(LightType::SPOT);
 	add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.5f)), { 0, 0, 0 })
 			.parent_from_node =
 			glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 1.5, 0)), glm::dvec3(1, 0, 0));

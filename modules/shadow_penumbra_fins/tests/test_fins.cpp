@@ -58,7 +58,7 @@ Mesh make_lathed(const std::vector<glm::vec2> &p_profile) {
 }
 
 /// Makes a scene of p_mesh alone, with a spot light above it.
-SmallScene make_scene(const std::shared_ptr<const Mesh> &p_mesh) {
+SmallScene make_fin_scene(const std::shared_ptr<const Mesh> &p_mesh) {
 	SmallScene scene;
 	scene.ground->surfaces.clear();
 	scene.box->surfaces.clear();
@@ -84,7 +84,7 @@ TEST_CASE("[GPU][PenumbraFins] compute finds the CPU's silhouette edges, in orde
 	FinsFixture fixture;
 	// Each mesh by itself, and all of them in one frame with common buffers.
 	for (size_t only = 0; only <= make_meshes().size(); ++only) {
-		SmallScene scene = make_scene(share_mesh("first", test_meshes::make_sphere(4)));
+		SmallScene scene = make_fin_scene(share_mesh("first", test_meshes::make_sphere(4)));
 		size_t index = 0;
 		for (const auto &[name, mesh] : make_meshes()) {
 			if (index++ == only || only == make_meshes().size()) {
@@ -134,7 +134,7 @@ TEST_CASE("[GPU][PenumbraFins] geometry shader and compute draw the same penumbr
 	FinsFixture fixture;
 	for (const auto &[name, mesh] : make_meshes()) {
 		CAPTURE(name);
-		const SmallScene scene = make_scene(share_mesh(name, mesh));
+		const SmallScene scene = make_fin_scene(share_mesh(name, mesh));
 		const FinsFixture::Frame frame = fixture.make_frame(scene, 128, /*p_margin_m=*/0.2f);
 		for (const glm::vec2 widths : { glm::vec2(0.2f, 0.1f), glm::vec2(0.2f, 0.0f),
 					 glm::vec2(0.0f, 0.2f), glm::vec2(5.0f, 5.0f) }) {
@@ -154,7 +154,7 @@ TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins wi
 	// Fins along split normals would leave the corners open (the reason for welded normals).
 	FinsFixture fixture;
 	SmallScene scene =
-			make_scene(share_mesh("cube", test_meshes::unweld(test_meshes::make_cube())));
+			make_fin_scene(share_mesh("cube", test_meshes::unweld(test_meshes::make_cube())));
 	scene.light->parent_from_node = look_at({ 0.3, 9, 0.2 }, { 0.1, 0, -0.1 });
 	scene.light->outer_cone_rad = 0.35f;
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 256, /*p_margin_m=*/0.3f);
@@ -196,8 +196,8 @@ TEST_CASE("[GPU][PenumbraFins] a cube with split corners has one ring of fins wi
 TEST_CASE("[GPU][PenumbraFins] fins of edges that are hidden from the light are dropped") {
 	FinsFixture fixture;
 	// A small cube right below a large one is hidden from the light.
-	SmallScene alone = make_scene(share_mesh("large", test_meshes::make_cube()));
-	SmallScene both = make_scene(share_mesh("large", test_meshes::make_cube()));
+	SmallScene alone = make_fin_scene(share_mesh("large", test_meshes::make_cube()));
+	SmallScene both = make_fin_scene(share_mesh("large", test_meshes::make_cube()));
 	add_mesh(both.scene, "Hidden", make_box_mesh("hidden", glm::vec3(0.3f)), { -0.2, -2.0, -0.5 });
 	const FinsFixture::Frame frame = fixture.make_frame(alone, 128, /*p_margin_m=*/0.1f);
 	const FinsFixture::Frame frame_of_both = fixture.make_frame(both, 128, /*p_margin_m=*/0.1f);
@@ -212,7 +212,7 @@ TEST_CASE("[GPU][PenumbraFins] beta drops the inner fins deep in a solid that hi
 	// only beta removes it.
 	FinsFixture fixture;
 	const auto draw = [&](const std::vector<glm::vec2> &p_profile, float p_beta_m) {
-		SmallScene scene = make_scene(share_mesh("lathed", make_lathed(p_profile)));
+		SmallScene scene = make_fin_scene(share_mesh("lathed", make_lathed(p_profile)));
 		scene.light->parent_from_node = look_at({ 0.1, 8, -0.1 }, { 0.1, 0, -0.101 });
 		FinsSettings settings = make_settings(0.1f, 0.1f, FinMethod::COMPUTE);
 		settings.beta_m = p_beta_m;
@@ -235,7 +235,7 @@ TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the outer fi
 		std::swap(flipped.indices[i], flipped.indices[i + 1]);
 	}
 	const auto draw = [&](const Mesh &p_mesh, bool p_mirrors) {
-		SmallScene scene = make_scene(share_mesh("torus", p_mesh));
+		SmallScene scene = make_fin_scene(share_mesh("torus", p_mesh));
 		if (p_mirrors) { // the torus is its own mirror image
 			scene.scene.root->children.back()->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0),
 					glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0.1, 0.2, -0.1, 1));
@@ -264,7 +264,7 @@ TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and not
 	// A quad and its back side: every vertex normal is zero.
 	Mesh double_sided = test_meshes::make_quad();
 	double_sided.indices.insert(double_sided.indices.end(), { 2, 1, 0, 3, 2, 0 });
-	const SmallScene scene = make_scene(share_mesh("double-sided", double_sided));
+	const SmallScene scene = make_fin_scene(share_mesh("double-sided", double_sided));
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 64, /*p_margin_m=*/0.2f);
 	fixture.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
 		CHECK(count_zero_normals(build_silhouette_casters(p_inputs,
@@ -283,12 +283,12 @@ TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, fragment stores,
 		  "rendering or depth clamp draw the same maps") {
 	FinsFixture full_fixture;
 	const Mesh torus = test_meshes::make_torus(60, 40);
-	const SmallScene scene = make_scene(share_mesh("torus", torus));
+	const SmallScene scene = make_fin_scene(share_mesh("torus", torus));
 	const FinsFixture::Frame frame = full_fixture.make_frame(scene, 128, /*p_margin_m=*/0.2f);
 	const auto expected =
 			full_fixture.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
 	const auto expected_layers = full_fixture.find_layers(frame, 3, Peeling::PASSES);
-	const SmallScene quad_scene = make_scene(share_mesh("quad", test_meshes::make_quad()));
+	const SmallScene quad_scene = make_fin_scene(share_mesh("quad", test_meshes::make_quad()));
 	const auto expected_quad =
 			full_fixture.find_layers(full_fixture.make_frame(quad_scene, 64), 3, Peeling::PASSES);
 	const FeatureList features = { &DeviceFeatures::geometry_shader,

@@ -27,7 +27,7 @@ std::shared_ptr<const Mesh> make_squares(const std::vector<float> &p_heights_m) 
 
 /// Makes a scene of p_mesh alone (may be null), with a light at y = 4 m that looks almost straight
 /// down.
-SmallScene make_scene(const std::shared_ptr<const Mesh> &p_mesh, LightType p_type) {
+SmallScene make_layer_scene(const std::shared_ptr<const Mesh> &p_mesh, LightType p_type) {
 	SmallScene scene(p_type);
 	scene.ground->surfaces.clear();
 	scene.box->surfaces.clear();
@@ -44,7 +44,7 @@ TEST_CASE("[GPU][PenumbraFins] the three nearest of five squares are the layers,
 		  "once") {
 	FinsFixture fixture;
 	// Squares at 3, 2 (twice), 1, 0 and -1 m: 1, 2, 3, 4, 5 m below the light.
-	SmallScene scene = make_scene(make_squares({ -1, 1, 3, 2, 0, 2 }), LightType::SPOT);
+	SmallScene scene = make_layer_scene(make_squares({ -1, 1, 3, 2, 0, 2 }), LightType::SPOT);
 	// Exactly straight down, so that a square has the same depth at all texels.
 	scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
 			glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 4, 0, 1));
@@ -71,7 +71,7 @@ TEST_CASE("[GPU][PenumbraFins] layers are sorted, and one pass finds the same as
 		for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 			CAPTURE(name);
 			SmallScene scene =
-					make_scene(make_mesh(name, mesh.positions_node, {}, mesh.indices), type);
+					make_layer_scene(make_mesh(name, mesh.positions_node, {}, mesh.indices), type);
 			const FinsFixture::Frame frame = fixture.make_frame(scene, 128);
 			const auto peeled = fixture.find_layers(frame, 3, Peeling::PASSES);
 			CHECK(peeled == fixture.find_layers(frame, 3, Peeling::ONE_PASS));
@@ -95,7 +95,7 @@ TEST_CASE("[GPU][PenumbraFins] layers are sorted, and one pass finds the same as
 
 TEST_CASE("[GPU][PenumbraFins] a scene with one layer has two empty ones, peeled or not") {
 	FinsFixture fixture;
-	const SmallScene scene = make_scene(make_squares({ 1 }), LightType::SPOT);
+	const SmallScene scene = make_layer_scene(make_squares({ 1 }), LightType::SPOT);
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 32);
 	for (Peeling peeling : { Peeling::PASSES, Peeling::ONE_PASS }) {
 		const auto layers = fixture.find_layers(frame, 3, peeling)[0];
@@ -108,7 +108,8 @@ TEST_CASE("[GPU][PenumbraFins] a scene with one layer has two empty ones, peeled
 TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped to depths in "
 		  "0..1, with both peelings alike") {
 	FinsFixture fixture;
-	SmallScene scene = make_scene(make_box_mesh("rod", { 0.5f, 4.5f, 0.5f }), LightType::SPOT);
+	SmallScene scene =
+			make_layer_scene(make_box_mesh("rod", { 0.5f, 4.5f, 0.5f }), LightType::SPOT);
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 32); // the light is inside the rod
 	const auto peeled = fixture.find_layers(frame, 3, Peeling::PASSES);
 	CHECK(peeled == fixture.find_layers(frame, 3, Peeling::ONE_PASS));
@@ -131,7 +132,7 @@ TEST_CASE("[GPU][PenumbraFins] the plan reports a layer 3 that is drawn only if 
 		return lean.plan.to_text().find("layer 3 only if layer 2 is not empty, views: 1") !=
 				std::string::npos;
 	};
-	SmallScene square = make_scene(make_squares({ 1.0f }), LightType::SPOT);
+	SmallScene square = make_layer_scene(make_squares({ 1.0f }), LightType::SPOT);
 	const SettingScope scope("penumbra_fins", "peeling", "passes");
 	add_mesh(square.scene, "Floor", make_box_mesh("floor", { 3, 0.1f, 3 }), { 0, -0.2, 0 })
 			.casts_shadow = false;

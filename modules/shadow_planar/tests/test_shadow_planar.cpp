@@ -8,7 +8,6 @@ using namespace gnomon;
 
 namespace {
 
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 const uint32_t SIZE_PX = 128;
 
 MaskResult render_planar(

@@ -12,7 +12,7 @@ using namespace gnomon;
 
 namespace {
 
-const uint64_t KEY = 0x676E6F6D6F6E2121; // any; this is "gnomon!!" in ASCII
+const uint64_t FUZZ_KEY = 0x676E6F6D6F6E2121; // any; this is "gnomon!!" in ASCII
 
 } // namespace
 
@@ -25,14 +25,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		std::memcpy(&pixel_count, p_data, sizeof(pixel_count));
 		const bool is_colored = (p_data[sizeof(pixel_count)] & 1) != 0;
 		const auto bytes = std::span(p_data, p_size).subspan(sizeof(pixel_count) + 1);
-		const auto reference = parse_reference_entry(bytes, KEY, pixel_count, is_colored);
+		const auto reference = parse_reference_entry(bytes, FUZZ_KEY, pixel_count, is_colored);
 		if (!reference) {
 			return;
 		}
 		GNOMON_ASSERT(reference->visibility.size() == pixel_count, reference->visibility.size(),
 				" values");
 		GNOMON_ASSERT(reference->colors.size() == (is_colored ? pixel_count : 0), "colours");
-		const std::vector<uint8_t> again = build_reference_entry(KEY, *reference);
+		const std::vector<uint8_t> again = build_reference_entry(FUZZ_KEY, *reference);
 		constexpr size_t PADDING_BYTES = 4; // at the end of the header, never read
 		constexpr size_t HEADER_BYTES = 32; // of EntryHeader, padding included
 		GNOMON_ASSERT(again.size() == bytes.size() &&

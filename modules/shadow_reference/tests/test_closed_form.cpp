@@ -12,8 +12,8 @@ using namespace gnomon::test_scenes;
 
 namespace {
 
-constexpr uint32_t SAMPLE_COUNT = 9216; // as for published tables
-constexpr double TOLERANCE = 0.002;		// of visibility, at every receiver
+constexpr uint32_t TABLE_SAMPLE_COUNT = 9216; // as for published tables
+constexpr double TOLERANCE = 0.002;			  // of visibility, at every receiver
 
 AreaLight make_directional(const glm::vec3 &p_direction, float p_tangent) {
 	AreaLight light;
@@ -57,7 +57,7 @@ TEST_CASE("[Reference] a half-plane before a spot light hides a circular segment
 		CAPTURE(radius);
 		const AreaLight light = make_spot({ 0.3f, 1.2f, 6.0f }, radius);
 		const VisibilityResult result =
-				tracer.compute(points, { 24, 24 }, light, make_options(SAMPLE_COUNT));
+				tracer.compute(points, { 24, 24 }, light, make_options(TABLE_SAMPLE_COUNT));
 		double largest_error = 0;
 		unsigned penumbra_count = 0;
 		for (size_t i = 0; i < points.size(); ++i) {
@@ -81,7 +81,7 @@ TEST_CASE("[Reference] a half-plane before a directional light hides a segment o
 	for (const float tangent : { 0.00465f, 0.1f, 0.5f }) { // the first is the sun's
 		CAPTURE(tangent);
 		const VisibilityResult result = tracer.compute(points, { 24, 24 },
-				make_directional(direction, tangent), make_options(SAMPLE_COUNT));
+				make_directional(direction, tangent), make_options(TABLE_SAMPLE_COUNT));
 		double largest_error = 0;
 		for (size_t i = 0; i < points.size(); ++i) {
 			const glm::dvec3 start = get_start(points[i]);
@@ -115,7 +115,7 @@ TEST_CASE("[Reference] a disc before a spot light hides the lens of two circles"
 								/*is_receiver=*/true, /*spread_radius_m=*/0.0f, OFFSET_M });
 			}
 			const VisibilityResult result = triangles.build().compute(points, { 24, 1 },
-					make_spot(light_position, radius), make_options(SAMPLE_COUNT));
+					make_spot(light_position, radius), make_options(TABLE_SAMPLE_COUNT));
 			for (size_t i = 0; i < points.size(); ++i) {
 				const double distance = glm::dot(light_position - get_start(points[i]), axis);
 				const double magnification = distance / (distance - 2.0);
@@ -138,7 +138,7 @@ TEST_CASE(
 	const std::vector<ReceiverPoint> points = make_ground(24, 2.0f);
 	for (const float tangent : { 0.05f, 0.3f }) {
 		const VisibilityResult result = tracer.compute(points, { 24, 24 },
-				make_directional(glm::vec3(-axis), tangent), make_options(SAMPLE_COUNT));
+				make_directional(glm::vec3(-axis), tangent), make_options(TABLE_SAMPLE_COUNT));
 		double largest_error = 0;
 		for (size_t i = 0; i < points.size(); ++i) {
 			const glm::dvec3 to_centre = centre - get_start(points[i]);

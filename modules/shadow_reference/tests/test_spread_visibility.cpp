@@ -17,7 +17,7 @@ public:
 };
 
 const EvenSpread EVEN;
-const float OFFSET_M = 1e-4f; // of the rays' start from the surface
+const float SPREAD_OFFSET_M = 1e-4f; // of the rays' start from the surface
 const uint32_t SAMPLE_COUNT = 16384;
 const uint64_t HASH = 7; // any
 
@@ -46,8 +46,8 @@ SpreadMean trace(const Triangles &p_body, const Triangles &p_casters, const glm:
 	const Triangles bodies[] = { p_body };
 	return SpreadVisibility(bodies, EVEN)
 			.compute(casters, p_light,
-					{ p_position, glm::vec3(0, 1, 0), true, p_radius_m, OFFSET_M }, SAMPLE_COUNT,
-					HASH);
+					{ p_position, glm::vec3(0, 1, 0), true, p_radius_m, SPREAD_OFFSET_M },
+					SAMPLE_COUNT, HASH);
 }
 
 double count_rays(const SpreadMean &p_mean) {
@@ -127,7 +127,7 @@ TEST_CASE("[SpreadVisibility] of several bodies only the receiver's own counts")
 	const SpreadMean mean =
 			SpreadVisibility(bodies, EVEN)
 					.compute(casters, make_sun(),
-							{ glm::vec3(0), glm::vec3(0, 1, 0), true, 1.0f, OFFSET_M },
+							{ glm::vec3(0), glm::vec3(0, 1, 0), true, 1.0f, SPREAD_OFFSET_M },
 							/*p_sample_count=*/1024, HASH);
 	CHECK(mean.compute_mean().x == 1);
 }
@@ -141,7 +141,7 @@ TEST_CASE("[SpreadVisibility] with a spread far wider than its body, a receiver 
 	VisibilityOptions options;
 	options.sample_count = 256;
 	options.spread = &spread;
-	const ReceiverPoint point = { glm::vec3(0), glm::vec3(0, 1, 0), true, 1e4f, OFFSET_M };
+	const ReceiverPoint point = { glm::vec3(0), glm::vec3(0, 1, 0), true, 1e4f, SPREAD_OFFSET_M };
 	Triangles roof;
 	add_square(roof, glm::vec3(0, 1, 0), 1);
 	const Triangles nothing;

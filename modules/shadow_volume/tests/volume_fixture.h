@@ -11,8 +11,6 @@
 
 namespace gnomon {
 
-inline const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-
 using VolumeSettingValues = std::map<std::string, PropertyValue>;
 
 /// Renders the scene's mask. p_setting_values: values of the technique's settings, by name.

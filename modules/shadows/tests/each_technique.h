@@ -8,9 +8,6 @@
 
 namespace gnomon {
 
-inline constexpr LightType ALL_TYPES[] = { LightType::SPOT, LightType::OMNI,
-	LightType::DIRECTIONAL };
-
 template <typename Function> void for_each_technique(Function p_function) {
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		CAPTURE(info.id);

@@ -44,6 +44,9 @@ inline glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0.1, 1.0, 0.07)));
 }
 
+inline constexpr LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL,
+	LightType::OMNI };
+
 /// A box above a ground plate that is declared planar, one light of type p_type, and a camera that
 /// sees the shadow. All lengths are multiplied by p_scale, and everything is moved by p_origin.
 struct SmallScene {

@@ -128,7 +128,7 @@ double compute_difference(const MaskResult &p_one, const MaskResult &p_other, do
 	return max_difference;
 }
 
-MaskRequest make_request(
+MaskRequest make_pose_request(
 		const std::shared_ptr<const SceneSnapshot> &p_scene, const std::string &p_technique) {
 	MaskRequest request;
 	request.scene = p_scene;
@@ -149,9 +149,9 @@ TEST_CASE("deformed casters: every technique draws the shadow of the current pos
 		for (const double angle : { 0.0, 0.9, -1.4 }) {
 			CAPTURE(angle);
 			scene.pose(angle, angle > 0 ? 0.8f : 0.0f);
-			const MaskResult deformed = fixture.render(make_request(scene.snap(), p_info.id));
+			const MaskResult deformed = fixture.render(make_pose_request(scene.snap(), p_info.id));
 			MaskFixture other;
-			const MaskResult baked = other.render(make_request(scene.bake(), p_info.id));
+			const MaskResult baked = other.render(make_pose_request(scene.bake(), p_info.id));
 			double fraction = 0;
 			compute_difference(deformed, baked, fraction);
 			if (angle == 0) {
@@ -194,18 +194,20 @@ TEST_CASE("deformed casters: cut-outs follow, and several instances keep their o
 		scene.pose(1.1);
 		double fraction = 0;
 		double changed = 0;
-		const MaskResult posed = fixture.render(make_request(scene.snap(), p_info.id));
-		compute_difference(posed, fixture.render(make_request(scene.bake(), p_info.id)), fraction);
+		const MaskResult posed = fixture.render(make_pose_request(scene.snap(), p_info.id));
+		compute_difference(
+				posed, fixture.render(make_pose_request(scene.bake(), p_info.id)), fraction);
 		scene.pose(0);
-		compute_difference(posed, fixture.render(make_request(scene.snap(), p_info.id)), changed);
+		compute_difference(
+				posed, fixture.render(make_pose_request(scene.snap(), p_info.id)), changed);
 		CHECK(fraction < std::max(MAX_ROUNDED_FRACTION, MAX_ERROR_PER_CHANGE * changed));
 		scene.pose(1.1);
 		// Another instance of the same mesh, at rest next to it.
 		MeshInstance3D &second =
 				add_mesh(scene.scene, "Second", scene.tube->surfaces[0].mesh, { -0.9, 0.2, 0.3 });
 		second.surfaces[0].material = shared_material;
-		compute_difference(fixture.render(make_request(scene.snap(), p_info.id)),
-				fixture.render(make_request(scene.bake(), p_info.id)), fraction);
+		compute_difference(fixture.render(make_pose_request(scene.snap(), p_info.id)),
+				fixture.render(make_pose_request(scene.bake(), p_info.id)), fraction);
 		CHECK(fraction < std::max(MAX_ROUNDED_FRACTION, MAX_ERROR_PER_CHANGE * changed));
 	});
 }
@@ -216,15 +218,15 @@ TEST_CASE("deformed casters: an unchanged pose is cached, and the mask stays the
 		TubeScene scene(LightType::SPOT);
 		use_cheap_settings(*scene.light);
 		scene.pose(0.6);
-		const MaskResult first = fixture.render(make_request(scene.snap(), p_info.id));
+		const MaskResult first = fixture.render(make_pose_request(scene.snap(), p_info.id));
 		CHECK(first.plan.to_text().find("deform, meshes: 1") != std::string::npos);
-		const MaskResult second = fixture.render(make_request(scene.snap(), p_info.id));
+		const MaskResult second = fixture.render(make_pose_request(scene.snap(), p_info.id));
 		CHECK(second.plan.to_text().find("their pose is the same") != std::string::npos);
 		CHECK(second.commands.dispatches <= first.commands.dispatches);
 		if (!p_info.is_reference) {
 			CHECK(first.visibility == second.visibility);
 		}
-		MaskRequest request = make_request(scene.snap(), p_info.id);
+		MaskRequest request = make_pose_request(scene.snap(), p_info.id);
 		request.may_reuse = false;
 		const MaskResult all = fixture.render(request);
 		CHECK(all.plan.to_text().find("deform, meshes: 1") != std::string::npos);
@@ -239,7 +241,7 @@ TEST_CASE("deformed casters: after a frame that was not executed the shadow is t
 		TubeScene scene(LightType::SPOT);
 		use_cheap_settings(*scene.light);
 		scene.pose(0.9, 0.8f);
-		MaskRequest request = make_request(scene.snap(), p_info.id);
+		MaskRequest request = make_pose_request(scene.snap(), p_info.id);
 		MaskFixture expected;
 		MaskFixture fixture;
 		request.fails = true;
@@ -256,15 +258,15 @@ TEST_CASE("deformed casters: a pose casts into views that the mesh at rest is ou
 		use_cheap_settings(*scene.light);
 		// At rest far below the ground; both joints lift it above.
 		scene.joint->parent->parent_from_node[3].y = -50;
-		const MaskResult without = fixture.render(make_request(scene.snap(), p_info.id));
+		const MaskResult without = fixture.render(make_pose_request(scene.snap(), p_info.id));
 		const glm::dmat4 lifted = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0.5, 0));
 		scene.joint->parent->posed_parent_from_node = lifted;
-		const MaskResult posed = fixture.render(make_request(scene.snap(), p_info.id));
+		const MaskResult posed = fixture.render(make_pose_request(scene.snap(), p_info.id));
 		double fraction = 0;
 		compute_difference(without, posed, fraction);
 		CHECK(fraction > 0.005);
 		for (const bool may_skip : { true, false }) {
-			MaskRequest request = make_request(scene.snap(), p_info.id);
+			MaskRequest request = make_pose_request(scene.snap(), p_info.id);
 			request.may_skip = may_skip;
 			const MaskResult all = fixture.render(request);
 			compute_difference(all, posed, fraction);
@@ -281,7 +283,7 @@ TEST_CASE("deformed casters: joints that flatten a mesh or shrink it to a point 
 		for (const glm::dvec3 &scale :
 				{ glm::dvec3(0), glm::dvec3(1, 0, 1), glm::dvec3(-1, 1, 1), glm::dvec3(1e-9) }) {
 			scene.joint->posed_parent_from_node = glm::scale(glm::dmat4(1.0), scale);
-			const MaskResult mask = fixture.render(make_request(scene.snap(), p_info.id));
+			const MaskResult mask = fixture.render(make_pose_request(scene.snap(), p_info.id));
 			for (const float visibility : mask.visibility) {
 				CHECK_UNARY(visibility >= 0.0f && visibility <= 1.0f);
 			}
@@ -333,9 +335,9 @@ TEST_CASE("[GPU][DeformedCasters] a mesh that a vertex program bends casts as it
 			baked->instances.edit_back().bounds_world = moved->instances.back().bounds_world;
 			baked->instances.edit_back().caster_bounds_node =
 					moved->instances.back().caster_bounds_node;
-			const MaskResult mask = fixture.render(make_request(moved, p_info.id));
+			const MaskResult mask = fixture.render(make_pose_request(moved, p_info.id));
 			double fraction = 0;
-			compute_difference(mask, fixture.render(make_request(baked, p_info.id)), fraction);
+			compute_difference(mask, fixture.render(make_pose_request(baked, p_info.id)), fraction);
 			if (strength == 0) {
 				CHECK(fraction < MAX_ROUNDED_FRACTION);
 				straight = mask;

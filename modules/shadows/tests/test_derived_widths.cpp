@@ -38,9 +38,9 @@ private:
 
 /// Registers WidthProbe twice while it exists: as "narrow_probe", which derives r = R/4 and t =
 /// R/2, and as "plain_probe".
-class ProbeScope {
+class WidthProbeScope {
 public:
-	ProbeScope() {
+	WidthProbeScope() {
 		for (const char *id : { "narrow_probe", "plain_probe" }) {
 			ShadowTechniqueInfo info = { id, "Width probe", "test", "#000000",
 				[] { return std::make_unique<WidthProbe>(); } };
@@ -50,7 +50,7 @@ public:
 			ShadowRegistry::add(std::move(info));
 		}
 	}
-	~ProbeScope() {
+	~WidthProbeScope() {
 		ShadowRegistry::remove("plain_probe");
 		ShadowRegistry::remove("narrow_probe");
 	}
@@ -71,7 +71,7 @@ glm::vec2 find_widths_m(
 } // namespace
 
 TEST_CASE("[GPU][DerivedWidths] widths follow the technique that runs, also when it is replaced") {
-	const ProbeScope probes;
+	const WidthProbeScope probes;
 	MaskFixture fixture;
 	SmallScene scene; // R = 0.2 m
 	scene.light->properties["shadow_technique"] = std::string("narrow_probe");
@@ -86,7 +86,7 @@ TEST_CASE("[GPU][DerivedWidths] widths follow the technique that runs, also when
 }
 
 TEST_CASE("[GPU][DerivedWidths] a directional light's widths are multiples of its tangent x S") {
-	const ProbeScope probes;
+	const WidthProbeScope probes;
 	MaskFixture fixture;
 	SmallScene scene(LightType::DIRECTIONAL); // 6 degrees, S = 4 m
 	const glm::vec2 widths_m = find_widths_m(fixture, scene, "narrow_probe");
@@ -95,7 +95,7 @@ TEST_CASE("[GPU][DerivedWidths] a directional light's widths are multiples of it
 }
 
 TEST_CASE("[GPU][DerivedWidths] widths that a light sets are the same for every technique") {
-	const ProbeScope probes;
+	const WidthProbeScope probes;
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.light->properties["penumbra_outer_width"] = 0.3;
@@ -107,7 +107,7 @@ TEST_CASE("[GPU][DerivedWidths] widths that a light sets are the same for every 
 }
 
 TEST_CASE("[GPU][DerivedWidths] translucent casters are drawn with the same widths") {
-	const ProbeScope probes;
+	const WidthProbeScope probes;
 	MaskFixture fixture;
 	SmallScene scene;
 	auto glass = std::make_shared<Material>();
@@ -118,7 +118,7 @@ TEST_CASE("[GPU][DerivedWidths] translucent casters are drawn with the same widt
 }
 
 TEST_CASE("[GPU][DerivedWidths] limits apply to the widths that the technique derives") {
-	const ProbeScope probes;
+	const WidthProbeScope probes;
 	MaskFixture fixture;
 	const auto list_warnings = [&](double p_light_size_m, const char *p_technique) {
 		SmallScene scene; // S = 4 m: r is at most 0.4 m

@@ -11,9 +11,9 @@ using namespace gnomon;
 
 namespace {
 
-constexpr glm::uvec2 SIZE_PX(203, 149); // no multiple of a tile
-constexpr uint32_t COLUMNS = (SIZE_PX.x + LIT_TILE_PX - 1) / LIT_TILE_PX;
-constexpr uint32_t ROWS = (SIZE_PX.y + LIT_TILE_PX - 1) / LIT_TILE_PX;
+constexpr glm::uvec2 TILED_SIZE_PX(203, 149); // no multiple of a tile
+constexpr uint32_t COLUMNS = (TILED_SIZE_PX.x + LIT_TILE_PX - 1) / LIT_TILE_PX;
+constexpr uint32_t ROWS = (TILED_SIZE_PX.y + LIT_TILE_PX - 1) / LIT_TILE_PX;
 
 struct TileResult {
 	std::vector<uint8_t> receivers; // per pixel, above 0: a receiver
@@ -24,8 +24,8 @@ struct TileResult {
 		std::set<uint32_t> needed;
 		for (uint32_t pixel = 0; pixel < receivers.size(); ++pixel) {
 			if (receivers[pixel] > 0) {
-				needed.insert(pixel / SIZE_PX.x / LIT_TILE_PX * COLUMNS +
-						pixel % SIZE_PX.x / LIT_TILE_PX);
+				needed.insert(pixel / TILED_SIZE_PX.x / LIT_TILE_PX * COLUMNS +
+						pixel % TILED_SIZE_PX.x / LIT_TILE_PX);
 			}
 		}
 		return needed.size();
@@ -38,10 +38,10 @@ TileResult find_tiles(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_
 	std::vector<uint8_t> words;
 	RenderGraph graph(*r_fixture.device, *r_fixture.transients);
 	FramePlan plan;
-	ShadowFrame frame(*r_fixture.shadows, graph, plan, scene, SIZE_PX,
+	ShadowFrame frame(*r_fixture.shadows, graph, plan, scene, TILED_SIZE_PX,
 			{ .technique_override = ShadowRegistry::find_default()->id, .may_skip = p_may_skip });
-	frame.set_surfaces(
-			add_surface_pass(graph, *r_fixture.shadows, *scene, SIZE_PX, frame.get_constants()));
+	frame.set_surfaces(add_surface_pass(
+			graph, *r_fixture.shadows, *scene, TILED_SIZE_PX, frame.get_constants()));
 	const LightShadow shadow = frame.add_light(scene->lights.front());
 	add_readback(graph, shadow.receivers, result.receivers);
 	graph.add_pass("read tiles")

@@ -35,13 +35,13 @@ public:
 };
 
 /// Registers SettingProbe as the technique "setting_probe" while it exists.
-class ProbeScope {
+class SettingProbeScope {
 public:
-	ProbeScope() {
+	SettingProbeScope() {
 		ShadowRegistry::add({ "setting_probe", "Setting probe", "test", "#000000",
 				[] { return std::make_unique<SettingProbe>(); } });
 	}
-	~ProbeScope() { ShadowRegistry::remove("setting_probe"); }
+	~SettingProbeScope() { ShadowRegistry::remove("setting_probe"); }
 };
 
 std::string catch_message(const std::function<void()> &p_function) {
@@ -56,7 +56,7 @@ std::string catch_message(const std::function<void()> &p_function) {
 } // namespace
 
 TEST_CASE("[GPU][TechniqueSettings] a setting applies to the technique from the next frame on") {
-	const ProbeScope probe;
+	const SettingProbeScope probe;
 	MaskFixture fixture;
 	const SmallScene scene;
 	CHECK(contains(fixture.render_mask(scene, "setting_probe").plan.to_text(), "way auto"));
@@ -68,7 +68,7 @@ TEST_CASE("[GPU][TechniqueSettings] a setting applies to the technique from the 
 }
 
 TEST_CASE("[TechniqueSettings] a wrong id, name or value is an error that lists those that exist") {
-	const ProbeScope probe;
+	const SettingProbeScope probe;
 	const auto set = [](const char *p_id, const char *p_name, const char *p_text) {
 		return catch_message([&] { ShadowRegistry::set_setting(p_id, p_name, p_text); });
 	};
@@ -80,7 +80,7 @@ TEST_CASE("[TechniqueSettings] a wrong id, name or value is an error that lists 
 }
 
 TEST_CASE("[TechniqueSettings] a project sets them; unknown ids and names only cause warnings") {
-	const ProbeScope probe;
+	const SettingProbeScope probe;
 	const CaughtLog log;
 	apply_technique_settings(Project::parse(
 			"[technique.setting_probe]\nway=\"short\"\nwai=1\n[technique.gone]\nway=\"x\"\n",
@@ -94,7 +94,7 @@ TEST_CASE("[TechniqueSettings] a project sets them; unknown ids and names only c
 }
 
 TEST_CASE("[TechniqueSettings] light properties that became settings cause one warning per file") {
-	const ProbeScope probe;
+	const SettingProbeScope probe;
 	const CaughtLog log;
 	LightSnapshot light;
 	light.file_path = "/nowhere/old.gltf";

@@ -7,8 +7,8 @@ using namespace gnomon;
 
 namespace {
 
-constexpr uint32_t MAP_SIZE_PX = 256;
-constexpr uint32_t BORDER_PX = 1;
+constexpr uint32_t FIT_MAP_SIZE_PX = 256;
+constexpr uint32_t FIT_BORDER_PX = 1;
 constexpr double REACH_M = 0.5;
 constexpr double HALF_SIZE_M = 2.0; // of the receivers' box
 
@@ -21,7 +21,8 @@ struct FittedScene {
 	FittedScene() {
 		add_mesh(scene.scene, "Far", make_box_mesh("far", { 100.0f, 0.1f, 100.0f }), { 0, -1, 0 });
 		snapshot = scene.snap();
-		whole = build_light_views(snapshot->lights[0], *snapshot, MAP_SIZE_PX, BORDER_PX)[0];
+		whole = build_light_views(
+				snapshot->lights[0], *snapshot, FIT_MAP_SIZE_PX, FIT_BORDER_PX)[0];
 	}
 	VisibleReceivers make_receivers(const glm::dvec3 &p_center, double p_half_size_m) const {
 		VisibleReceivers receivers;
@@ -87,7 +88,7 @@ TEST_CASE("[LightView] mostly visible views, views without receivers and spot vi
 	SmallScene spot(LightType::SPOT);
 	const auto snapshot = spot.snap();
 	const LightView before =
-			build_light_views(snapshot->lights[0], *snapshot, MAP_SIZE_PX, BORDER_PX)[0];
+			build_light_views(snapshot->lights[0], *snapshot, FIT_MAP_SIZE_PX, FIT_BORDER_PX)[0];
 	view = before;
 	fit_to_receivers(
 			view, find_bounds_in_view(view, scene.make_receivers(glm::dvec3(0.0), 0.1)), 0.01);
