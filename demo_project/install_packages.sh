@@ -13,7 +13,7 @@ BUILD_PACKAGES=(
 DEMO_PACKAGES=(glmark2-data assimp-testmodels assimp-utils)
 # For the tests, in addition.
 TEST_PACKAGES=(
-    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps chromium
+    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps chromium clang-format
 )
 # For tests/run_tests.sh --full, in addition, to download meshes and gltf-validator.
 LARGE_MESH_PACKAGES=(npm)

@@ -262,9 +262,13 @@ run_sanitized() {
     run_part "$part" python3 tests/run_engine.py --processes "$jobs" "bin/gnomon_tests.$suffix" -- '--test-case-exclude=*[GPU]*' "$@"
 }
 
+check_layout() {
+    find modules tests -name '*.cpp' -print0 -o -name '*.h' -print0 | xargs -0 clang-format --dry-run -Werror
+}
 part_layers() {
     run_part layers python3 tests/layers/test_layers.py
     run_part "layers canary" python3 tests/layers/test_layers.py --self-test
+    run_check "layout" check_layout
 }
 part_scenes() {
     run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py tests/demo/test_valley.py \

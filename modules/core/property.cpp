@@ -73,6 +73,22 @@ std::string describe_refusal(const PropertyInfo &p_info, const PropertyValue &p_
 
 } // namespace
 
+float read_float(const PropertyValues &p_values, const std::string &p_name) {
+	return static_cast<float>(std::get<double>(p_values.at(p_name)));
+}
+
+uint32_t read_count(const PropertyValues &p_values, const std::string &p_name) {
+	return static_cast<uint32_t>(std::get<int64_t>(p_values.at(p_name)));
+}
+
+bool read_switch(const PropertyValues &p_values, const std::string &p_name) {
+	return std::get<bool>(p_values.at(p_name));
+}
+
+const std::string &read_choice(const PropertyValues &p_values, const std::string &p_name) {
+	return std::get<std::string>(p_values.at(p_name));
+}
+
 void PropertyList::add(PropertyInfo p_info) {
 	GNOMON_ASSERT(!find(p_info.name), "property ", p_info.name, " is declared twice");
 	prepare(p_info);

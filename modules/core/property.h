@@ -20,6 +20,15 @@ using PropertyValue = std::variant<bool, int64_t, double, std::string, glm::dvec
 /// of their PropertyInfo.
 using PropertyValues = std::map<std::string, PropertyValue, std::less<>>;
 
+/// Read values of a light or a filter whose properties are all set. A name that is missing or has a
+/// value of another type is a programming error.
+float read_float(const PropertyValues &p_values, const std::string &p_name);
+/// Reads an INT whose minimum is at least 0.
+uint32_t read_count(const PropertyValues &p_values, const std::string &p_name);
+bool read_switch(const PropertyValues &p_values, const std::string &p_name);
+/// Reads an ENUM.
+const std::string &read_choice(const PropertyValues &p_values, const std::string &p_name);
+
 /// Declares a property. The editor's inspector, the scene file's extras, `--set` on the command
 /// line and the generated docs all use this declaration.
 struct PropertyInfo {

@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_lights.h"
 
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 #include "modules/core/property.h"
 #include "modules/gltf_scene/gltf_document.h"
 #include "modules/gltf_scene/gltf_values.h"
@@ -14,7 +15,6 @@ using tinygltf::Value;
 
 namespace {
 
-const double DEGREES_PER_RADIAN = 57.295779513082321;
 const float MAX_CONE_RAD = 1.57079637f; // the float nearest to pi / 2
 
 /// An alternative name of a Light3D property in files.

@@ -1,6 +1,7 @@
 #include "modules/masks/mask_metrics.h"
 
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 
 #include <nlohmann/json.hpp>
 
@@ -12,8 +13,6 @@ namespace gnomon {
 
 namespace {
 
-constexpr float PENUMBRA_MIN = 0.002f;
-constexpr float PENUMBRA_MAX = 0.998f;
 constexpr float UMBRA_OVER_REFERENCE = 0.05f; // visibly lit in the reference ...
 constexpr float UMBRA_OVER_RESULT = 0.01f;	  // ... and black in the result
 constexpr double PERCENTILE = 0.99;
@@ -108,7 +107,7 @@ void add_metrics(const ErrorMetrics &p_metrics, nlohmann::ordered_json &r_json) 
 } // namespace
 
 bool is_penumbra(float p_reference) {
-	return p_reference > PENUMBRA_MIN && p_reference < PENUMBRA_MAX;
+	return p_reference > MIN_PENUMBRA_VISIBILITY && p_reference < MAX_PENUMBRA_VISIBILITY;
 }
 
 MaskMetrics compute_mask_metrics(const MaskImage &p_reference, const MaskImage &p_result,

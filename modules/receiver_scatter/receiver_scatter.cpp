@@ -25,7 +25,7 @@ const std::vector<std::string> REFUSALS = { "auto", "on", "off" };		 // by SCATT
 /// Returns the index of an enum property's value among its choices.
 uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 		const std::vector<std::string> &p_choices) {
-	const std::string &value = std::get<std::string>(p_properties.at(p_name));
+	const std::string &value = read_choice(p_properties, p_name);
 	return static_cast<uint32_t>(
 			std::find(p_choices.begin(), p_choices.end(), value) - p_choices.begin());
 }
@@ -114,7 +114,7 @@ bool ReceiverScatter::may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size
 
 bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		const PropertyValues &p_properties, TechniquePlan &r_plan) {
-	if (!std::get<bool>(p_properties.at(ENABLED))) {
+	if (!read_switch(p_properties, ENABLED)) {
 		r_plan.skip("scatter", text(ENABLED, " is false"));
 		return false;
 	}
@@ -126,10 +126,9 @@ bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		r_plan.skip("scatter", "it lights no visible surface that scatters");
 		return false;
 	}
-	needs_average =
-			std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_METRES] ||
+	needs_average = read_choice(p_properties, METHOD) == METHODS[SCATTER_METHOD_METRES] ||
 			!p_inputs.may_skip ||
-			(std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_AUTO] &&
+			(read_choice(p_properties, METHOD) == METHODS[SCATTER_METHOD_AUTO] &&
 					has_scatter(p_inputs, ScatterKind::IN_METRES));
 	r_plan.run("scatter");
 	if (!needs_average) {
@@ -141,7 +140,7 @@ bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const PropertyValues &p_properties, RGTexture p_mask) {
 	shader::ReceiverScatterPush push = {};
-	push.sample_count = static_cast<uint32_t>(std::get<int64_t>(p_properties.at(SAMPLES)));
+	push.sample_count = read_count(p_properties, SAMPLES);
 	push.sector_count = compute_sector_count(push.sample_count);
 	push.method = find_choice(p_properties, METHOD, METHODS);
 	push.refusal = find_choice(p_properties, REFUSAL, REFUSALS);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/core/limits.h"
 #include "modules/scene/node_properties.h"
 
 #include <memory>
@@ -8,8 +9,6 @@
 // Helpers for the files that declare members of node classes as properties.
 
 namespace gnomon {
-
-constexpr double DEGREES_PER_RADIAN = 180.0 / 3.14159265358979323846;
 
 /// Casts a node to its class, which the caller knows.
 template <typename T> T &to(Node3D &r_node) {

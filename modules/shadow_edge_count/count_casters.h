@@ -51,7 +51,7 @@ struct CountCasters {
 	uint32_t collapsed_instance_count = 0; // instances collapsed to a line or a point
 	bool may_cut_disc = false;			   // some caster's
 	uint32_t empty_views = 0;			   // bit i: no caster of view i has a face
-	bool has_lods = false;			   // of detail, in some caster's instance
+	bool has_lods = false;				   // of detail, in some caster's instance
 	// What they were made from.
 	SharedVector<InstanceSnapshot> instances; // of the scene
 	std::vector<uint32_t> indices;			  // of the instances that cast

@@ -59,10 +59,8 @@ void add_count_properties(PropertyList &r_list) {
 CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues &p_properties) {
 	CountSettings settings;
-	settings.sample_count =
-			std::get<std::string>(p_properties.at("edge_count_quality")) == "256" ? 256 : 64;
-	settings.interpolation =
-			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
+	settings.sample_count = read_choice(p_properties, "edge_count_quality") == "256" ? 256 : 64;
+	settings.interpolation = read_float(p_properties, "edge_count_interpolation");
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
 	settings.budget = budget < 0 ? EDGE_COUNT_NO_BUDGET : static_cast<uint32_t>(budget);
 	settings.time_budget_ms = std::get<double>(p_properties.at("edge_count_time_budget"));

@@ -33,8 +33,7 @@ void ShadowJitteredPcf::get_quality_settings(
 
 void ShadowJitteredPcf::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	DepthMapTechnique::plan(p_inputs, r_plan);
-	const uint32_t ring_count =
-			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("jittered_pcf_rings")));
+	const uint32_t ring_count = read_count(p_inputs.properties, "jittered_pcf_rings");
 	if (!is_all_empty() && offset_ring_count != ring_count) {
 		const std::vector<glm::vec4> values = build_jitter_offsets(ring_count);
 		const auto bytes = bytes_of(std::span<const glm::vec4>(values));
@@ -53,9 +52,8 @@ void ShadowJitteredPcf::filter(RenderGraph &r_graph, const Inputs &p_inputs, uin
 	shader::JitteredPcfPush push = {};
 	push.empty_views = p_empty_views;
 	push.ring_count = offset_ring_count;
-	push.radius_uv =
-			static_cast<float>(std::get<double>(p_inputs.properties.at("jittered_pcf_radius_uv")));
-	push.has_early_out = std::get<bool>(p_inputs.properties.at("jittered_pcf_early_out")) ? 1 : 0;
+	push.radius_uv = read_float(p_inputs.properties, "jittered_pcf_radius_uv");
+	push.has_early_out = read_switch(p_inputs.properties, "jittered_pcf_early_out") ? 1 : 0;
 	add_map_resolve_pass(r_graph, "resolve",
 			p_inputs.device.get_compute_pipeline({ "jittered_pcf resolve", shader, {} }),
 			std::move(p_bindings), p_inputs, make_push_bytes(push));

@@ -10,7 +10,7 @@ namespace {
 
 /// Parses the filter width in texels: "hard" is 0, "3x3" is 3.
 uint32_t get_filter_width(const PropertyValues &p_properties) {
-	const std::string &filter = std::get<std::string>(p_properties.at("shadow_map_filter"));
+	const std::string &filter = read_choice(p_properties, "shadow_map_filter");
 	return filter == "hard" ? 0 : static_cast<uint32_t>(filter[0] - '0');
 }
 

@@ -15,9 +15,7 @@ namespace {
 
 uint32_t get_point_count(const LightSnapshot &p_light, const PropertyValues &p_properties) {
 	// A light without size has a single point.
-	return p_light.get_disc_radius() > 0.0f
-			? static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_count")))
-			: 1;
+	return p_light.get_disc_radius() > 0.0f ? read_count(p_properties, "views_count") : 1;
 }
 
 } // namespace
@@ -37,8 +35,7 @@ void Views::get_quality_settings(
 
 void Views::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
-	const uint32_t size_px =
-			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_map_size")));
+	const uint32_t size_px = read_count(p_properties, "views_map_size");
 	const uint32_t count = get_point_count(p_light, p_properties);
 	const double nearest_m = compute_nearest_distance_m(p_light, p_scene.scene);
 	for (uint32_t index = 0; index < count; ++index) {

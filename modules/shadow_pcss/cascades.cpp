@@ -12,8 +12,8 @@ constexpr double WIDEST_ASPECT = 16.0 / 9.0;
 // The nearest split is this fraction of the farthest distance, or the camera's near plane.
 constexpr double MIN_NEAR_SHARE = 1e-4;
 
-/// Distance in metres from the camera to the farthest corner of the casters' bounds, rounded up to a
-/// power of two, so that cascades do not change their size while the camera moves.
+/// Distance in metres from the camera to the farthest corner of the casters' bounds, rounded up to
+/// a power of two, so that cascades do not change their size while the camera moves.
 double find_farthest_m(const LightScene &p_scene) {
 	double farthest_m = 0;
 	for (int corner = 0; corner < 8 && !p_scene.caster_bounds_world.is_empty(); ++corner) {
@@ -58,9 +58,8 @@ std::vector<LightView> split_into_cascades(const LightView &p_whole, const Light
 	std::vector<LightView> views;
 	for (uint32_t index = 1; index < p_count; ++index) {
 		const double share = double(index) / p_count;
-		const double distance_m =
-				std::lerp(nearest_m * std::pow(farthest_m / nearest_m, share),
-						std::lerp(nearest_m, farthest_m, share), UNIFORM_SHARE);
+		const double distance_m = std::lerp(nearest_m * std::pow(farthest_m / nearest_m, share),
+				std::lerp(nearest_m, farthest_m, share), UNIFORM_SHARE);
 		const FrustumSphere sphere = find_frustum_sphere(camera, distance_m);
 		const double size_px = double(p_whole.size_px.x);
 		const double half_m = sphere.radius_m * size_px / (size_px - 2.0 * p_border_px);

@@ -16,7 +16,8 @@ void ShadowPcss::get_light_properties(PropertyList &r_list) const {
 			"", "PCSS" });
 	add_size_property(r_list, "PCSS");
 	r_list.add({ "pcss_cascades", PropertyType::INT, int64_t(1), "1,4,1",
-			"Maps of a directional light, nested around what the camera sees up to a distance each. "
+			"Maps of a directional light, nested around what the camera sees up to a distance "
+			"each. "
 			"More have finer edges near the camera in large worlds, and cost time and memory.",
 			"", "PCSS" });
 }
@@ -24,10 +25,9 @@ void ShadowPcss::get_light_properties(PropertyList &r_list) const {
 void ShadowPcss::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	DepthMapTechnique::get_light_views(p_light, p_scene, p_properties, r_views);
-	const auto count = static_cast<uint32_t>(std::get<int64_t>(p_properties.at("pcss_cascades")));
+	const auto count = read_count(p_properties, "pcss_cascades");
 	if (p_light.type == LightType::DIRECTIONAL && count > 1) {
-		r_views = split_into_cascades(
-				r_views.front(), p_scene, count, get_border_px(p_properties));
+		r_views = split_into_cascades(r_views.front(), p_scene, count, get_border_px(p_properties));
 	}
 }
 
@@ -61,7 +61,7 @@ void ShadowPcss::filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p
 		std::vector<PassBinding> p_bindings) {
 	shader::ShadowPcssPush push = {};
 	push.empty_views = p_empty_views;
-	push.tap_count = static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("pcss_taps")));
+	push.tap_count = read_count(p_inputs.properties, "pcss_taps");
 	push.light_radius = p_inputs.light.get_disc_radius();
 	for (uint32_t view = 0; view < p_inputs.views.size(); ++view) {
 		push.nearest_w[view] = compute_nearest_w(p_inputs, view);

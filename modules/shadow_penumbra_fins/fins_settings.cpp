@@ -16,14 +16,6 @@ constexpr float DEFAULT_BETA_PER_SCENE_SIZE = 0.25f;
 // (doc/benchmarks.md). Not measured on a GPU.
 constexpr uint64_t ONE_PASS_MIN_TRIANGLES = 20000;
 
-int64_t read_int(const PropertyValues &p_properties, const std::string &p_name) {
-	return std::get<int64_t>(p_properties.at(p_name));
-}
-
-const std::string &read_choice(const PropertyValues &p_properties, const std::string &p_name) {
-	return std::get<std::string>(p_properties.at(p_name));
-}
-
 FinMethod choose_method(const std::string &p_choice, const DeviceFeatures &p_features) {
 	// "auto" is compute: on a software driver it is faster from 7,692 triangles on, and takes about
 	// as long at 1,996 (doc/benchmarks.md). Not measured on a GPU.
@@ -79,7 +71,7 @@ FinsSettings read_fins_view_settings(const std::string &p_id, bool p_has_inner_h
 	settings.has_inner_half = p_has_inner_half;
 	settings.outer_width_m = p_light.penumbra_outer_width_m;
 	settings.inner_width_m = p_has_inner_half ? p_light.penumbra_inner_width_m : 0.0f;
-	settings.map_size_px = static_cast<uint32_t>(read_int(p_properties, p_id + "_map_size"));
+	settings.map_size_px = read_count(p_properties, p_id + "_map_size");
 	return settings;
 }
 
@@ -93,11 +85,11 @@ FinsSettings read_fins_settings(
 	settings.method =
 			choose_method(read_choice(p_inputs.settings, "method"), p_inputs.device.get_features());
 	if (p_has_inner_half) {
-		const float beta_m = static_cast<float>(std::get<double>(properties.at(p_id + "_beta")));
+		const float beta_m = read_float(properties, p_id + "_beta");
 		settings.beta_m = beta_m >= 0
 				? beta_m
 				: DEFAULT_BETA_PER_SCENE_SIZE * static_cast<float>(p_inputs.scene.scene_size_m);
-		settings.layer_count = static_cast<uint32_t>(read_int(properties, p_id + "_layers"));
+		settings.layer_count = read_count(properties, p_id + "_layers");
 		const std::string &peeling = read_choice(p_inputs.settings, "peeling");
 		if (peeling != "auto") {
 			settings.peeling = peeling == "passes" ? Peeling::PASSES : Peeling::ONE_PASS;

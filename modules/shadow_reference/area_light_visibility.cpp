@@ -1,5 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/core/finite.h"
+#include "modules/core/limits.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/disc_samples.h"
 #include "modules/shadow_reference/spread_visibility.h"
@@ -21,9 +22,6 @@ namespace {
 constexpr float MAX_RADIUS = 1e18f; // Embree drops coordinates beyond 1.8e18
 constexpr uint32_t MAX_SAMPLE_COUNT = 65536;
 constexpr uint32_t TILE_SIZE_PX = 8; // neighbouring pixels share BVH nodes in the CPU cache
-// Pixels with a visibility between these are penumbra pixels.
-constexpr float MIN_PENUMBRA_VISIBILITY = 0.002f;
-constexpr float MAX_PENUMBRA_VISIBILITY = 0.998f;
 
 void check_light(const AreaLight &p_light) {
 	if (!(p_light.disc_radius >= 0.0f && p_light.disc_radius <= MAX_RADIUS)) {

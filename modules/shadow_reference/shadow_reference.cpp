@@ -161,8 +161,7 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->light_name = p_inputs.light.name;
 	job->may_reuse = p_inputs.may_reuse;
 	job->light = make_area_light(p_inputs.scene, p_inputs.light);
-	job->options.sample_count =
-			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("reference_samples")));
+	job->options.sample_count = read_count(p_inputs.properties, "reference_samples");
 	job->triangles = collect_triangles(p_inputs.scene);
 	job->spread = find_surface_spread();
 	job->spread_bodies = collect_spread_bodies(p_inputs.scene, job->spread.get());

@@ -19,8 +19,7 @@ void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
 // Returns the views to render from the light. The casters of each view are culled to it.
 void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
-	const auto size_px =
-			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("template_map_size")));
+	const auto size_px = read_count(p_properties, "template_map_size");
 	r_views = build_light_views(p_light, p_scene, size_px, /*p_border_px=*/1);
 }
 
@@ -51,8 +50,7 @@ RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) 
 	bindings.push_back(PassBinding::read(DEPTH_MAP_BINDING_MAP, map));
 	bindings.push_back(
 			PassBinding::write(DEPTH_MAP_BINDING_MASK, mask, PassBuilder::Content::UPDATE));
-	const auto strength =
-			static_cast<float>(std::get<double>(p_inputs.properties.at("template_strength")));
+	const auto strength = read_float(p_inputs.properties, "template_strength");
 	const shader::ShadowTemplatePush push = { strength, 0, 0, 0 };
 	add_map_resolve_pass(
 			r_graph, "resolve", pipeline, std::move(bindings), p_inputs, make_push_bytes(push));

@@ -9,10 +9,6 @@ namespace {
 
 const std::string GROUP = "Shadow volume";
 
-const std::string &read_choice(const PropertyValues &p_values, const char *p_name) {
-	return std::get<std::string>(p_values.at(p_name));
-}
-
 } // namespace
 
 void add_volume_settings(bool p_is_on_cpu, PropertyList &r_list) {
@@ -52,7 +48,7 @@ VolumeSettings read_volume_settings(bool p_is_on_cpu, const ShadowTechnique::Inp
 				stencil_method == "z_pass" ? StencilMethod::Z_PASS : StencilMethod::Z_FAIL;
 	}
 	settings.is_always_robust = read_choice(values, "robust") == "always";
-	settings.has_scissor = std::get<bool>(values.at("scissor")) && p_inputs.may_skip;
+	settings.has_scissor = read_switch(values, "scissor") && p_inputs.may_skip;
 	if (p_is_on_cpu) {
 		settings.extruder = VolumeExtruder::CPU;
 	} else {

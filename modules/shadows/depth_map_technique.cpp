@@ -16,7 +16,7 @@ void DepthMapTechnique::add_size_property(PropertyList &r_list, const std::strin
 
 void DepthMapTechnique::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
-	const auto size_px = static_cast<uint32_t>(std::get<int64_t>(p_properties.at(size_property)));
+	const auto size_px = read_count(p_properties, size_property);
 	r_views = build_light_views(p_light, p_scene, size_px, get_border_px(p_properties));
 }
 

@@ -58,7 +58,7 @@ TEST_CASE("[GPU][Techniques] debug views of maps show near and far for every typ
 		}
 		std::sort(reds.begin(), reds.end());
 		reds.erase(std::unique(reds.begin(), reds.end()), reds.end());
-		CHECK(reds.size() >= 3); // at least background, box and ground
+		CHECK(reds.size() >= 3);				// at least background, box and ground
 		CHECK(reds.back() - reds.front() > 64); // a quarter of the range
 		++shown_count;
 	});

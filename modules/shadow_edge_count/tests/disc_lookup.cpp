@@ -33,8 +33,7 @@ uint64_t DiscLookup::get_mask(
 	// The diamond angle needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x.
 	const double sum = std::abs(p_direction.x) + std::abs(p_direction.y);
 	const double ratio = p_direction.y / sum;
-	const double angle =
-			(p_direction.x >= 0 ? 1.0 + ratio : 3.0 - ratio) * (DIRECTION_COUNT / 4.0);
+	const double angle = (p_direction.x >= 0 ? 1.0 + ratio : 3.0 - ratio) * (DIRECTION_COUNT / 4.0);
 	const double bin = std::floor(angle);
 	const double turn_rad = (bin + 0.5 - angle) * sum * sum / (DIRECTION_COUNT / 4.0);
 	const double offset = std::clamp(p_offset + turn_rad * p_middle, 0.0, 0.9999);

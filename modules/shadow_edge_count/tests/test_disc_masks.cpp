@@ -68,7 +68,8 @@ TEST_CASE("[EdgeCount] a wedge has the points between its directions, in each sa
 	}
 }
 
-TEST_CASE("[EdgeCount] few of 256 points are on the wrong side of an edge, about as many on either") {
+TEST_CASE(
+		"[EdgeCount] few of 256 points are on the wrong side of an edge, about as many on either") {
 	// Directions and offsets are rounded to those of the table. Points that this moves to the wrong
 	// side make shadows lighter where thin shapes overlap.
 	const uint32_t EDGE_COUNT = 4000;

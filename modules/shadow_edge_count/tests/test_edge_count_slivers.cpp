@@ -9,8 +9,8 @@ using namespace gnomon;
 
 namespace {
 
-/// Disables the receivers of which the two frames see different surfaces: slivers may move the receiver's own surface, and
-/// change which face covers a pixel at the outline of another one.
+/// Disables the receivers of which the two frames see different surfaces: slivers may move the
+/// receiver's own surface, and change which face covers a pixel at the outline of another one.
 void keep_equal_surfaces(const MaskResult &p_frame, MaskResult &r_reference) {
 	for (size_t index = 0; index < r_reference.receiver.size(); ++index) {
 		const SurfacePoint &point = p_frame.surfaces[index];
@@ -30,7 +30,8 @@ TEST_CASE("[GPU][EdgeCount] slivers in a mesh do not change its mask") {
 	const auto box = make_box_mesh("box", { 0.9f, 0.05f, 0.6f });
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
-		// Beyond 1.8 rad the sun's disc crosses the plane of a side of the box that the camera sees.
+		// Beyond 1.8 rad the sun's disc crosses the plane of a side of the box that the camera
+		// sees.
 		for (const double angle_rad : { 0.4, 1.9, 2.0, 2.1 }) {
 			CAPTURE(angle_rad);
 			SmallScene scene(type);
@@ -52,8 +53,7 @@ TEST_CASE("[GPU][EdgeCount] slivers in a mesh do not change its mask") {
 						render(make_mesh("box with slivers", positions, {}, indices));
 				MaskResult reference = clean;
 				keep_equal_surfaces(with_slivers, reference);
-				const MaskDifference difference =
-						compare_masks(with_slivers.visibility, reference);
+				const MaskDifference difference = compare_masks(with_slivers.visibility, reference);
 				CHECK(difference.receiver_count > 1000);
 				CHECK(difference.penumbra_mean < 0.001);
 				CHECK(difference.maximum < (height > 1e-6 ? 0.05 : 0.02));

@@ -46,8 +46,8 @@ TEST_CASE("[GPU][EdgeCount] masks do not depend on the order of lists, bit for b
 			const ReplacedTechnique<ReversedEdgeCount> technique;
 			const MaskResult reversed = render_frame(fixture, scene);
 			CHECK(reversed.visibility == expected.visibility);
-			CHECK(std::any_of(reversed.timings.begin(), reversed.timings.end(),
-					[](const PassTiming &p_pass) {
+			CHECK(std::any_of(
+					reversed.timings.begin(), reversed.timings.end(), [](const PassTiming &p_pass) {
 						return p_pass.name.ends_with("reverse lists");
 					}));
 		}

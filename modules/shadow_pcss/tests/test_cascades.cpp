@@ -11,13 +11,12 @@ using namespace gnomon;
 
 namespace {
 
-/// A small scene on a wide plain that casts nothing. p_has_tower: and a caster far away, so that one
-/// map of all casters is coarse. The camera does not see the tower or its shadow.
+/// A small scene on a wide plain that casts nothing. p_has_tower: and a caster far away, so that
+/// one map of all casters is coarse. The camera does not see the tower or its shadow.
 SmallScene make_wide_scene(bool p_has_tower = true) {
 	SmallScene scene(LightType::DIRECTIONAL);
 	scene.light->properties["light_angular_distance"] = 0.5;
-	add_mesh(scene.scene, "Plain", make_box_mesh("plain", glm::vec3(500, 0.1, 500)),
-			{ 0, -0.6, 0 })
+	add_mesh(scene.scene, "Plain", make_box_mesh("plain", glm::vec3(500, 0.1, 500)), { 0, -0.6, 0 })
 			.casts_shadow = false;
 	if (p_has_tower) {
 		add_mesh(scene.scene, "Tower", make_box_mesh("tower", glm::vec3(1, 20, 1)),
@@ -28,8 +27,8 @@ SmallScene make_wide_scene(bool p_has_tower = true) {
 
 std::vector<LightView> split(const SceneSnapshot &p_scene, uint32_t p_count) {
 	const LightScene scene(p_scene);
-	const std::vector<LightView> whole = build_light_views(
-			p_scene.lights[0], scene, /*p_map_size_px=*/256, /*p_border_px=*/1);
+	const std::vector<LightView> whole =
+			build_light_views(p_scene.lights[0], scene, /*p_map_size_px=*/256, /*p_border_px=*/1);
 	return split_into_cascades(whole.front(), scene, p_count, /*p_border_px=*/1);
 }
 
@@ -69,9 +68,8 @@ TEST_CASE("[Pcss] cascades keep their size while the camera moves and turns, and
 		for (size_t index = 0; index < after.size(); ++index) {
 			CHECK(after[index].half_extent == before[index].half_extent);
 			const double texel_m = 2.0 * before[index].half_extent.x / 256;
-			const glm::dvec4 moved = (after[index].view_from_world[3] -
-											 before[index].view_from_world[3]) /
-					texel_m;
+			const glm::dvec4 moved =
+					(after[index].view_from_world[3] - before[index].view_from_world[3]) / texel_m;
 			CHECK(std::abs(moved.x - std::round(moved.x)) < 1e-3);
 			CHECK(std::abs(moved.y - std::round(moved.y)) < 1e-3);
 		}
