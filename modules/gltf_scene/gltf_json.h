@@ -31,8 +31,8 @@ const uint64_t GLTF_MAX_JSON_DEPTH = 256;			 // copying and writing a value is r
 const uint64_t GLTF_MAX_JSON_KEY_COUNT = 4096;		 // of one object; the search is linear
 const uint64_t GLTF_MAX_JSON_VALUE_COUNT = 20000000; // about 1 GB once parsed
 
-/// What messages about a file end with: the next step, for what people and for what only programs
-/// write.
+/// The next step, at the end of messages: for values that people write, and for those that only
+/// exporters do.
 inline const char CORRECT_OR_EXPORT[] = "Correct it or export the file again.";
 inline const char EXPORT_AGAIN[] = "Export the file again.";
 
