@@ -31,4 +31,8 @@ std::filesystem::path find_program_path();
 /// Returns the processor's model name, or "unknown".
 std::string find_cpu_name();
 
+/// Returns the CPU time that the calling thread has used, in ms, without time in which it waited.
+/// Windows counts in steps of about 16 ms.
+double read_thread_time_ms();
+
 } // namespace gnomon

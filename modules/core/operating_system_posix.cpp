@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 
 namespace gnomon {
@@ -49,6 +50,12 @@ std::string find_cpu_name() {
 		}
 	}
 	return "unknown";
+}
+
+double read_thread_time_ms() {
+	timespec time = {};
+	::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+	return double(time.tv_sec) * 1e3 + double(time.tv_nsec) / 1e6;
 }
 
 } // namespace gnomon

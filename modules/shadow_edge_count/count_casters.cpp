@@ -101,66 +101,71 @@ struct CasterMaker {
 
 	/// Makes the casters of an instance, except for their places among all faces and edges, and
 	/// adds their meshes to the pools of meshes where needed. None if its meshes have no faces.
-	std::vector<CountCaster> make(uint32_t p_instance) const;
+	std::vector<RecordedCaster> make(uint32_t p_instance) const;
 
 private:
-	bool set_mesh(const CasterMesh &p_level, CountCaster &r_caster) const;
+	bool set_mesh(const CasterMesh &p_level, RecordedCaster &r_recorded) const;
 };
 
 /// False if the mesh has no faces.
-bool CasterMaker::set_mesh(const CasterMesh &p_level, CountCaster &r_caster) const {
+bool CasterMaker::set_mesh(const CasterMesh &p_level, RecordedCaster &r_recorded) const {
+	CountCaster &caster = r_recorded.caster;
 	CountMeshPools &pools = inputs.meshes.get_shared<CountMeshPools>();
 	const CountGpuMesh &gpu = pools.get(inputs.meshes, p_level.mesh);
-	r_caster.face_count = gpu.faces.get_count() / EDGE_COUNT_MESH_FACE_ITEMS;
-	r_caster.mesh = p_level.mesh;
-	shader::CountCasterRecord &record = r_caster.record;
+	caster.face_count = gpu.faces.get_count() / EDGE_COUNT_MESH_FACE_ITEMS;
+	caster.mesh = p_level.mesh;
+	shader::CountCasterRecord &record = r_recorded.record;
 	record.edge_count = gpu.edges.get_count();
 	record.first_mesh_face = gpu.faces.get_first();
 	record.first_mesh_edge = gpu.edges.get_first();
 	record.first_vertex = gpu.points.get_first();
 	record.first_source_part = gpu.get_first_source_part();
-	if (r_caster.face_count > 0 && p_level.mesh->rest) {
-		r_caster.posed = pools.get_posed(inputs.meshes, p_level.mesh);
-		r_caster.posed_positions =
+	if (caster.face_count > 0 && p_level.mesh->rest) {
+		caster.posed = pools.get_posed(inputs.meshes, p_level.mesh);
+		caster.posed_positions =
 				inputs.meshes.get_topology(p_level.mesh, TopologyBuffer::POSITIONS).positions.get();
-		record.first_vertex = r_caster.posed->points.get_first();
+		record.first_vertex = caster.posed->points.get_first();
 	}
-	r_caster.word_count = count_words(record.edge_count);
+	caster.word_count = count_words(record.edge_count);
 	record.first_half_width = static_cast<float>(p_level.first_half_width_m);
 	record.end_half_width = static_cast<float>(p_level.end_half_width_m);
-	return r_caster.face_count > 0;
+	caster.is_coarse = p_level.first_half_width_m > 0;
+	return caster.face_count > 0;
 }
 
-std::vector<CountCaster> CasterMaker::make(uint32_t p_instance) const {
+std::vector<RecordedCaster> CasterMaker::make(uint32_t p_instance) const {
 	const double WIDENING = 1.01; // for rounding
 	const InstanceSnapshot &instance = inputs.scene.instances[p_instance];
 	const LightView &first_view = inputs.views.front();
 	const std::vector<CasterMesh> meshes = may_have_lods
 			? list_caster_meshes(instance, inputs.light, inputs.summary.get_bounds(), disc_radius)
 			: std::vector<CasterMesh>(1, { instance.caster_mesh });
-	CountCaster caster;
+	RecordedCaster recorded;
+	CountCaster &caster = recorded.caster;
 	caster.instance = p_instance;
 	caster.pose_hash = instance.get_pose_hash();
 	caster.views = find_seeing_views(inputs, p_instance);
-	caster.record.light_from_node = first_view.view_from_world * instance.world_from_node;
-	caster.record.flags = (instance.is_mirrored() ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
+	recorded.record.light_from_node = first_view.view_from_world * instance.world_from_node;
+	recorded.record.flags = (instance.is_mirrored() ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
 			(meshes.size() > 1 ? EDGE_COUNT_CASTER_LOD : 0u);
-	caster.record.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
+	recorded.record.scale = static_cast<float>(compute_max_stretch(instance.world_from_node));
 	caster.may_cut_disc = !first_view.is_orthographic && disc_radius > 0 &&
 			compute_min_distance_m(instance, glm::inverse(first_view.view_from_world)[3]) <=
 					WIDENING * disc_radius;
-	std::vector<CountCaster> casters;
+	std::vector<RecordedCaster> casters;
 	for (const CasterMesh &level : meshes) {
-		if (set_mesh(level, caster)) {
-			casters.push_back(caster);
+		if (set_mesh(level, recorded)) {
+			casters.push_back(recorded);
 		}
 	}
 	return casters;
 }
 
-bool has_moved(const CountCaster &p_before, const CountCaster &p_caster) {
-	return p_caster.record.light_from_node != p_before.record.light_from_node ||
-			p_caster.pose_hash != p_before.pose_hash;
+/// Whether a caster, p_index of p_before, was elsewhere there, or in another pose.
+bool has_moved(const CountCasters &p_before, uint32_t p_index, const CountCaster &p_caster,
+		const shader::CountCasterRecord &p_record) {
+	return p_record.light_from_node != p_before.records[p_index].light_from_node ||
+			p_caster.pose_hash != p_before.casters[p_index].pose_hash;
 }
 
 /// Whether both make the same casters for a light.
@@ -176,20 +181,6 @@ bool is_same_caster(const InstanceSnapshot &p_before, const InstanceSnapshot &p_
 bool is_collapsed(const InstanceSnapshot &p_instance) {
 	const double volume = glm::determinant(glm::dmat3(p_instance.world_from_node));
 	return volume == 0 || !std::isfinite(volume);
-}
-
-/// Sets a caster's place after all others, and adds it.
-void add_caster(const std::string &p_light, CountCaster p_caster, CountCasters &r_casters) {
-	shader::CountCasterRecord &record = p_caster.record;
-	record.first_face = r_casters.face_count;
-	record.first_word = r_casters.word_count;
-	r_casters.face_count =
-			add_checked(r_casters.face_count, p_caster.face_count, "triangles", p_light);
-	r_casters.edge_count = add_checked(r_casters.edge_count, record.edge_count, "edges", p_light);
-	r_casters.word_count += p_caster.word_count;
-	uint32_t &first = r_casters.first_casters[p_caster.instance];
-	first = std::min(first, static_cast<uint32_t>(r_casters.casters.size()));
-	r_casters.casters.push_back(std::move(p_caster));
 }
 
 /// Sets what some casters have and the others lack.
@@ -209,9 +200,34 @@ void sum_up(CountCasters &r_casters) {
 
 bool CountCasters::has_layout_of(const CountCasters &p_other) const {
 	return std::equal(casters.begin(), casters.end(), p_other.casters.begin(),
-			p_other.casters.end(), [](const CountCaster &p_a, const CountCaster &p_b) {
-				return p_a.mesh == p_b.mesh && p_a.record.flags == p_b.record.flags;
-			});
+				   p_other.casters.end(),
+				   [](const CountCaster &p_a, const CountCaster &p_b) {
+					   return p_a.mesh == p_b.mesh;
+				   }) &&
+			std::equal(records.begin(), records.end(), p_other.records.begin(),
+					[](const shader::CountCasterRecord &p_a, const shader::CountCasterRecord &p_b) {
+						return p_a.flags == p_b.flags;
+					});
+}
+
+void CountCasters::add(const std::string &p_light, RecordedCaster p_caster) {
+	CountCaster &caster = p_caster.caster;
+	shader::CountCasterRecord &record = p_caster.record;
+	const auto index = static_cast<uint32_t>(casters.size());
+	record.first_face = face_count;
+	record.first_word = word_count;
+	add_work_items(index, { face_count, caster.face_count }, face_groups);
+	add_work_items(index, { word_count, caster.word_count }, word_groups);
+	face_count = add_checked(face_count, caster.face_count, "triangles", p_light);
+	edge_count = add_checked(edge_count, record.edge_count, "edges", p_light);
+	word_count += caster.word_count;
+	coarse_count += caster.is_coarse ? 1 : 0;
+	if (caster.posed) {
+		posed.push_back(index);
+	}
+	moved.push_back(index);
+	records.push_back(record);
+	casters.push_back(std::move(caster));
 }
 
 CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
@@ -244,8 +260,10 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
 			++result.collapsed_instance_count;
 			continue;
 		}
-		for (CountCaster &caster : maker.make(index)) {
-			add_caster(p_inputs.light.name, std::move(caster), result);
+		for (RecordedCaster &caster : maker.make(index)) {
+			uint32_t &first = result.first_casters[index];
+			first = std::min(first, static_cast<uint32_t>(result.casters.size()));
+			result.add(p_inputs.light.name, std::move(caster));
 		}
 	}
 	sum_up(result);
@@ -295,23 +313,27 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 	moved.instances = instances;
 	for (const uint32_t index : changed) {
 		uint32_t place = p_casters.first_casters[index];
-		std::vector<CountCaster> made;
+		std::vector<RecordedCaster> made;
 		if (!is_collapsed(instances[index])) {
 			made = maker.make(index);
 		}
 		if (made.empty() != (place == CountCasters::NO_CASTER)) {
 			return {};
 		}
-		for (CountCaster &caster : made) {
-			const CountCaster &before = p_casters.casters[place]; // flags tell if there are two
-			if (before.mesh != caster.mesh || before.record.flags != caster.record.flags ||
+		for (RecordedCaster &recorded : made) {
+			const CountCaster &caster = recorded.caster;
+			const CountCaster &before = p_casters.casters[place];
+			const shader::CountCasterRecord &before_record = p_casters.records[place];
+			if (before.mesh != caster.mesh ||
+					before_record.flags != recorded.record.flags || // they tell if there are two
 					(caster.may_cut_disc && !p_casters.may_cut_disc)) {
 				return {};
 			}
-			caster.record.first_face = before.record.first_face;
-			caster.record.first_word = before.record.first_word;
-			if (has_moved(before, caster) || before.views != caster.views) {
-				moved.casters.emplace_back(place, std::move(caster));
+			recorded.record.first_face = before_record.first_face;
+			recorded.record.first_word = before_record.first_word;
+			if (has_moved(p_casters, place, caster, recorded.record) ||
+					before.views != caster.views) {
+				moved.casters.emplace_back(place, std::move(recorded));
 			}
 			++place;
 		}
@@ -320,24 +342,20 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 }
 
 void MovedCasters::apply_to(CountCasters &r_casters) {
-	if (r_casters.moved.empty()) { // they were collected, or compared
-		for (CountCaster &caster : r_casters.casters) {
-			caster.is_moved = false;
-		}
-	}
-	for (const uint32_t place : r_casters.moved) {
-		r_casters.casters[place].is_moved = false;
-	}
 	r_casters.moved.clear();
 	bool has_same_sums = true;
-	for (auto &[place, caster] : casters) {
+	for (auto &[place, recorded] : casters) {
+		CountCaster &caster = recorded.caster;
 		CountCaster &replaced = r_casters.casters[place];
 		has_same_sums = has_same_sums && replaced.views == caster.views &&
 				replaced.may_cut_disc == caster.may_cut_disc;
-		caster.is_moved = has_moved(replaced, caster);
+		if (has_moved(r_casters, place, caster, recorded.record)) {
+			r_casters.moved.push_back(place);
+		}
+		r_casters.records[place] = recorded.record;
 		replaced = std::move(caster);
-		r_casters.moved.push_back(place);
 	}
+	std::sort(r_casters.moved.begin(), r_casters.moved.end());
 	r_casters.instances = instances;
 	if (!has_same_sums) {
 		sum_up(r_casters);
@@ -345,11 +363,10 @@ void MovedCasters::apply_to(CountCasters &r_casters) {
 }
 
 void compare_casters(const CountCasters &p_before, CountCasters &r_casters) {
-	for (size_t index = 0; index < r_casters.casters.size(); ++index) {
-		CountCaster &caster = r_casters.casters[index];
-		const CountCaster &before = p_before.casters[index];
-		caster.is_moved = has_moved(before, caster);
-	}
+	std::erase_if(r_casters.moved, [&](uint32_t p_index) {
+		return !has_moved(
+				p_before, p_index, r_casters.casters[p_index], r_casters.records[p_index]);
+	});
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include "modules/shadow_edge_count/caster_order.h"
 #include "modules/shadow_edge_count/count_mesh.h"
+#include "modules/shadow_edge_count/work_groups.h"
 #include "modules/shadows/shadow_technique.h"
 
 #include <memory>
@@ -23,18 +24,18 @@ struct CountCaster {
 	uint32_t views = 0; // bit i: view i may see it
 	uint32_t face_count = 0;
 	uint32_t word_count = 0; // words of EDGE_COUNT_EDGES_PER_WORD edges
-	shader::CountCasterRecord record = {};
 	// Of a deformed mesh: its vertices in the pool, and the buffer that they are copied from.
 	std::shared_ptr<CountPosedMesh> posed;
 	BufferRID posed_positions;
-	/// Its transform in light space or its pose has changed since the light's faces and edges were
-	/// last found.
-	bool is_moved = true;
+	bool is_coarse = false; // the coarse one of two LODs
 	/// Its instance's bounds come within R of the light's centre.
 	bool may_cut_disc = false;
+};
 
-	/// Whether it is the coarse one of two LODs.
-	bool is_coarse() const { return record.first_half_width > 0; }
+/// A caster, and what passes read of it.
+struct RecordedCaster {
+	CountCaster caster;
+	shader::CountCasterRecord record = {};
 };
 
 /// The casters of all views of a light, each once or, for a cut-out with a coarse LOD,
@@ -43,6 +44,14 @@ struct CountCasters {
 	static constexpr uint32_t NO_CASTER = ~0u;
 
 	std::vector<CountCaster> casters;
+	std::vector<shader::CountCasterRecord> records;	 // of the casters
+	std::vector<shader::CountWorkGroup> face_groups; // of all faces, see work_groups.h
+	std::vector<shader::CountWorkGroup> word_groups; // of all words of edges
+	std::vector<uint32_t> posed;					 // indices of casters whose mesh is deformed
+	/// Indices, ascending, of casters whose transform in light space or pose has changed since the
+	/// light's faces and edges were last found.
+	std::vector<uint32_t> moved;
+	uint32_t coarse_count = 0; // of casters with CountCaster::is_coarse
 	uint32_t face_count = 0;
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;			   // words of EDGE_COUNT_EDGES_PER_WORD edges
@@ -56,7 +65,6 @@ struct CountCasters {
 	SharedVector<InstanceSnapshot> instances; // of the scene
 	std::vector<uint32_t> indices;			  // of the instances that cast
 	std::vector<uint32_t> first_casters;	  // by instance: index of its first caster, NO_CASTER
-	std::vector<uint32_t> moved; // indices of the casters that apply_to() replaced last
 	Bounds scene_bounds_world;
 	bool may_have_lods = false; // there are not too many triangles
 	uint32_t view_count = 0;
@@ -64,6 +72,9 @@ struct CountCasters {
 	/// True if both have the same meshes and flags in the same order, so that face indices stay
 	/// valid.
 	bool has_layout_of(const CountCasters &p_other) const;
+	/// Adds a caster with its items after those of all others, as one that has moved. p_light: its
+	/// name. Throws an Error if there are more faces or edges than MAX_CASTER_FACES.
+	void add(const std::string &p_light, RecordedCaster p_caster);
 };
 
 /// Collects the casters, in the order of r_order, and uploads their meshes where needed. p_indices:
@@ -76,9 +87,9 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs,
 /// Casters that have moved since CountCasters were collected: their indices there, and what
 /// replaces them.
 struct MovedCasters {
-	std::vector<std::pair<uint32_t, CountCaster>> casters;
+	std::vector<std::pair<uint32_t, RecordedCaster>> casters;
 	SharedVector<InstanceSnapshot> instances; // of the scene
-	/// Replaces the casters, and sets CountCaster::is_moved of these alone.
+	/// Replaces the casters; CountCasters::moved are these alone.
 	void apply_to(CountCasters &r_casters);
 };
 /// Finds what build_count_casters would return differently, if that is only where casters are.
@@ -88,8 +99,8 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 		const std::vector<uint32_t> &p_indices, const CountCasters &p_casters,
 		CasterOrder &r_order);
 
-/// Clears CountCaster::is_moved of casters with the same transform and pose as in p_before, which
-/// are earlier casters of the same light with the same layout.
+/// Removes those casters from CountCasters::moved that have the same transform and pose as in
+/// p_before, which are earlier casters of the same light with the same layout.
 void compare_casters(const CountCasters &p_before, CountCasters &r_casters);
 
 } // namespace gnomon

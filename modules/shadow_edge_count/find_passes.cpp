@@ -50,15 +50,10 @@ Upload make_upload(RenderGraph &r_graph, BufferDesc p_desc, const auto &p_values
 void upload_casters(RenderGraph &r_graph, const RenderingDevice &p_device,
 		const CountCasters &p_casters, const std::vector<shader::CountWorkGroup> &p_groups,
 		std::vector<SharedBuffer> p_owned, CasterBuffers &r_buffers) {
-	std::vector<shader::CountCasterRecord> records;
-	records.reserve(p_casters.casters.size());
-	for (const CountCaster &caster : p_casters.casters) {
-		records.push_back(caster.record);
-	}
 	const std::vector<Upload> uploads = { make_upload(r_graph,
 												  make_fetched_buffer_desc(p_device, "casters",
 														  /*p_size_bytes=*/0, Format::RGBA32_UINT),
-												  std::as_const(records)),
+												  p_casters.records),
 		make_upload(r_graph, { .name = "caster work groups", .usage = BufferUsage::STORAGE },
 				p_groups) };
 	r_buffers.casters = uploads[0].target;
@@ -79,9 +74,9 @@ void upload_casters(RenderGraph &r_graph, const RenderingDevice &p_device,
 /// another pose than those in the pool.
 void add_pose_pass(RenderGraph &r_graph, const CountCasters &p_casters, BufferRID p_buffer) {
 	std::vector<CountCaster> posed;
-	for (const CountCaster &caster : p_casters.casters) {
-		if (caster.posed &&
-				(caster.posed->pose_hash != caster.pose_hash || caster.posed->buffer != p_buffer)) {
+	for (const uint32_t index : p_casters.posed) {
+		const CountCaster &caster = p_casters.casters[index];
+		if (caster.posed->pose_hash != caster.pose_hash || caster.posed->buffer != p_buffer) {
 			posed.push_back(caster);
 		}
 	}
@@ -187,17 +182,25 @@ void add_find_passes(
 	const CountCasters &casters = p_passes.casters;
 	const CountMeshPools &meshes = p_passes.meshes;
 	std::vector<shader::CountWorkGroup> groups;
-	const auto add_work = [&](CasterItems p_items, bool p_is_moved_only) {
-		const std::vector<shader::CountWorkGroup> added =
-				build_work_groups(casters, p_items, p_is_moved_only);
-		const CasterWork work = { uint32_t(groups.size()), uint32_t(added.size()),
-			p_items == CasterItems::FACES ? casters.face_count : casters.word_count };
-		groups.insert(groups.end(), added.begin(), added.end());
+	const auto add_work = [&](const std::vector<shader::CountWorkGroup> &p_added,
+								  uint32_t p_item_count) {
+		const CasterWork work = { uint32_t(groups.size()), uint32_t(p_added.size()), p_item_count };
+		groups.insert(groups.end(), p_added.begin(), p_added.end());
 		return work;
 	};
-	const CasterWork face_work = add_work(CasterItems::FACES, /*p_is_moved_only=*/true);
-	const CasterWork marked = add_work(CasterItems::WORDS, /*p_is_moved_only=*/true);
-	const CasterWork listed = add_work(CasterItems::WORDS, /*p_is_moved_only=*/false);
+	std::vector<CasterItems> moved_faces;
+	std::vector<CasterItems> moved_words;
+	for (const uint32_t index : casters.moved) {
+		const CountCaster &caster = casters.casters[index];
+		const shader::CountCasterRecord &record = casters.records[index];
+		moved_faces.push_back({ record.first_face, caster.face_count });
+		moved_words.push_back({ record.first_word, caster.word_count });
+	}
+	const CasterWork face_work =
+			add_work(select_work_groups(casters.face_groups, moved_faces), casters.face_count);
+	const CasterWork marked =
+			add_work(select_work_groups(casters.word_groups, moved_words), casters.word_count);
+	const CasterWork listed = add_work(casters.word_groups, casters.word_count);
 	if (!groups.empty()) {
 		CasterBuffers inputs;
 		upload_casters(r_graph, p_device, casters, groups,

@@ -176,12 +176,12 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 }
 
 void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
-	uint32_t reused_count = 0;
-	uint32_t moved_count = 0;
-	uint32_t coarse_count = 0;
-	for (const CountCaster &caster : cached.casters.casters) {
-		++(caster.is_coarse() ? coarse_count : caster.is_moved ? moved_count : reused_count);
-	}
+	const CountCasters &casters = cached.casters;
+	const size_t coarse_count = casters.coarse_count;
+	const auto moved_count =
+			static_cast<size_t>(std::count_if(casters.moved.begin(), casters.moved.end(),
+					[&](uint32_t p_index) { return !casters.casters[p_index].is_coarse; }));
+	const size_t reused_count = casters.casters.size() - coarse_count - moved_count;
 	if (coarse_count > 0) {
 		r_plan.run(text("coarse outlines where the penumbra is wide, casters: ", coarse_count));
 	}
@@ -197,14 +197,14 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 				"their shadows reach nothing that the camera sees, and all have too many "
 				"triangles");
 	}
-	if (cached.casters.collapsed_instance_count > 0) {
-		r_plan.skip(text("edges of instances: ", cached.casters.collapsed_instance_count),
+	if (casters.collapsed_instance_count > 0) {
+		r_plan.skip(text("edges of instances: ", casters.collapsed_instance_count),
 				"their transform collapses them to a line or a point");
 	}
 	if (settings.disc_radius <= 0) {
 		r_plan.skip("edges", "the light has no size");
 	}
-	if (cached.casters.may_cut_disc) {
+	if (casters.may_cut_disc) {
 		r_plan.run("faces that cut the light's disc");
 	} else if (cached.disc_radius > 0) {
 		r_plan.skip("faces that cut the light's disc", "no caster comes so near to its centre");

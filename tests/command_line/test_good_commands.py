@@ -135,6 +135,7 @@ class GoodCommands(CommandLineTest):
         self.assertGreater(found["whole"]["draws"], found["lean"]["draws"])
         # call_ms covers the frame and the program's CPU work for it.
         self.assertGreater(found["lean"]["call_ms"], 0.5 * found["lean"]["frame"]["wall_ms"])
+        self.assertGreater(found["lean"]["host_ms"], 0)
         # A light's passes are named LIGHT: PASS.
         self.assertGreater(len({item["name"].split(": ")[0] for item in found["lean"]["passes"]}), 2)
 

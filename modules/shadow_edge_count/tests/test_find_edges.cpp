@@ -4,7 +4,6 @@
 #include "modules/shadow_edge_count/count_mesh.h"
 #include "modules/shadow_edge_count/tests/count_records.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
-#include "modules/shadow_edge_count/work_groups.h"
 #include "modules/shadows/fetched_buffers.h"
 
 #include "tests/shaders/kernel_fixture.h"
@@ -30,32 +29,28 @@ struct Caster {
 /// The casters and their meshes as the passes read them.
 struct FindInputs {
 	CountCasters casters;
-	std::vector<shader::CountCasterRecord> records;
 	std::vector<shader::CountMeshFace> faces;
 	std::vector<shader::CountMeshEdge> edges;
 	std::vector<glm::vec4> points;
 
 	void add(const Caster &p_caster) {
 		const bool is_mirrored = glm::determinant(glm::dmat3(p_caster.light_from_node)) < 0;
-		CountCaster caster;
+		RecordedCaster recorded;
+		CountCaster &caster = recorded.caster;
 		caster.face_count = uint32_t(p_caster.mesh.faces.size());
 		const uint32_t edge_count = uint32_t(p_caster.mesh.edges.size());
 		caster.word_count =
 				(edge_count + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
-		caster.record = { glm::mat4(p_caster.light_from_node), casters.face_count,
-			casters.word_count, edge_count, is_mirrored ? EDGE_COUNT_CASTER_MIRRORED : 0u,
+		recorded.record = { glm::mat4(p_caster.light_from_node), /*first_face=*/0,
+			/*first_word=*/0, edge_count, is_mirrored ? EDGE_COUNT_CASTER_MIRRORED : 0u,
 			uint32_t(EDGE_COUNT_MESH_FACE_ITEMS * faces.size()), uint32_t(edges.size()),
 			uint32_t(points.size()) };
-		casters.face_count += caster.face_count;
-		casters.edge_count += edge_count;
-		casters.word_count += caster.word_count;
 		faces.insert(faces.end(), p_caster.mesh.faces.begin(), p_caster.mesh.faces.end());
 		edges.insert(edges.end(), p_caster.mesh.edges.begin(), p_caster.mesh.edges.end());
 		for (const glm::vec3 &position : p_caster.topology->welded_positions_node) {
 			points.emplace_back(position, 1.0f);
 		}
-		records.push_back(caster.record);
-		casters.casters.push_back(caster);
+		casters.add("light", std::move(recorded));
 	}
 };
 
@@ -78,13 +73,11 @@ Found find_edges(
 	const uint32_t face_count = inputs.casters.face_count;
 	const uint32_t word_count = inputs.casters.word_count;
 	const uint32_t edge_count = inputs.casters.edge_count;
-	const std::vector<shader::CountWorkGroup> face_groups =
-			build_work_groups(inputs.casters, CasterItems::FACES, /*p_is_moved_only=*/false);
-	const std::vector<shader::CountWorkGroup> word_groups =
-			build_work_groups(inputs.casters, CasterItems::WORDS, /*p_is_moved_only=*/false);
+	const std::vector<shader::CountWorkGroup> &face_groups = inputs.casters.face_groups;
+	const std::vector<shader::CountWorkGroup> &word_groups = inputs.casters.word_groups;
 	const uint32_t run_count = uint32_t(word_groups.size());
 	const OwnedBuffer casters =
-			r_fixture.make_buffer("casters", inputs.records, fetched, Format::RGBA32_UINT);
+			r_fixture.make_buffer("casters", inputs.casters.records, fetched, Format::RGBA32_UINT);
 	const OwnedBuffer points =
 			r_fixture.make_buffer("points", inputs.points, fetched, Format::RGBA32_SFLOAT);
 	const OwnedBuffer mesh_faces =
