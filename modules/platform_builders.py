@@ -11,7 +11,7 @@ from SCons.Script import Action
 
 # Third-party headers of the add-on. They are independent of the platform, so Debian's own packages provide them.
 HEADERS = ("glm", "glslang", "nlohmann", "xxhash.h")
-PROGRAM_HEADERS = ("CLI", "doctest", "stb", "tiny_gltf.h", "vulkan", "vk_video")  # of the program, in addition
+PROGRAM_HEADERS = ("CLI", "doctest", "tiny_gltf.h", "vulkan", "vk_video")  # of the program, in addition
 LIBRARY_FOLDER = "build/windows_libraries"  # see windows_libraries.py
 HEADER_FOLDER = "/usr/include"
 HOST_ARCH = {"aarch64": "arm64"}.get(os.uname().machine, os.uname().machine)

@@ -42,12 +42,9 @@ CHANGES = {
         ("common/cmake/package.cmake", 'INSTALL(FILES "${PROJECT_SOURCE_DIR}/readme.pdf" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT lib)', ""),
     ],
 }
-# Libraries whose headers contain them: source file, and the Debian package of the header.
-FROM_HEADERS = {
-    "stb": ("#define STB_IMAGE_IMPLEMENTATION\n#define STB_IMAGE_WRITE_IMPLEMENTATION\n"
-            "#include <stb/stb_image.h>\n#include <stb/stb_image_write.h>\n", "libstb-dev"),
-    "tinygltf": ("#define TINYGLTF_IMPLEMENTATION\n#include <tiny_gltf.h>\n", "libtinygltf-dev"),
-}  # fmt: skip
+# tinygltf is contained in its header, and the parts of stb that it calls in theirs: the source file, and Debian's packages.
+TINYGLTF = "".join("#define %s_IMPLEMENTATION\n" % name for name in ("STB_IMAGE", "STB_IMAGE_WRITE", "TINYGLTF")) + "#include <tiny_gltf.h>\n"
+HEADER_PACKAGES = ("libtinygltf-dev", "libstb-dev")
 VULKAN_HEADER = "/usr/include/vulkan/vulkan_core.h"
 HEADERS = ("stb", "nlohmann", "tiny_gltf.h")
 
@@ -165,20 +162,18 @@ def build_source(source, folder, toolchain, options):
     shutil.rmtree(build)
 
 
-def build_from_headers(folder, work):
-    """Build the libraries of FROM_HEADERS."""
+def build_tinygltf(folder, work):
     links = os.path.join(work, "links")
     os.makedirs(links, exist_ok=True)
     for name in HEADERS:
         link = os.path.join(links, name)
         if not os.path.lexists(link):
             os.symlink("/usr/include/" + name, link)
-    for name, (text, _) in FROM_HEADERS.items():
-        source = os.path.join(work, name + ".cpp")
-        write_text(source, text)
-        made = os.path.join(work, name + ".o")
-        run([COMPILERS["CXX"], "-O2", "-g1", "-w", "-isystem", links, "-isystem", links + "/stb", "-c", source, "-o", made])
-        run([TOOLS + "ar", "rcs", os.path.join(folder, "lib", "lib%s.a" % name), made])
+    source = os.path.join(work, "tinygltf.cpp")
+    write_text(source, TINYGLTF)
+    made = os.path.join(work, "tinygltf.o")
+    run([COMPILERS["CXX"], "-O2", "-g1", "-w", "-isystem", links, "-isystem", links + "/stb", "-c", source, "-o", made])
+    run([TOOLS + "ar", "rcs", os.path.join(folder, "lib", "libtinygltf.a"), made])
 
 
 def make_vulkan_import(folder, work):
@@ -257,8 +252,8 @@ def build(folder):
             shutil.rmtree(source)
             write_text(made, own_recipe + "\n" + version + "\n")
         versions.append("%s %s" % (package, read_text(made).splitlines()[1]))
-    build_from_headers(folder, work)
-    for package in [*(package for _, package in FROM_HEADERS.values()), "libz-mingw-w64-dev"]:
+    build_tinygltf(folder, work)
+    for package in (*HEADER_PACKAGES, "libz-mingw-w64-dev"):
         copy_licence(folder, package, "/usr/share/doc/" + package)
         versions.append("%s %s" % (package, run(["dpkg-query", "-W", "-f", "${Version}", package])))
     make_vulkan_import(folder, work)

@@ -12,4 +12,4 @@ def get_description():
 
 def configure(env):
     if not env["godot"]:
-        env.Append(LIBS=["stb"])  # PNG
+        env.Append(LIBS=["png", "z"])

@@ -4,19 +4,9 @@
 #include "modules/core/files.h"
 #include "modules/core/limits.h"
 
-#include <stb/stb_image_write.h>
+#include <png.h>
 
 namespace gnomon {
-
-namespace {
-
-void append_bytes(void *r_bytes, void *p_data, int p_count) {
-	const uint8_t *data = static_cast<const uint8_t *>(p_data);
-	std::vector<uint8_t> &bytes = *static_cast<std::vector<uint8_t> *>(r_bytes);
-	bytes.insert(bytes.end(), data, data + p_count);
-}
-
-} // namespace
 
 std::vector<uint8_t> encode_png(
 		const glm::uvec2 &p_size_px, uint32_t p_channel_count, std::span<const uint8_t> p_pixels) {
@@ -29,13 +19,19 @@ std::vector<uint8_t> encode_png(
 	GNOMON_ASSERT(p_channel_count >= 1 && p_channel_count <= 4 &&
 					p_pixels.size() == row_bytes * p_size_px.y,
 			p_pixels.size(), " bytes for ", p_channel_count, " channels");
-	std::vector<uint8_t> bytes;
-	const int is_written = stbi_write_png_to_func(append_bytes, &bytes,
-			static_cast<int>(p_size_px.x), static_cast<int>(p_size_px.y),
-			static_cast<int>(p_channel_count), p_pixels.data(), static_cast<int>(row_bytes));
-	if (is_written == 0 || bytes.empty()) {
-		fail("it cannot be encoded: out of memory. Use a smaller size.");
+	const uint32_t formats[] = { PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA };
+	png_image image = {};
+	image.version = PNG_IMAGE_VERSION;
+	image.width = p_size_px.x;
+	image.height = p_size_px.y;
+	image.format = formats[p_channel_count - 1];
+	png_alloc_size_t byte_count = PNG_IMAGE_PNG_SIZE_MAX(image);
+	std::vector<uint8_t> bytes(byte_count);
+	if (png_image_write_to_memory(&image, bytes.data(), &byte_count, /*convert_to_8_bit=*/0,
+				p_pixels.data(), static_cast<png_int_32>(row_bytes), /*colormap=*/nullptr) == 0) {
+		fail("it cannot be encoded: ", image.message, ". Use a smaller size.");
 	}
+	bytes.resize(byte_count);
 	return bytes;
 }
 

@@ -23,7 +23,7 @@ def get_doc():
 
 
 def configure(env):
-    env.Append(LIBS=["imgui", "stb", "glfw"])
+    env.Append(LIBS=["imgui", "stb", "glfw"])  # imgui uses stb
 
 
 def get_include_folders(env):

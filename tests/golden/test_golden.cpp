@@ -7,10 +7,10 @@
 #include "modules/renderer/tests/render_fixture.h"
 
 #include "tests/demo_scene.h"
+#include "tests/png_pixels.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
-#include <stb/stb_image.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -53,19 +53,11 @@ GoldenSettings load_settings(const std::string &p_scene) {
 }
 
 GoldenImage load_image(const fs::path &p_path) {
-	int width = 0;
-	int height = 0;
-	int channel_count = 0;
-	uint8_t *data =
-			stbi_load(p_path.string().c_str(), &width, &height, &channel_count, CHANNEL_COUNT);
-	if (data == nullptr) {
-		fail("Golden ", p_path, " cannot be read: ", stbi_failure_reason(),
-				". Make it with tests/golden/update.sh.");
+	if (!fs::exists(p_path)) {
+		fail("Golden ", p_path, " does not exist. Make it with tests/golden/update.sh.");
 	}
-	GoldenImage image = { glm::uvec2(width, height),
-		std::vector<uint8_t>(data, data + size_t(width) * height * CHANNEL_COUNT) };
-	stbi_image_free(data);
-	return image;
+	const PngPixels pixels = load_png_pixels(p_path, CHANNEL_COUNT);
+	return { pixels.size_px, pixels.values };
 }
 
 void save_image(const fs::path &p_path, const GoldenImage &p_image) {

@@ -3,8 +3,9 @@
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/masks/mask_png.h"
 
+#include "tests/png_pixels.h"
+
 #include <doctest/doctest.h>
-#include <stb/stb_image.h>
 
 #include <filesystem>
 #include <limits>
@@ -22,20 +23,11 @@ MaskImage make_test_mask() {
 	return image;
 }
 
-std::vector<uint8_t> load_png(const fs::path &p_path, int p_channel_count) {
-	const std::vector<uint8_t> bytes = load_file(p_path);
-	int width = 0;
-	int height = 0;
-	int channel_count = 0;
-	stbi_uc *pixels = stbi_load_from_memory(
-			bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channel_count, 0);
-	REQUIRE(pixels != nullptr);
-	CHECK(width == 3);
-	CHECK(height == 2);
-	CHECK(channel_count == p_channel_count);
-	const std::vector<uint8_t> copy(pixels, pixels + 6 * p_channel_count);
-	stbi_image_free(pixels);
-	return copy;
+std::vector<uint8_t> load_png(const fs::path &p_path, uint32_t p_channel_count) {
+	const PngPixels pixels = load_png_pixels(p_path, 0);
+	CHECK(pixels.size_px == glm::uvec2(3, 2));
+	CHECK(pixels.channel_count == p_channel_count);
+	return pixels.values;
 }
 
 } // namespace
