@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 
 namespace gnomon {
 
@@ -20,6 +22,17 @@ namespace {
 
 const char CACHE_MAGIC[8] = { 'G', 'N', 'O', 'M', 'O', 'N', 'C', '1' };
 const size_t CACHE_HEADER_BYTES = sizeof(CACHE_MAGIC) + 2 * sizeof(uint64_t);
+
+// Absolute paths of the files that load_file has loaded, for check_outputs.
+std::mutex loaded_mutex;
+std::set<fs::path> loaded_paths;
+
+void remember_loaded(const fs::path &p_path) {
+	std::error_code code;
+	const fs::path path = fs::absolute(p_path, code);
+	const std::lock_guard<std::mutex> lock(loaded_mutex);
+	loaded_paths.insert(path);
+}
 
 /// Returns the folder that p_variable names, else the system's, else p_temporary below the folder
 /// of temporary files, and creates it if absent. A failure to create it is reported by the first
@@ -66,7 +79,35 @@ std::vector<uint8_t> load_file(const fs::path &p_path, uint64_t p_limit_bytes) {
 	if (!stream) {
 		fail("Cannot read ", p_path, ": ", std::strerror(errno), ". Check its permissions.");
 	}
+	remember_loaded(p_path);
 	return bytes;
+}
+
+void check_outputs(std::span<const OutputFile> p_outputs) {
+	std::set<fs::path> inputs;
+	{
+		const std::lock_guard<std::mutex> lock(loaded_mutex);
+		inputs = loaded_paths;
+	}
+	std::error_code code;
+	std::map<fs::path, std::string> options; // by the path without links
+	for (const OutputFile &output : p_outputs) {
+		const bool exists = !output.path.empty() && fs::exists(output.path, code);
+		if (output.path.empty() || (exists && !fs::is_regular_file(output.path, code))) {
+			continue; // not requested, or a device such as /dev/null
+		}
+		for (const fs::path &input : exists ? inputs : std::set<fs::path>()) {
+			if (fs::equivalent(output.path, input, code)) {
+				fail(output.option, " ", output.path, " would overwrite ", input,
+						", which this command reads. Name another file.");
+			}
+		}
+		const fs::path path = fs::weakly_canonical(fs::absolute(output.path), code);
+		if (const auto [found, is_new] = options.emplace(path, output.option); !is_new) {
+			fail(output.option, " and ", found->second, " both name ", output.path,
+					". Name another file.");
+		}
+	}
 }
 
 std::string load_text_file(const fs::path &p_path, uint64_t p_limit_bytes) {

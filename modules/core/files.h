@@ -25,6 +25,16 @@ std::vector<uint8_t> load_file(
 std::string load_text_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
 
+/// A file that an option of the command line names, to be written.
+struct OutputFile {
+	std::string option;			// "--out"
+	std::filesystem::path path; // empty: not requested
+};
+
+/// Throws an Error if an output is a file that load_file has loaded, or two outputs are one file,
+/// whatever links lead to it. Call it when the inputs are loaded, before anything is computed.
+void check_outputs(std::span<const OutputFile> p_outputs);
+
 /// Writes a temporary file next to the target, syncs it to disk and renames it, so that the target
 /// is always the complete old or the complete new file, even if the process is killed. A process's
 /// first save into a folder removes the temporary files that killed processes left there. An

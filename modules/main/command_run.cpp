@@ -111,6 +111,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 void run(const CommonOptions &p_common) {
 	glm::uvec2 size_px = choose_size(options.size, options.scene);
 	options.antialiasing = choose_antialiasing(options.antialiasing, options.scene);
+	check_png_name("--capture", options.capture);
 	for (const std::filesystem::path &path : { options.capture, options.dot, options.time_path }) {
 		if (!path.empty()) {
 			check_writable(path);
@@ -120,6 +121,9 @@ void run(const CommonOptions &p_common) {
 		options.reference = RunPartRegistry::find(MASKS_PART)->load_reference(reference_path);
 	}
 	const std::unique_ptr<Scene> scene = load_scene(options.scene, p_common, size_px);
+	const OutputFile outputs[] = { { "--capture", options.capture }, { "--dot", options.dot },
+		{ "--time", options.time_path } };
+	check_outputs(outputs);
 	for (const std::string &setting : options.settings) {
 		apply_setting(*scene, nullptr, setting);
 	}

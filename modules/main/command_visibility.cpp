@@ -48,7 +48,10 @@ struct VisibilityOptions {
 };
 
 /// Inserts the frame number before the extension: mask.exr, 12 -> mask.0012.exr.
-fs::path number_path(const fs::path &p_path, uint32_t p_index) {
+fs::path number_output(const fs::path &p_path, uint32_t p_index, bool p_is_numbered) {
+	if (!p_is_numbered || p_path.empty()) {
+		return p_path;
+	}
 	char number[16];
 	std::snprintf(number, sizeof(number), ".%04u", p_index);
 	fs::path name = p_path.stem();
@@ -81,6 +84,7 @@ void check_mask_name(const fs::path &p_path) {
 void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_common) {
 	const glm::uvec2 size_px = choose_size(p_options.size, p_options.scene);
 	check_mask_name(p_options.out);
+	check_png_name("--png", p_options.png);
 	check_writable(p_options.out);
 	if (!p_options.surfaces.empty()) {
 		check_writable(p_options.surfaces / "depth.f32");
@@ -91,6 +95,17 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 	}
 	const std::unique_ptr<Scene> scene = load_scene(p_options.scene, p_common, size_px);
+	const bool moves = !p_options.motion.empty();
+	std::vector<OutputFile> outputs = { { "--time", p_options.time_path } };
+	for (uint32_t index = 0; index < (moves ? p_options.frame_count : 1u); ++index) {
+		outputs.push_back({ "--out", number_output(p_options.out, index, moves) });
+		outputs.push_back({ "--png", number_output(p_options.png, index, moves) });
+	}
+	for (const char *name : { "depth.f32", "normal.u32" }) {
+		outputs.push_back({ "--surfaces",
+				p_options.surfaces.empty() ? fs::path() : p_options.surfaces / name });
+	}
+	check_outputs(outputs);
 	Light3D &light = choose_light(*scene, p_options.light);
 	const Camera3D &camera = choose_camera(*scene, p_options.camera);
 	for (const std::string &setting : p_options.settings) {
@@ -107,7 +122,6 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	request.has_depth_only = p_options.has_depth_only;
 	request.wants_surfaces = !p_options.surfaces.empty();
 
-	const bool moves = !p_options.motion.empty();
 	for (uint32_t index = 0; index < p_options.frame_count; ++index) {
 		if (moves && index > 0) {
 			move_light(light, { p_options.motion[0], p_options.motion[1], p_options.motion[2] });
@@ -119,8 +133,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 		const MaskImage mask = { size_px, std::move(result.visibility),
 			std::move(result.receiver) };
-		const fs::path out = moves ? number_path(p_options.out, index) : p_options.out;
-		save_mask_exr(out, mask);
+		save_mask_exr(number_output(p_options.out, index, moves), mask);
 		if (std::all_of(mask.receiver.begin(), mask.receiver.end(),
 					[](float p_receiver) { return p_receiver <= 0.0f; })) {
 			log_warning("Light \"", light.name, "\" lights nothing that camera \"", camera.name,
@@ -128,7 +141,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 					"their positions and the light's range and cone.");
 		}
 		if (!p_options.png.empty()) {
-			save_mask_png(moves ? number_path(p_options.png, index) : p_options.png, mask);
+			save_mask_png(number_output(p_options.png, index, moves), mask);
 		}
 		if (!p_options.surfaces.empty()) {
 			save_file_atomically(p_options.surfaces / "depth.f32", result.depth_texels);

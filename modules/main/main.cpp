@@ -12,8 +12,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <string>
 #include <tuple>
@@ -108,6 +110,13 @@ int gnomon::run_gnomon(int p_argument_count, char **p_arguments) {
 		result = 2;
 	} catch (const std::exception &error) {
 		log_error(describe_failure(error));
+	}
+	errno = 0;
+	if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+		log_error("The output cannot be written", errno != 0 ? ": " : "",
+				errno != 0 ? std::strerror(errno) : "",
+				". Check the free space of what it is redirected to.");
+		result = 1;
 	}
 	uninitialize_main_module(ModuleLevel::FEATURES);
 	ModuleRegistry::uninitialize();

@@ -33,8 +33,11 @@ void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 	add_path_option(*command, "--heatmap", options.heatmap,
 			"Also writes a PNG of the signed error: blue too dark, red too light");
 	command->callback([] {
+		check_png_name("--heatmap", options.heatmap);
 		const MaskImage reference = load_mask_exr(options.reference);
 		const MaskImage result = load_mask_exr(options.result);
+		const OutputFile heatmap = { "--heatmap", options.heatmap };
+		check_outputs({ &heatmap, 1 });
 		const MaskMetrics metrics = compute_mask_metrics(
 				reference, result, options.reference.string(), options.result.string());
 		if (!options.heatmap.empty()) {

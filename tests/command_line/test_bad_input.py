@@ -3,6 +3,7 @@
 import json
 import os
 import struct
+import subprocess
 import sys
 import unittest
 
@@ -10,7 +11,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [FOLDER, os.path.join(os.path.dirname(FOLDER), "fuzz")]
 import make_seeds  # noqa: E402
 import seed_images  # noqa: E402
-from command_line_case import CONTACT_BOX, ROOT, SMALL, CommandLineTest, load_json, run  # noqa: E402
+from command_line_case import CONTACT_BOX, GNOMON, ROOT, SMALL, TIMEOUT_S, CommandLineTest, load_json, run  # noqa: E402
 
 
 class BadScenes(CommandLineTest):
@@ -304,6 +305,58 @@ class BadArguments(CommandLineTest):
                 result = run(*arguments)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertTrue(result.stdout.strip())
+
+
+class OutputsThatAreInputs(CommandLineTest):
+    """No option overwrites a file that its command reads, whatever name or link leads to it."""
+
+    def setUp(self):
+        super().setUp()
+        self.model = self.write_scene(self.scene)
+        self.compute_mask(self.model)
+        os.link(self.path("contact_box.bin"), self.path("hard.png"))
+        os.symlink(self.model, self.path("link.json"))
+
+    def read_all(self):
+        contents = {}
+        for name in os.listdir(self.folder):
+            with open(self.path(name), "rb") as file:
+                contents[name] = file.read()
+        return contents
+
+    def assert_nothing_changes(self, option, *arguments):
+        before = self.read_all()
+        self.assert_refused(run(*arguments), option, has_outputs=True)
+        self.assertEqual(self.read_all(), before)
+
+    def test_a_scene_or_its_buffer_is_not_overwritten(self):
+        visibility = ("visibility", self.model, "--technique", self.get_fallback(), *SMALL)
+        self.assert_nothing_changes("--out", *visibility, "--out", self.model)
+        self.assert_nothing_changes("--out", *visibility, "--out", self.path("./changed.gltf"))
+        self.assert_nothing_changes("--png", *visibility, "--out", self.path("new.exr"), "--png", self.path("hard.png"))
+        self.assert_nothing_changes("--time", *visibility, "--out", self.path("new.exr"), "--time", self.path("link.json"))
+        for option in ("--capture", "--dot", "--time"):
+            self.assert_nothing_changes(option, "run", self.model, "--headless", *SMALL, option, self.model)
+
+    def test_a_compared_mask_is_not_overwritten(self):
+        mask = self.path("mask.exr")
+        os.link(mask, self.path("mask.png"))
+        self.assert_nothing_changes("--heatmap", "compare", mask, mask, "--heatmap", self.path("mask.png"))
+
+    def test_two_outputs_are_not_one_file(self):
+        both = self.path("both")
+        self.assert_nothing_changes("--png", "visibility", self.model, "--technique", self.get_fallback(), *SMALL, "--out", both, "--png", both)
+
+    def test_images_of_another_format_are_refused(self):
+        for name in ("a.jpg", "a.JPEG", "a.exr"):
+            self.assert_nothing_changes("--capture", "run", self.model, "--headless", *SMALL, "--capture", self.path(name))
+
+    def test_a_full_device_is_an_error(self):
+        for arguments in (("techniques",), ("techniques", "--json"), ("info",), ("modules",), ("compare", self.path("mask.exr"), self.path("mask.exr"))):
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                done = subprocess.run([GNOMON, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=TIMEOUT_S, check=False)
+            self.assertEqual(done.returncode, 1, arguments)
+            self.assertIn("cannot be written", done.stderr)
 
 
 class MissingDevices(CommandLineTest):

@@ -35,6 +35,31 @@ TEST_CASE("[Files] loading a missing file, a folder or a file over the limit is 
 	CHECK_THROWS_AS(load_file(folder.path / "a.txt", /*p_limit_bytes=*/3), Error);
 }
 
+TEST_CASE("[Files] an output that is a loaded file, or another output, is an error") {
+	const TemporaryFolder folder;
+	const fs::path input = folder.path / "in.gltf";
+	save_file_atomically(input, "x");
+	const fs::path other = folder.path / "other.exr";
+	save_file_atomically(other, "x");
+	fs::create_hard_link(input, folder.path / "hard.exr");
+	const auto find_error = [](const std::vector<OutputFile> &p_outputs) -> std::string {
+		try {
+			check_outputs(p_outputs);
+			return "";
+		} catch (const Error &error) {
+			return error.what();
+		}
+	};
+	CHECK(find_error({ { "--out", input } }) == ""); // not loaded yet
+	load_file(input);
+	CHECK(find_error({ { "--out", input } }).find("--out") == 0);
+	CHECK(find_error({ { "--out", folder.path / "." / "in.gltf" } }) != "");
+	CHECK(find_error({ { "--out", folder.path / "hard.exr" } }) != "");
+	CHECK(find_error({ { "--out", other }, { "--png", "" }, { "--time", "" } }) == "");
+	CHECK(find_error({ { "--out", folder.path / "new" }, { "--png", folder.path / "." / "new" } })
+					.find("--png and --out") == 0);
+}
+
 TEST_CASE("[Files] a path that leaves the folder through .. is not inside it") {
 	CHECK(is_inside_folder("/tmp/project/scenes/a.bin", "/tmp/project"));
 	CHECK(is_inside_folder("/tmp/project/scenes/../a.bin", "/tmp/project"));
