@@ -7,6 +7,7 @@
 #include "modules/core/path_option.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
+#include "modules/main/probe.h"
 #include "modules/masks/mask_image.h"
 #include "modules/masks/mask_png.h"
 #include "modules/renderer/renderer.h"
@@ -14,6 +15,7 @@
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -40,7 +42,9 @@ struct VisibilityOptions {
 	uint32_t frame_count = 1;
 	uint32_t timed_frame_count = MEASURED_FRAME_COUNT;
 	std::vector<double> motion;
-	fs::path time_path; // --time: the JSON file to write; empty: none
+	std::optional<std::string> probe; // --probe: the pixel
+	fs::path probe_path;			  // --probe-json: the file to write; empty: none
+	fs::path time_path;				  // --time: the JSON file to write; empty: none
 	bool prints_plan = false;
 	bool skips_nothing = false;
 	bool has_depth_only = false;
@@ -83,20 +87,26 @@ void check_mask_name(const fs::path &p_path) {
 
 void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_common) {
 	const glm::uvec2 size_px = choose_size(p_options.size, p_options.scene);
+	if (p_options.out.empty() && !p_options.probe) {
+		throw UsageError("`gnomon visibility` needs --out MASK.exr, or --probe X,Y.");
+	}
 	check_mask_name(p_options.out);
 	check_png_name("--png", p_options.png);
-	check_writable(p_options.out);
+	const std::optional<glm::uvec2> probed_pixel =
+			p_options.probe ? parse_pixel(*p_options.probe, size_px) : std::nullopt;
 	if (!p_options.surfaces.empty()) {
 		check_writable(p_options.surfaces / "depth.f32");
 	}
-	for (const fs::path &path : { p_options.png, p_options.time_path }) {
+	for (const fs::path &path :
+			{ p_options.out, p_options.png, p_options.time_path, p_options.probe_path }) {
 		if (!path.empty()) {
 			check_writable(path);
 		}
 	}
 	const std::unique_ptr<Scene> scene = load_scene(p_options.scene, p_common, size_px);
 	const bool moves = !p_options.motion.empty();
-	std::vector<OutputFile> outputs = { { "--time", p_options.time_path } };
+	std::vector<OutputFile> outputs = { { "--time", p_options.time_path },
+		{ "--probe-json", p_options.probe_path } };
 	for (uint32_t index = 0; index < (moves ? p_options.frame_count : 1u); ++index) {
 		outputs.push_back({ "--out", number_output(p_options.out, index, moves) });
 		outputs.push_back({ "--png", number_output(p_options.png, index, moves) });
@@ -133,7 +143,9 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 		const MaskImage mask = { size_px, std::move(result.visibility),
 			std::move(result.receiver) };
-		save_mask_exr(number_output(p_options.out, index, moves), mask);
+		if (!p_options.out.empty()) {
+			save_mask_exr(number_output(p_options.out, index, moves), mask);
+		}
 		if (std::all_of(mask.receiver.begin(), mask.receiver.end(),
 					[](float p_receiver) { return p_receiver <= 0.0f; })) {
 			log_warning("Light \"", light.name, "\" lights nothing that camera \"", camera.name,
@@ -149,6 +161,13 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 		if (p_options.prints_plan) {
 			std::printf("%s", result.plan.to_text().c_str());
+		}
+	}
+	if (p_options.probe) {
+		const ProbeEntry explanation = explain_pixel(renderer, request, probed_pixel);
+		std::printf("%s", probe_to_text(explanation).c_str());
+		if (!p_options.probe_path.empty()) {
+			save_file_atomically(p_options.probe_path, probe_to_json(explanation).dump(2) + "\n");
 		}
 	}
 	if (!p_options.time_path.empty()) {
@@ -175,9 +194,14 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 			->required();
 	command->add_option("--technique", options.technique, "Its id; see `gnomon techniques`")
 			->required();
-	add_path_option(*command, "--out", options.out, "The EXR to write: channels Y and receiver")
-			->required();
+	add_path_option(*command, "--out", options.out,
+			"The EXR to write: channels Y and receiver. May be omitted with --probe");
 	add_path_option(*command, "--png", options.png, "Also writes the mask as a grey PNG");
+	CLI::Option *probe = command->add_option("--probe", options.probe,
+			"X,Y, from 0,0 at the top left, or worst: prints how the visibility of that pixel "
+			"came about");
+	add_path_option(*command, "--probe-json", options.probe_path, "Also writes that as JSON")
+			->needs(probe);
 	add_stage_option(*command, r_common);
 	add_animation_options(*command, r_common);
 	command->add_option("--light", options.light, "Default: the first that casts shadows");

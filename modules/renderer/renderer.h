@@ -65,6 +65,7 @@ struct RenderRequest {
 	/// True: shadows derive geometric normals from the depth, as for a host that provides no
 	/// normals.
 	bool has_depth_only = false;
+	bool wants_explanation = false; // Renderer::explain will be called after the frame
 };
 
 /// The results of one frame. The values of the mask (base class) are set if they were requested.
@@ -98,6 +99,11 @@ public:
 
 	/// An unknown technique, light or debug view, or a size out of range, is an Error.
 	RenderResult render(const RenderRequest &p_request);
+	/// See ShadowSystem::explain.
+	void explain(const std::string &p_light, const ProbedReceiver &p_receiver,
+			ProbeEntry &r_explanation) const {
+		shadows.explain(p_light, p_receiver, r_explanation);
+	}
 	/// Destroys all techniques and their caches, for example after shaders were replaced.
 	void clear_caches() { shadows.clear_caches(); }
 	RenderingDevice &get_device() { return device; }

@@ -119,4 +119,17 @@ std::shared_ptr<const Mesh> CutLevels::get_mesh(uint32_t p_level) const {
 	return level.mesh;
 }
 
+std::optional<uint32_t> CutLevels::find_level(const Mesh *p_mesh) const {
+	if (p_mesh == base.lock().get()) {
+		return BASE_LEVEL;
+	}
+	const std::lock_guard lock(mutex);
+	for (uint32_t level = 0; level < levels.size(); ++level) {
+		if (levels[level].mesh.get() == p_mesh) {
+			return level;
+		}
+	}
+	return std::nullopt;
+}
+
 } // namespace gnomon

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 namespace gnomon {
 
@@ -39,6 +40,8 @@ public:
 	/// Returns a level's mesh, built on first use, from any thread. Null if nothing of the mesh is
 	/// left, or if the source mesh was freed.
 	std::shared_ptr<const Mesh> get_mesh(uint32_t p_level) const;
+	/// Returns the level that has this mesh, or nothing.
+	std::optional<uint32_t> find_level(const Mesh *p_mesh) const;
 
 private:
 	std::weak_ptr<const Mesh> source;

@@ -65,7 +65,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 		BufferDesc desc = p_fetched_format
 				? make_fetched_buffer_desc(p_device, name, size_bytes, *p_fetched_format)
 				: BufferDesc{ .name = name, .size_bytes = size_bytes };
-		desc.usage = desc.usage | BufferUsage::COPY_TARGET;
+		desc.usage = desc.usage | BufferUsage::COPY_TARGET | BufferUsage::COPY_SOURCE;
 		return OwnedBuffer(p_device, p_device.create_buffer(desc));
 	};
 	planes = make("planes", p_capacities.face_count, sizeof(glm::vec4), Format::RGBA32_SFLOAT);
@@ -83,7 +83,8 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 			p_device.create_buffer_with_data(
 					{ .name = text("totals of ", p_light),
 							.size_bytes = sizeof(zeros),
-							.usage = BufferUsage::STORAGE | BufferUsage::COPY_TARGET },
+							.usage = BufferUsage::STORAGE | BufferUsage::COPY_TARGET |
+									BufferUsage::COPY_SOURCE },
 					bytes_of(std::span<const uint32_t>(zeros))));
 	capacities = p_capacities;
 	return false;

@@ -19,9 +19,6 @@ namespace {
 // buffers exceed the device's maximum size.
 constexpr uint64_t MAX_COUNT_WITH_LODS = 1'000'000;
 
-const double SIDE_TOLERANCE_SIZES = 2.5e-7; // maximum shift of a plane by rounding, in S
-const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same for a directional light, as a cosine
-
 /// Lower bound of the distance of a point from the instance's casters: from their box along the
 /// world's axes, and from the planes of their box along the node's axes.
 double compute_min_distance_m(const InstanceSnapshot &p_instance, const glm::dvec3 &p_point_world) {

@@ -6,6 +6,9 @@
 
 namespace gnomon {
 
+constexpr double SIDE_TOLERANCE_SIZES = 2.5e-7; // maximum shift of a plane by rounding, in S
+constexpr double SIDE_TOLERANCE_COSINE = 1e-6;	// the same for a directional light, as a cosine
+
 /// Settings of the technique for one light, from its light properties.
 struct CountSettings {
 	uint32_t sample_count = 64;				// points of the light: 64 or 256

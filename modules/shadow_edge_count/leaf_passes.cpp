@@ -356,13 +356,16 @@ CountLeaves add_leaf_passes(RenderGraph &r_graph, const CountLeafPasses &p_passe
 	leaves.leaf_capacity = constants.leaf_capacity;
 	leaves.chunk_count = constants.chunk_count;
 	const auto make_buffer = [&](const char *p_name, uint64_t p_count, uint64_t p_item_bytes) {
-		return r_graph.create_buffer({ p_name, p_count * p_item_bytes, BufferUsage::STORAGE });
+		return r_graph.create_buffer({ p_name, p_count * p_item_bytes,
+				BufferUsage::STORAGE | BufferUsage::COPY_SOURCE });
 	};
 	leaves.leaves = make_buffer("leaves", constants.leaf_capacity, sizeof(shader::CountLeaf));
 	leaves.results =
 			make_buffer("leaf results", constants.leaf_capacity, sizeof(shader::CountLeafResult));
-	leaves.lists = r_graph.create_buffer(make_fetched_buffer_desc(inputs.device, "leaf lists",
-			uint64_t(constants.list_capacity) * sizeof(uint32_t), Format::R32_UINT));
+	BufferDesc lists = make_fetched_buffer_desc(inputs.device, "leaf lists",
+			uint64_t(constants.list_capacity) * sizeof(uint32_t), Format::R32_UINT);
+	lists.usage = lists.usage | BufferUsage::COPY_SOURCE;
+	leaves.lists = r_graph.create_buffer(lists);
 	leaves.rounds = create_rounds_buffers(r_graph, constants, get_shape(p_passes));
 	leaves.kinds = make_buffer("leaves by kind",
 			uint64_t(EDGE_COUNT_LEAF_KINDS) * constants.leaf_capacity, sizeof(uint32_t));
@@ -375,7 +378,7 @@ CountLeaves add_leaf_passes(RenderGraph &r_graph, const CountLeafPasses &p_passe
 	leaves.arguments = make_arguments("arguments of leaves by kind", EDGE_COUNT_ARGUMENT_COUNT);
 	leaves.counts =
 			r_graph.create_buffer({ "leaf counts", EDGE_COUNT_COUNT_WORDS * sizeof(uint32_t),
-					BufferUsage::STORAGE | BufferUsage::COPY_TARGET });
+					BufferUsage::STORAGE | BufferUsage::COPY_TARGET | BufferUsage::COPY_SOURCE });
 	leaves.status =
 			r_graph.create_buffer({ "edge count status", EDGE_COUNT_STATUS_WORDS * sizeof(uint32_t),
 					BufferUsage::STORAGE | BufferUsage::COPY_TARGET | BufferUsage::COPY_SOURCE });

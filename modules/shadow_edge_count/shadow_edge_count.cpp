@@ -340,6 +340,7 @@ void ShadowEdgeCount::prepare_masks(const Inputs &p_inputs) {
 }
 
 RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
+	probe.reset();
 	const uint32_t empty_views = views.get_empty_views() | cached.casters.empty_views;
 	if (!has_casters || views.is_all_empty() ||
 			empty_views == ~0u >> (32 - p_inputs.views.size())) {
@@ -362,8 +363,12 @@ RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	}
 	const CountLeaves leaves = add_leaf_passes(r_graph, passes);
 	after_lists(r_graph, passes.light, leaves);
-	if (p_inputs.wants_debug_views) {
+	if (p_inputs.wants_debug_views || p_inputs.wants_explanation) {
 		debug_image = add_count_debug_pass(r_graph, passes, leaves);
+	}
+	if (p_inputs.wants_explanation) {
+		probe.emplace(p_inputs, settings, buffers.get_capacities());
+		probe->add_read_back(r_graph, passes.light, leaves, debug_image);
 	}
 	const RGTexture mask = add_count_passes(r_graph, passes, leaves);
 	status.add_read_back(r_graph, leaves.status, p_inputs.light.name);
@@ -377,6 +382,14 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 				/*class_count=*/8 });
 		r_views.push_back({ "leaves", debug_image, glm::vec2(0.0f, 5.0f), EDGE_COUNT_DEBUG_LEAVES,
 				EDGE_COUNT_LEAF_KINDS });
+	}
+}
+
+void ShadowEdgeCount::explain(const ProbedReceiver &p_receiver, ProbeEntry &r_explanation) const {
+	if (probe) {
+		probe->explain(p_receiver, cached.casters, r_explanation);
+	} else {
+		r_explanation.add("finding", "No caster is in front of the light: nothing was counted.");
 	}
 }
 

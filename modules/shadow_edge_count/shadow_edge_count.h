@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/shadow_edge_count/count_probe.h"
 #include "modules/shadow_edge_count/count_time_budget.h"
 #include "modules/shadow_edge_count/leaf_passes.h"
 #include "modules/shadow_edge_count/shadowing_casters.h"
@@ -58,6 +59,7 @@ public:
 	void get_counters(std::vector<WorkCounter> &r_counters) const override {
 		status.get_counters(r_counters);
 	}
+	void explain(const ProbedReceiver &p_receiver, ProbeEntry &r_explanation) const override;
 	std::vector<std::string> get_shader_files() const override;
 
 protected:
@@ -106,6 +108,7 @@ private:
 	std::optional<CountTimeBudget> time_budget;
 	OwnedTexture depth_map;
 	CountStatus status;
+	std::optional<CountProbe> probe; // of a frame with Inputs::wants_explanation
 
 	// State of this frame.
 	CountSettings settings;

@@ -265,6 +265,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.may_skip = options.may_skip,
 		.may_reuse = options.may_reuse,
 		.wants_debug_views = p_wants_debug_views,
+		.wants_explanation = options.wants_explanation,
 		.lit_receivers = p_work.lit_receivers.list,
 	};
 }

@@ -44,6 +44,8 @@ struct ShadowFrameOptions {
 	bool may_skip = true;
 	/// False: techniques use nothing that they cached in earlier frames.
 	bool may_reuse = true;
+	/// True: ShadowSystem::explain will be called after the frame.
+	bool wants_explanation = false;
 };
 
 /// Computes the masks of one frame: records their passes in the host's graph, one light per call of

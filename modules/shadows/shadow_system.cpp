@@ -60,6 +60,14 @@ std::vector<WorkCounter> ShadowSystem::get_counters(const std::string &p_light_n
 	return counters;
 }
 
+void ShadowSystem::explain(const std::string &p_light_name, const ProbedReceiver &p_receiver,
+		ProbeEntry &r_explanation) const {
+	const auto slot = slots.find({ p_light_name, 0 });
+	if (slot != slots.end()) {
+		slot->second.technique->explain(p_receiver, r_explanation);
+	}
+}
+
 void ShadowSystem::begin_frame(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
 	if (technique_revision != ShadowRegistry::get_revision()) {
 		technique_revision = ShadowRegistry::get_revision();

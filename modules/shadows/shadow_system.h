@@ -38,6 +38,10 @@ public:
 	float get_standard_error(const std::string &p_light_name) const;
 	/// Work that the light's technique counted for its opaque casters, see ShadowTechnique.
 	std::vector<WorkCounter> get_counters(const std::string &p_light_name) const;
+	/// Adds what the light's technique knows of a receiver of the last frame, whose option
+	/// wants_explanation must have been true, see ShadowTechnique::explain.
+	void explain(const std::string &p_light_name, const ProbedReceiver &p_receiver,
+			ProbeEntry &r_explanation) const;
 	/// Destroys all techniques and their caches, for example after shaders were replaced.
 	void clear_caches() { slots.clear(); }
 

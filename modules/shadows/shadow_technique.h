@@ -6,6 +6,7 @@
 #include "modules/shadows/frame_plan.h"
 #include "modules/shadows/light_view.h"
 #include "modules/shadows/lit_tiles.h"
+#include "modules/shadows/probe.h"
 #include "modules/shadows/visible_receivers.h"
 
 #include <limits>
@@ -115,6 +116,8 @@ public:
 		bool may_reuse = true;
 		/// True while one of the technique's debug views is shown.
 		bool wants_debug_views = false;
+		/// True: explain() will be called after the frame was executed.
+		bool wants_explanation = false;
 		/// Bounds of what the camera sees of the instances that the light may reach. They contain
 		/// all receivers.
 		std::span<const VisibleReceiver> lit_receivers;
@@ -185,6 +188,11 @@ public:
 	/// Appends the work that the technique counted on the GPU in the last frame whose submission
 	/// has finished. Called after the frame was executed.
 	virtual void get_counters(std::vector<WorkCounter> & /*r_counters*/) const {}
+	/// Adds what the technique knows of how a receiver's visibility came about, and compares it
+	/// with more exact computations. Called after a frame with Inputs::wants_explanation was
+	/// executed and has finished, for opaque casters.
+	virtual void explain(
+			const ProbedReceiver & /*p_receiver*/, ProbeEntry & /*r_explanation*/) const {}
 	/// Entry points under shaders/; compiled by the tests and watched for hot reload.
 	virtual std::vector<std::string> get_shader_files() const = 0;
 };

@@ -314,7 +314,7 @@ int find_light_side(CountBox p_box, vec3 p_point) {
 const uint COUNT_HAS_WEIGHT = 1u;
 const uint COUNT_WEIGHT_SHIFT = 1u;
 const int COUNT_WEIGHT_BIAS = 2;
-const uint COUNT_PACKED_WEIGHT_SHIFT = 26u;
+const uint COUNT_PACKED_WEIGHT_SHIFT = uint(EDGE_COUNT_EDGE_BITS);
 const uint COUNT_EDGE_MASK = (1u << COUNT_PACKED_WEIGHT_SHIFT) - 1u;
 const uint COUNT_ADDS_NOTHING = COUNT_HAS_WEIGHT | uint(COUNT_WEIGHT_BIAS) << COUNT_WEIGHT_SHIFT;
 

@@ -1,5 +1,5 @@
 // Planes of faces, and weights of edges: the float32 version of CountedCasters in
-// modules/shadow_edge_count/tests/count_in_double.h.
+// modules/shadow_edge_count/count_in_double.h.
 #ifndef COUNT_CLASSIFY_INC_GLSL
 #define COUNT_CLASSIFY_INC_GLSL
 

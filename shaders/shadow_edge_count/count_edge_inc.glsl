@@ -1,5 +1,5 @@
 // The contribution of one edge to a receiver's counts, and the resulting visibility: the float32
-// version of compute_count_visibility in modules/shadow_edge_count/tests/count_in_double.h.
+// version of compute_count_visibility in modules/shadow_edge_count/count_in_double.h.
 #ifndef COUNT_EDGE_INC_GLSL
 #define COUNT_EDGE_INC_GLSL
 

@@ -1,5 +1,5 @@
 // Light space, and the light's disc as seen from a receiver: the float32 version of Receiver in
-// modules/shadow_edge_count/tests/count_in_double.cpp. Light space: metres, the light's centre at the origin (directional:
+// modules/shadow_edge_count/count_in_double.cpp. Light space: metres, the light's centre at the origin (directional:
 // its view's origin).
 #ifndef COUNT_SPACE_INC_GLSL
 #define COUNT_SPACE_INC_GLSL

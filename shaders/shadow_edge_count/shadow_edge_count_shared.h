@@ -17,6 +17,7 @@
 #define EDGE_COUNT_DOUBLE_SIDED 0x80000000u // the face is in a mesh part that is not closed
 #define EDGE_COUNT_INCONSISTENT 0x40000000u // both faces wind along the edge in the same direction
 #define EDGE_COUNT_NO_FACE 0xffffffffu
+#define EDGE_COUNT_EDGE_BITS 26 // of an edge's index
 
 /// An edge that may be a silhouette from some point of the light. Fetched as 2 x RGBA32_UINT.
 struct SHARED_ALIGN CountEdgeRecord {

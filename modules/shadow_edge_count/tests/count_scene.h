@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/scene/box_mesh.h"
-#include "modules/shadow_edge_count/tests/count_in_double.h"
+#include "modules/shadow_edge_count/count_in_double.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -43,6 +43,7 @@ struct FrameOptions {
 	std::string technique = "edge_count";
 	bool may_reuse = true;
 	bool wants_surfaces = false;
+	bool wants_explanation = false;
 };
 
 inline MaskResult render_frame(
@@ -54,6 +55,7 @@ inline MaskResult render_frame(
 	request.light = p_scene.light->name;
 	request.wants_surfaces = p_options.wants_surfaces;
 	request.may_reuse = p_options.may_reuse;
+	request.wants_explanation = p_options.wants_explanation;
 	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	return result;

@@ -1,7 +1,7 @@
 // The points of the light's disc (DiscMasks), and the masks of its wedges in the double version
 // (DiscLookup).
 
-#include "modules/shadow_edge_count/tests/disc_lookup.h"
+#include "modules/shadow_edge_count/disc_lookup.h"
 
 #include <doctest/doctest.h>
 

@@ -104,6 +104,7 @@ struct MaskRequest {
 	bool wants_surfaces = false;
 	bool may_skip = true;
 	bool may_reuse = true;
+	bool wants_explanation = false; // ShadowSystem::explain will be called
 	/// False: the host does not provide normals, or materials.
 	bool has_normals = true;
 	bool has_materials = true;
@@ -142,7 +143,8 @@ struct MaskFixture {
 		const CommandCounts before = device->get_command_counts();
 		RenderGraph graph(*device, *transients);
 		ShadowFrame frame(*shadows, graph, result.plan, p_request.scene, p_request.size_px,
-				{ p_request.technique_override, p_request.may_skip, p_request.may_reuse });
+				{ p_request.technique_override, p_request.may_skip, p_request.may_reuse,
+						p_request.wants_explanation });
 		const HostSurfaces drawn = add_surface_pass(graph, *shadows, *p_request.scene,
 				p_request.size_px, frame.get_constants(), p_request.has_normals);
 		frame.set_surfaces({ drawn.depth, drawn.geometric_normal,

@@ -1,19 +1,18 @@
-// build: optimised
-#include "modules/shadow_edge_count/tests/count_in_double.h"
+#include "modules/shadow_edge_count/count_in_double.h"
+
+#include "modules/shadow_edge_count/count_settings.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace gnomon {
 
 namespace {
-
-// As in count_casters.cpp.
-const double SIDE_TOLERANCE_SIZES = 2.5e-7; // fraction of S
-const double SIDE_TOLERANCE_COSINE = 1e-6;
 
 double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 	return p_a.x * p_b.y - p_a.y * p_b.x;
@@ -75,26 +74,30 @@ public:
 		}
 	}
 
-	void add_edge(const CountEdge &p_edge) {
+	/// Returns what the edge adds to the mean number of solids, and its weight.
+	std::pair<double, int> add_edge(const CountEdge &p_edge) {
 		const int weight = p_edge.compute_weight(position);
 		const glm::dvec3 a = receiver.find_offset(p_edge.a);
 		const glm::dvec3 b = receiver.find_offset(p_edge.b);
 		const double side = cross(glm::dvec2(a), glm::dvec2(b));
 		const auto ends = cut(a, b);
 		if (weight == 0 || side == 0 || !ends) {
-			return;
+			return { 0.0, weight };
 		}
-		add_sector(weight < 0 ? ends->second : ends->first, weight < 0 ? ends->first : ends->second,
-				weight < 0 ? -side : side, std::abs(weight));
+		const double before = area;
+		const bool is_added = add_sector(weight < 0 ? ends->second : ends->first,
+				weight < 0 ? ends->first : ends->second, weight < 0 ? -side : side,
+				std::abs(weight));
+		return { is_added ? area - before : 0.0, weight };
 	}
 
 	/// Adds the line along which a face crosses the disc's plane. p_uses_front_faces: of closed
 	/// mesh parts, only faces with the receiver in front have such a line; otherwise, only those
-	/// with the receiver behind.
-	void add_cut(const CountFace &p_face, bool p_uses_front_faces) {
+	/// with the receiver behind. Returns whether there is such a line in the disc.
+	bool add_cut(const CountFace &p_face, bool p_uses_front_faces) {
 		const bool is_receiver_in_front = is_in_front(p_face.plane, position);
 		if (!p_face.is_double_sided && is_receiver_in_front != p_uses_front_faces) {
-			return;
+			return false;
 		}
 		std::optional<glm::dvec2> leave;
 		std::optional<glm::dvec2> enter;
@@ -106,12 +109,12 @@ public:
 				(a.z < 1.0 ? leave : enter) = glm::dvec2(cut) / space.disc_radius;
 			}
 		}
-		if (leave) {
-			const bool is_between =
-					is_receiver_in_front != (space.get_light_side(p_face.plane) > 0.0);
-			add_sector(is_receiver_in_front ? *leave : *enter,
-					is_receiver_in_front ? *enter : *leave, is_between ? 1.0 : -1.0, 1);
+		if (!leave) {
+			return false;
 		}
+		const bool is_between = is_receiver_in_front != (space.get_light_side(p_face.plane) > 0.0);
+		return add_sector(is_receiver_in_front ? *leave : *enter,
+				is_receiver_in_front ? *enter : *leave, is_between ? 1.0 : -1.0, 1);
 	}
 
 	double resolve(int p_solid_count) const {
@@ -163,21 +166,22 @@ private:
 
 	/// Adds the region of the disc beyond an edge, seen from the centre: a circular sector without
 	/// its triangle. It is subtracted if p_side > 0. Limits for rounding: as in make_count_sectors.
-	void add_sector(const glm::dvec2 &p_a, const glm::dvec2 &p_b, double p_side, int p_weight) {
+	/// Returns whether there is such a region.
+	bool add_sector(const glm::dvec2 &p_a, const glm::dvec2 &p_b, double p_side, int p_weight) {
 		const glm::dvec2 edge_direction = p_b - p_a;
 		if (glm::dot(edge_direction, edge_direction) < 1e-16) {
-			return;
+			return false;
 		}
 		const glm::dvec2 u = glm::normalize(edge_direction);
 		const double distance = std::max(std::abs(cross(p_a, u)), 1e-20);
 		if (distance >= 1) {
-			return;
+			return false;
 		}
 		const double half_chord = std::sqrt(1.0 - distance * distance);
 		const double from = std::max(glm::dot(p_a, u), -half_chord);
 		const double to = std::min(glm::dot(p_b, u), half_chord);
 		if (to <= from) {
-			return;
+			return false;
 		}
 		const int sign = p_side > 0 ? -1 : 1;
 		area += p_weight * sign * 0.5 *
@@ -193,6 +197,7 @@ private:
 				counts[index][sample] += (mask >> sample & 1) != 0 ? sign * p_weight : 0;
 			}
 		}
+		return true;
 	}
 
 	const CountSpace &space;
@@ -247,6 +252,7 @@ void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &
 	for (const MeshEdge &mesh_edge : p_topology.edges) {
 		CountEdge edge;
 		edge.is_double_sided = p_topology.is_double_sided(mesh_edge.face0);
+		edge.face0 = static_cast<uint32_t>(first + mesh_edge.face0);
 		edge.has_face1 = mesh_edge.face1 != NO_FACE;
 		edge.plane0 = faces[first + mesh_edge.face0].plane;
 		if (edge.has_face1) {
@@ -277,11 +283,13 @@ struct Crossings {
 	int get_solid_count() const { return double_sided + std::max(back_facing, light_facing); }
 };
 
+/// r_details: gets the faces; may be null.
 Crossings count_crossings(const CountSpace &p_space, const glm::dvec3 &p_receiver,
-		std::span<const CountFace> p_faces) {
+		std::span<const CountFace> p_faces, CountDetails *r_details = nullptr) {
 	const Receiver receiver(p_space, p_receiver);
 	Crossings found;
-	for (const CountFace &face : p_faces) {
+	for (size_t index = 0; index < p_faces.size(); ++index) {
+		const CountFace &face = p_faces[index];
 		const bool is_receiver_in_front = is_in_front(face.plane, p_receiver);
 		if (is_receiver_in_front == (p_space.get_light_side(face.plane) > 0.0)) {
 			continue;
@@ -298,6 +306,9 @@ Crossings count_crossings(const CountSpace &p_space, const glm::dvec3 &p_receive
 		++(face.is_double_sided				   ? found.double_sided
 						: is_receiver_in_front ? found.back_facing
 											   : found.light_facing);
+		if (r_details != nullptr) {
+			r_details->crossed_faces.push_back(index);
+		}
 	}
 	return found;
 }
@@ -311,20 +322,82 @@ int count_solids_in_double(const CountSpace &p_space, const glm::dvec3 &p_receiv
 
 double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_receiver,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
-		std::span<const DiscLookup> p_masks) {
+		std::span<const DiscLookup> p_masks, CountDetails *r_details) {
+	CountDetails details;
 	Counter counter(p_space, p_receiver, p_masks);
-	const Crossings crossings = count_crossings(p_space, p_receiver, p_faces);
+	const Crossings crossings = count_crossings(p_space, p_receiver, p_faces, &details);
+	details.solid_count = crossings.get_solid_count();
 	if (p_space.disc_radius > 0) {
-		for (const CountEdge &edge : p_edges) {
-			counter.add_edge(edge);
+		for (size_t index = 0; index < p_edges.size(); ++index) {
+			const auto [area, weight] = counter.add_edge(p_edges[index]);
+			if (area != 0) {
+				details.edges.push_back({ index, weight, area });
+			}
 		}
-		for (const CountFace &face : p_faces) {
-			if (!p_space.is_directional) {
-				counter.add_cut(face, crossings.back_facing >= crossings.light_facing);
+		for (size_t index = 0; index < p_faces.size() && !p_space.is_directional; ++index) {
+			if (counter.add_cut(p_faces[index], crossings.back_facing >= crossings.light_facing)) {
+				details.cut_faces.push_back(index);
 			}
 		}
 	}
+	if (r_details != nullptr) {
+		*r_details = std::move(details);
+	}
 	return counter.resolve(crossings.get_solid_count());
+}
+
+double trace_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_receiver,
+		std::span<const CountFace> p_faces, uint32_t p_ray_count) {
+	// In (X, d), see Receiver, the ray to a point s of the disc is d (R s, 1), 0 < d < 1.
+	const Receiver receiver(p_space, p_receiver);
+	const double radius = p_space.disc_radius;
+	const double end = p_space.is_directional ? std::numeric_limits<double>::infinity() : 1.0;
+	struct Triangle {
+		glm::dvec3 a;
+		glm::dvec3 ab;
+		glm::dvec3 ac;
+	};
+	std::vector<Triangle> triangles; // that some ray may meet
+	for (const CountFace &face : p_faces) {
+		glm::dvec3 corners[3];
+		std::array<bool, 6> is_outside;
+		is_outside.fill(true);
+		for (size_t corner = 0; corner < 3; ++corner) {
+			const glm::dvec3 offset = corners[corner] = receiver.find_offset(face.corners[corner]);
+			const double reach = radius * offset.z;
+			const bool outside[] = { offset.z <= 0, offset.z >= end, offset.x > reach,
+				offset.x<-reach, offset.y> reach, offset.y < -reach };
+			for (size_t plane = 0; plane < is_outside.size(); ++plane) {
+				is_outside[plane] = is_outside[plane] && outside[plane];
+			}
+		}
+		if (std::ranges::none_of(is_outside, [](bool p_is_outside) { return p_is_outside; })) {
+			triangles.push_back({ corners[0], corners[1] - corners[0], corners[2] - corners[0] });
+		}
+	}
+	uint32_t seen_count = 0;
+	for (uint32_t ray = 0; ray < p_ray_count; ++ray) {
+		const double distance = radius * std::sqrt((ray + 0.5) / p_ray_count);
+		const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+		const glm::dvec3 direction(distance * std::cos(golden_angle * ray),
+				distance * std::sin(golden_angle * ray), 1.0);
+		// Möller and Trumbore 1997.
+		const bool is_hidden = std::ranges::any_of(triangles, [&](const Triangle &p_triangle) {
+			const glm::dvec3 h = glm::cross(direction, p_triangle.ac);
+			const double determinant = glm::dot(p_triangle.ab, h);
+			if (determinant == 0) {
+				return false;
+			}
+			const glm::dvec3 s = -p_triangle.a / determinant;
+			const double b = glm::dot(s, h);
+			const glm::dvec3 q = glm::cross(s, p_triangle.ab);
+			const double c = glm::dot(direction, q);
+			const double d = glm::dot(p_triangle.ac, q);
+			return b >= 0 && c >= 0 && b + c <= 1 && d > 0 && d < end;
+		});
+		seen_count += is_hidden ? 0 : 1;
+	}
+	return p_ray_count == 0 ? 1.0 : double(seen_count) / p_ray_count;
 }
 
 } // namespace gnomon

@@ -1,5 +1,4 @@
-// build: optimised
-#include "modules/shadow_edge_count/tests/disc_lookup.h"
+#include "modules/shadow_edge_count/disc_lookup.h"
 
 #include <algorithm>
 #include <cmath>
