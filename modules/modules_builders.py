@@ -12,6 +12,7 @@ register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_mo
     is_example() -> bool                               (optional; default False; an example to copy, which lists for users omit)
     is_enabled() -> bool                               (optional; built by default)
     get_optional_dependencies() -> list of module names (optional; used only where they are built)
+    get_report_options() -> list of options            (optional; of `gnomon report`, which need the module: see ReportPart)
     is_program() -> bool                               (optional; linked into the program or the add-on, but not into tests)
     get_hosts() -> some of "program" and "godot"       (optional; what it is built for; default: both)
     get_systems() -> some of "linux" and "windows"     (optional; what it is built for; default: both)
@@ -40,6 +41,7 @@ class Module:
         self.config = config
         self.dependencies = list(config.get_dependencies())
         self.optional_dependencies = list(getattr(config, "get_optional_dependencies", lambda: [])())
+        self.report_options = list(getattr(config, "get_report_options", lambda: [])())
         self.layer = config.get_layer()
         self.description = config.get_description()
         self.enabled_by_default = getattr(config, "is_enabled", lambda: True)()
@@ -160,6 +162,38 @@ def format_bytes(name, data):
     lines = ["const unsigned char %s[] = {" % name]
     lines += ["\t" + ",".join(map(str, data[start : start + 32])) + "," for start in range(0, len(data), 32)]
     return [*lines, "\t0 };"]
+
+
+def add_page_files(env, header, function, objects):
+    """Embeds the files of the module's folders page/ and page/third_party, and appends the object to `objects`. `header` declares
+    `function`, which is generated and returns them as std::span<const PageFile>, sorted by name (modules/error_report/page_files.h)."""
+    from SCons.Script import Action  # not env.Action, which would expand $TARGET at once
+
+    files = sorted(env.Glob("page/*.*") + env.Glob("page/third_party/*.*"), key=lambda node: node.srcnode().path)
+    root = env.Dir("page").srcnode().abspath
+    names = [os.path.relpath(node.srcnode().abspath, root) for node in files]
+    generated = env.Command(
+        "embedded/page_files.gen.cpp",
+        [env.Value((header, function, names)), *files],
+        Action(_write_page_files, "Embedding pages in $TARGET"),
+    )
+    env.Depends(generated, "#modules/modules_builders.py")
+    env.add_sources(generated, objects)
+
+
+def _write_page_files(target, source, env):
+    header, function, names = source[0].read()
+    lines = ['#include "%s"' % header, "", "namespace gnomon {", "namespace {"]
+    rows = []
+    for index, (name, node) in enumerate(zip(names, source[1:])):
+        with open(node.srcnode().abspath, "rb") as file:
+            data = file.read()
+        lines += format_bytes("FILE_%d" % index, data)
+        rows.append('\t{ "%s", { reinterpret_cast<const char *>(FILE_%d), %d } },' % (name, index, len(data)))
+    lines += ["const PageFile FILES[] = {", *rows, "};", "} // namespace", ""]
+    lines += ["std::span<const PageFile> %s {" % function, "\treturn FILES;", "}", "", "} // namespace gnomon", ""]
+    with open(str(target[0]), "w", encoding="utf-8") as file:
+        file.write("\n".join(lines))
 
 
 def add_builders(env, modules):

@@ -9,10 +9,10 @@ usage() {
 Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--windows] [--jobs N] [--only PART]...
   --sanitized  also the modules that need no GPU under sanitizers, and the stored fuzzing inputs
   --full       also what --sanitized adds, each source file compiled by itself, sanitizers over everything, the thread
-               sanitizer over the modules that need no GPU, removal of every technique in turn, a build of the smallest
-               game, tables with 9216 light samples, the editor's tests ten times, shadow volumes of large meshes and
-               gltf-validator (installs npm, which downloads them), fuzzing (installs clang), 10,000 frames of scenes that
-               change at random, programs killed 200 times, all stability sweeps
+               sanitizer over the modules that need no GPU, removal of every technique and report part in turn, a build
+               of the smallest game, tables with 9216 light samples, the editor's tests ten times, shadow volumes of
+               large meshes and gltf-validator (installs npm, which downloads them), fuzzing (installs clang), 10,000
+               frames of scenes that change at random, programs killed 200 times, all stability sweeps
   --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
                build/ (1.2 GB, as root)
   --windows    also the Godot add-on's libraries for Windows x86_64 and Linux arm64, cross-compiled, and loaded under Wine

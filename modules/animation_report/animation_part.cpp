@@ -52,11 +52,26 @@ MaskTask get_next(const MaskTask &p_task) {
 
 } // namespace
 
-void AnimationPart::plan(const ReportOptions &p_options, const AddConfiguration &p_add) const {
-	if (p_options.animation == ReportExtent::NONE) {
+Json AnimationResult::to_json() const {
+	// The constants are the fields of a stability sweep, which readers of version 2 expect here
+	// too.
+	return { { "wrong_share", 0.0 }, { "warnings", warnings }, { "refusal", "" },
+		{ "temporal_rmse", temporal_rmse } };
+}
+
+std::vector<ReportPartOption> AnimationPart::list_options() const {
+	return { make_extent_option(CHANGE_OPTION,
+			"Errors of change while each scene's animation plays: none, quick (default) or "
+			"full") };
+}
+
+void AnimationPart::plan(const ReportOptions &p_options, std::span<const ReportScene> p_scenes,
+		const AddConfiguration &p_add) const {
+	const ReportExtent extent = p_options.get_part_extent(CHANGE_OPTION);
+	if (extent == ReportExtent::NONE) {
 		return;
 	}
-	for (const ReportScene &item : p_options.animated_scenes) {
+	for (const ReportScene &item : p_scenes) {
 		if (!item.scene || item.scene->animations.empty() ||
 				!(item.scene->animations[0]->duration_s > 0)) {
 			continue; // no animation, or not loaded, which the group "matrix" reports
@@ -77,7 +92,7 @@ void AnimationPart::plan(const ReportOptions &p_options, const AddConfiguration 
 		configuration.light_count = uint32_t(lights.size());
 		for (const std::string &light : lights) {
 			configuration.light = light;
-			for (const double time_s : list_times(*animation, p_options.animation)) {
+			for (const double time_s : list_times(*animation, extent)) {
 				configuration.value = time_s;
 				configuration.id =
 						text(ANIMATION_GROUP, "/", item.name, "/", light, "/", time_s, " s");
@@ -112,11 +127,18 @@ MaskImage AnimationPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 	const MaskImage references[] = { p_references[0].mask, p_references[1].mask };
 	cell.error = ReportError{ compute_mask_metrics(references[0], drawn.frames[0]), {} };
 	cell.error->whole_light = cell.error->all; // see doc/report_format.md
-	cell.stability = ReportStability();
-	cell.stability->temporal_rmse =
-			compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
-	cell.stability->warnings = drawn.warnings;
+	const auto result = std::make_shared<AnimationResult>();
+	result->temporal_rmse = compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
+	result->warnings = drawn.warnings;
+	cell.part_result = result;
 	return {};
+}
+
+std::shared_ptr<const PartResult> AnimationPart::read_result(const Json &p_json) const {
+	auto result = std::make_shared<AnimationResult>();
+	result->temporal_rmse = p_json.at("temporal_rmse");
+	p_json.at("warnings").get_to(result->warnings);
+	return result;
 }
 
 Json AnimationPart::to_json(const Report &p_report) const {
@@ -126,8 +148,9 @@ Json AnimationPart::to_json(const Report &p_report) const {
 		const ReportCell &cell = p_report.cells[index];
 		const ReportConfiguration &configuration =
 				p_report.configurations[cell.configuration_index];
+		const AnimationResult *result = cell.find_result<AnimationResult>();
 		if (configuration.group != ANIMATION_GROUP || !cell.is_ok() || !cell.error ||
-				!cell.stability || !cell.stability->temporal_rmse) {
+				result == nullptr) {
 			continue;
 		}
 		const auto [entry, is_new] =
@@ -144,7 +167,7 @@ Json AnimationPart::to_json(const Report &p_report) const {
 			found = series.end() - 1;
 		}
 		(*found)["points"].push_back({ { "time_s", configuration.value }, { "cell", index },
-				{ "temporal_rmse", *cell.stability->temporal_rmse },
+				{ "temporal_rmse", result->temporal_rmse },
 				{ "mae", cell.error->all.penumbra.mae } });
 	}
 	return json;

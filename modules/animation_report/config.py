@@ -14,5 +14,9 @@ def can_disable():
     return False  # a report that lacks it on one machine cannot be merged with those that have it
 
 
+def get_report_options():
+    return ["--change"]
+
+
 def get_doc():
     return "doc/animation.md"

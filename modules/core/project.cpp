@@ -16,6 +16,7 @@ namespace {
 
 constexpr uint64_t MAX_PROJECT_BYTES = 1 << 20;
 constexpr std::string_view TECHNIQUE_SECTION = "technique.";
+constexpr std::string_view PART_SCENES_KEY = "_scenes"; // preceded by the name of a report part
 
 std::string trim(const std::string &p_text) {
 	const char *const blanks = " \t\r";
@@ -160,8 +161,9 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 			project.start_scene = project.folder / make_path(unquote(entry.value));
 		} else if (section == "project" && key == "scenes") {
 			project.add_scenes(parse_list(entry), project.scenes);
-		} else if (section == "project" && key == "stability_scenes") {
-			project.add_scenes(parse_list(entry), project.stability_scenes);
+		} else if (section == "project" && key.ends_with(PART_SCENES_KEY)) {
+			const std::string part = key.substr(0, key.size() - PART_SCENES_KEY.size());
+			project.add_scenes(parse_list(entry), project.part_scenes[part]);
 		} else if (section == "modules" && key == "disabled") {
 			project.disabled_modules = parse_list(entry);
 		} else if (section == "defaults") {

@@ -16,10 +16,11 @@ public:
 	std::string name;
 	std::filesystem::path start_scene;		   // absolute; empty: none given
 	std::vector<std::filesystem::path> scenes; // absolute paths of the listed scenes that exist
-	/// Absolute paths of the scenes of the key stability_scenes that exist. A report draws these in
-	/// its stability sweep "scenes" only, and the other list, `scenes`, in all other measurements.
-	std::vector<std::filesystem::path> stability_scenes;
-	/// Absolute paths of the scenes of both lists that do not exist, without duplicates.
+	/// Absolute paths of the scenes of keys PART_scenes that exist, by PART, such as "stability". A
+	/// report draws these in its part of that name only, and the other list, `scenes`, in all other
+	/// measurements.
+	std::map<std::string, std::vector<std::filesystem::path>> part_scenes;
+	/// Absolute paths of the scenes of all lists that do not exist, without duplicates.
 	std::vector<std::filesystem::path> missing_scenes;
 	std::vector<std::string> disabled_modules;
 	/// The [defaults] section (image size, antialiasing, animation) as written, without quotes.

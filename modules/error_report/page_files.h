@@ -5,13 +5,14 @@
 
 namespace gnomon {
 
-/// A file of the folder page/ (HTML, CSS, JavaScript, licences), embedded by the build.
+/// A file of a module's folder page/ (HTML, CSS, JavaScript, licences), embedded by the build (see
+/// add_page_files in modules/modules_builders.py).
 struct PageFile {
 	std::string_view name; // path relative to page/
 	std::string_view text; // content
 };
 
-/// Returns all files, sorted by name.
+/// Returns the files of modules/error_report/page, sorted by name.
 std::span<const PageFile> get_page_files();
 
 } // namespace gnomon

@@ -9,11 +9,6 @@ const char *get_name(ReportStatus p_status) {
 	return NAMES[static_cast<int>(p_status)];
 }
 
-const char *get_name(ErrorCause p_cause) {
-	static const char *const NAMES[] = { "method", "rounding", "reference_mask" };
-	return NAMES[static_cast<int>(p_cause)];
-}
-
 std::vector<size_t> Report::find_cells(size_t p_configuration) const {
 	std::vector<size_t> found;
 	for (size_t index = 0; index < cells.size(); ++index) {

@@ -4,9 +4,11 @@
 #include "modules/masks/mask_timing.h"
 
 #include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,23 +44,21 @@ const char *get_name(ReportStatus p_status);
 /// Data of a configuration's reference mask. The mask itself is an image file.
 struct ReportReference {
 	double standard_error = 0; // of visibility
-	/// Only in stability sweeps: traced in double precision, because float32 was too inaccurate.
-	bool is_double = false;
-	double wall_ms = 0; // time to trace the mask or to load it from the cache
-	std::string image;	// name of a PNG with grey and alpha (0 = no receiver); empty: none
+	bool is_double = false;	   // traced in double precision, because float32 was too inaccurate
+	double wall_ms = 0;		   // time to trace the mask or to load it from the cache
+	std::string image;		   // name of a PNG with grey and alpha (0 = no receiver); empty: none
 	uint64_t receiver_pixel_count = 0;
 	uint64_t penumbra_pixel_count = 0;
 };
 
 /// Values of ReportConfiguration::group. The matrix is all combinations of scene, light, light
-/// size, technique and setting; the next four are scaling curves (scaling_scenes.h).
+/// size, technique and setting; the next four are scaling curves (scaling_scenes.h). Other groups
+/// are those of report parts, whose ids they are (ReportPartInfo::id).
 inline constexpr const char *MATRIX_GROUP = "matrix";
 inline constexpr const char *TRIANGLES_GROUP = "triangles";
 inline constexpr const char *LIGHT_SIZE_GROUP = "light_size";
 inline constexpr const char *LIGHTS_GROUP = "lights";
 inline constexpr const char *RESOLUTION_GROUP = "resolution";
-inline constexpr const char *ANIMATION_GROUP = "animation"; // also the id of AnimationPart
-inline constexpr const char *STABILITY_GROUP = "stability"; // see StabilitySweep
 
 /// A scene with a light of one size, for which all techniques are measured.
 struct ReportConfiguration {
@@ -66,10 +66,11 @@ struct ReportConfiguration {
 	std::string record; // name of its reference in the RecordStore; empty without a reference
 	std::string group = MATRIX_GROUP;
 	/// Abscissa in plots. By group: light radius in metres (matrix, light size), number of
-	/// triangles or lights, image width in pixels, time in s (animation), or the quantity of the
-	/// sweep.
+	/// triangles or lights, image width in pixels, or what the report part defines.
 	double value = 0;
-	std::string sweep;					   // id of the stability sweep; empty in other groups
+	/// Id of the sweep of a report part; empty if it belongs to none. The configurations of a sweep
+	/// with one light_type form a curve, whose points the part may compare with each other.
+	std::string sweep;
 	std::string scene;					   // name
 	std::string light;					   // name; empty: all lights
 	std::string light_type;				   // "spot", "omni", "directional"
@@ -85,7 +86,6 @@ struct ReportConfiguration {
 	ReportReference reference;
 
 	bool is_matrix() const { return group == MATRIX_GROUP; }
-	bool is_stability() const { return group == STABILITY_GROUP; }
 	/// False for the scaling curves, which measure only run time.
 	bool has_reference() const {
 		return group != TRIANGLES_GROUP && group != LIGHT_SIZE_GROUP && group != LIGHTS_GROUP &&
@@ -97,47 +97,14 @@ struct ReportConfiguration {
 /// is_light_disc_above_horizon).
 struct ReportError {
 	MaskMetrics all;
-	MaskMetrics whole_light; // in animations and stability sweeps a copy of `all`
+	MaskMetrics whole_light; // in groups of report parts a copy of `all`
 };
 
-/// The cause of a technique's error, see VisibilityCondition.
-enum class ErrorCause {
-	METHOD,	   // the method itself: exact arithmetic would not reduce the error
-	ROUNDING,  // ill-conditioned: rounding the receiver position to float32 changes v as much
-	REFERENCE, // the float32 reference has an error of this size
-};
-/// Returns "method", "rounding" or "reference_mask".
-const char *get_name(ErrorCause p_cause);
-
-/// How sensitive visibility v is to rounding at some points, computed in double precision. All
-/// values are means over the points.
-struct VisibilityCondition {
-	/// Condition number: change of v divided by the relative change of the receiver's position P,
-	/// |dv| rho / |dP|, with rho the distance to the light (directional: S).
-	double number = 0;
-	double rounding = 0;		// change of v when P moves by a float32 rounding error
-	double reference_error = 0; // |v in double - v of the reference|
-	double error = 0;			// |v of the technique - v of the reference|
-	ErrorCause cause = ErrorCause::METHOD;
-};
-
-/// Additional results of a cell of a stability sweep or an animation, set by the ReportPart.
-struct ReportStability {
-	/// Temporal error over penumbra pixels (TemporalMetrics::penumbra_rmse) between two frames. In
-	/// a stability sweep the light moves by R / 1000 (a directional one rotates by a thousandth of
-	/// its angular radius); in an animation the scene advances by 1/30 s. Unset if the image is too
-	/// large to trace two references, or if the set of receiver pixels changes.
-	std::optional<double> temporal_rmse;
-	/// Fraction, 0..1, of all receivers: those that are fully lit or fully hidden in the reference
-	/// (not is_penumbra) and whose error exceeds 0.5. Always 0 in animations.
-	double wrong_share = 0;
-	std::vector<std::string> warnings; // logged while drawing
-	/// The Error with which the technique refused to draw; then there are no other results. Empty
-	/// if it did draw.
-	std::string refusal;
-	/// Set only if the error is more than twice that of the sweep's centre, or the mask is nonsense
-	/// (see StabilityState).
-	std::optional<VisibilityCondition> condition;
+/// Results of a cell that only the ReportPart of its group defines, next to ReportCell::error.
+class PartResult {
+public:
+	virtual ~PartResult() = default;
+	virtual nlohmann::ordered_json to_json() const = 0;
 };
 
 /// One technique with one setting in one configuration.
@@ -148,15 +115,19 @@ struct ReportCell {
 	std::string record;							   // name in the RecordStore
 	std::map<std::string, std::string> properties; // light properties that the setting changes
 	ReportStatus status = ReportStatus::MISSING;
-	std::string message;					  // error message if the status is FAILED
-	size_t machine_index = 0;				  // in Report::machines
-	std::optional<ReportError> error;		  // unset in scaling curves
-	std::optional<ReportStability> stability; // stability and animation groups only
-	MaskTiming time;						  // not measured if `stability` is set
-	uint64_t bytes = 0;						  // device memory in use while measured
-	std::string image;						  // name of a grey PNG; empty: none
+	std::string message;						   // error message if the status is FAILED
+	size_t machine_index = 0;					   // in Report::machines
+	std::optional<ReportError> error;			   // unset in scaling curves
+	std::shared_ptr<const PartResult> part_result; // set by ReportPart::run_cell, else null
+	MaskTiming time;							   // not measured if `part_result` is set
+	uint64_t bytes = 0;							   // device memory in use while measured
+	std::string image;							   // name of a grey PNG; empty: none
 
 	bool is_ok() const { return status == ReportStatus::OK; }
+	/// Returns the part_result if it is one of that class, else null.
+	template <typename Result> const Result *find_result() const {
+		return dynamic_cast<const Result *>(part_result.get());
+	}
 };
 
 /// A lit image of a scene as its camera sees it, for the HTML page.

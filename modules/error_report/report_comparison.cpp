@@ -98,13 +98,13 @@ private:
 	void compare_usability(const ReportCell &p_old, const ReportCell &p_new) {
 		const ReportPart *part = ReportPartRegistry::find_part(
 				new_report.configurations[p_new.configuration_index].group);
-		if (part == nullptr || !p_old.stability || !p_new.stability) {
+		if (part == nullptr || !p_old.part_result || !p_new.part_result) {
 			return;
 		}
-		const bool was_bad = part->is_unusable(p_old);
-		const bool is_bad = part->is_unusable(p_new);
-		if (was_bad != is_bad) {
-			add(p_new, "status", !was_bad, !is_bad, is_bad, p_new.stability->refusal);
+		const std::optional<std::string> before = part->find_problem(p_old);
+		const std::optional<std::string> after = part->find_problem(p_new);
+		if (before.has_value() != after.has_value()) {
+			add(p_new, "status", !before, !after, after.has_value(), after.value_or(""));
 		}
 	}
 

@@ -35,7 +35,7 @@ struct ReportComparison {
 	bool has_same_machine = true;			   // the machines of both reports are equal
 
 	/// Returns true if an error grew, or if a cell that was measured now fails or is unusable (see
-	/// ReportPart::is_unusable). A longer time is no regression.
+	/// ReportPart::find_problem). A longer time is no regression.
 	bool has_regression() const;
 };
 

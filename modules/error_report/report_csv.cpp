@@ -52,8 +52,8 @@ void add_metrics(const ErrorMetrics *p_metrics, std::vector<std::string> &r_fiel
 }
 
 void add_times(const ReportCell &p_cell, std::vector<std::string> &r_fields) {
-	if (!p_cell.is_ok() || p_cell.stability) {
-		// Instead of the seven values below: cells with `stability` are not timed.
+	if (!p_cell.is_ok() || p_cell.part_result) {
+		// Instead of the seven values below: cells of report parts are not timed.
 		r_fields.insert(r_fields.end(), 7, "");
 		return;
 	}

@@ -21,6 +21,20 @@ namespace {
 template <typename T, typename Plain>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Plain>;
 
+/// Key of ReportCell::part_result, named after the first part that had results.
+const char *const PART_RESULT_KEY = "stability";
+
+/// The result of a cell whose part this build lacks, and of each cell until read_part_result(). It
+/// is kept unchanged.
+class UnknownResult : public PartResult {
+public:
+	explicit UnknownResult(Json p_json) : json(std::move(p_json)) {}
+	Json to_json() const override { return json; }
+
+private:
+	Json json;
+};
+
 /// Writes fields to JSON. Writer and Reader are visitors with the same interface: each overload of
 /// describe() below lists the fields of a struct once, for both directions.
 struct Writer {
@@ -38,6 +52,11 @@ struct Writer {
 	void operator()(const char *p_name, const std::optional<T> &p_value) const {
 		if (p_value) {
 			(*this)(p_name, *p_value);
+		}
+	}
+	void operator()(const char *p_name, const std::shared_ptr<const PartResult> &p_result) const {
+		if (p_result) {
+			json[p_name] = p_result->to_json();
 		}
 	}
 	void operator()(const char *p_name, const glm::uvec2 &p_value) const {
@@ -74,6 +93,10 @@ struct Reader {
 		if (json.contains(p_name)) {
 			(*this)(p_name, r_value.emplace());
 		}
+	}
+	void operator()(const char *p_name, std::shared_ptr<const PartResult> &r_result) const {
+		r_result =
+				json.contains(p_name) ? std::make_shared<UnknownResult>(json.at(p_name)) : nullptr;
 	}
 	void operator()(const char *p_name, glm::uvec2 &r_value) const {
 		r_value = { json.at(p_name).at(0), json.at(p_name).at(1) };
@@ -169,23 +192,11 @@ void describe(const auto &p_visitor, MaybeConst<ReportTechnique> auto &r_techniq
 			r_technique.source, "color", r_technique.color, "is_baseline", r_technique.is_baseline);
 }
 
-void describe(const auto &p_visitor, MaybeConst<VisibilityCondition> auto &r_condition) {
-	describe_fields(p_visitor, "number", r_condition.number, "rounding", r_condition.rounding,
-			"reference_error", r_condition.reference_error, "error", r_condition.error, "cause",
-			r_condition.cause);
-}
-
-void describe(const auto &p_visitor, MaybeConst<ReportStability> auto &r_stability) {
-	describe_fields(p_visitor, "wrong_share", r_stability.wrong_share, "warnings",
-			r_stability.warnings, "refusal", r_stability.refusal, "temporal_rmse",
-			r_stability.temporal_rmse, "condition", r_stability.condition);
-}
-
 /// The fields of a cell that its record contains: results, without the identification.
 void describe_result(const auto &p_visitor, MaybeConst<ReportCell> auto &r_cell) {
 	describe_fields(p_visitor, "status", r_cell.status, "message", r_cell.message, "error",
-			r_cell.error, "stability", r_cell.stability);
-	if (r_cell.is_ok() && !r_cell.stability) { // cells with `stability` are not timed
+			r_cell.error, PART_RESULT_KEY, r_cell.part_result);
+	if (r_cell.is_ok() && !r_cell.part_result) { // cells of report parts are not timed
 		describe_fields(p_visitor, "time", r_cell.time, "bytes", r_cell.bytes);
 	}
 	if (r_cell.is_ok()) {
@@ -266,19 +277,12 @@ void rename_key(Json &r_json, const char *p_old, const char *p_new) {
 	}
 }
 
-/// Converts a record or a whole report of version 1, which called the reference "truth".
+/// Converts a record or a whole report of version 1, which called the reference "truth". The
+/// results of report parts are converted by ReportPart::read_result.
 void upgrade(Json &r_json) {
 	rename_key(r_json, "truth", "reference_mask");
 	if (!r_json.is_object()) {
 		return;
-	}
-	if (r_json.contains("stability") && r_json["stability"].is_object() &&
-			r_json["stability"].contains("condition")) {
-		Json &condition = r_json["stability"]["condition"];
-		rename_key(condition, "truth_error", "reference_error");
-		if (condition.is_object() && condition.value("cause", Json()) == "truth") {
-			condition["cause"] = get_name(ErrorCause::REFERENCE);
-		}
 	}
 	for (const char *list : { "configurations", "cells" }) {
 		if (r_json.contains(list)) {
@@ -286,6 +290,15 @@ void upgrade(Json &r_json) {
 				upgrade(item);
 			}
 		}
+	}
+}
+
+/// Replaces the UnknownResult of a cell by what the ReportPart of its group reads from it.
+void read_part_result(const Report &p_report, ReportCell &r_cell) {
+	const std::string &group = p_report.configurations[r_cell.configuration_index].group;
+	const ReportPart *part = ReportPartRegistry::find_part(group);
+	if (part != nullptr && r_cell.part_result) {
+		r_cell.part_result = part->read_result(r_cell.part_result->to_json());
 	}
 }
 
@@ -298,24 +311,26 @@ Report read_report(Json p_json) {
 	Report report;
 	describe(Reader{ p_json }, report);
 	for (size_t index = 0; index < report.cells.size(); ++index) {
-		const ReportCell &cell = report.cells[index];
+		ReportCell &cell = report.cells[index];
 		const bool has_machine = !cell.is_ok() || cell.machine_index < report.machines.size();
 		if (cell.configuration_index >= report.configurations.size() || !has_machine) {
 			fail("cell ", index, " has configuration ", cell.configuration_index, " of ",
 					report.configurations.size(), " and machine ", cell.machine_index, " of ",
 					report.machines.size(), "; the indices must be below these counts.");
 		}
+		read_part_result(report, cell);
 	}
 	return report;
 }
 
-/// Reads the results of a cell, configuration or scene image into r_owner. If the JSON has another
-/// format, throws an Error and leaves r_owner unchanged.
-template <typename Owner> void read_result(Json p_json, Owner &r_owner) {
+/// Reads the results of a cell, configuration or scene image into r_owner; p_finish(owner) is
+/// called last. If the JSON has another format, throws an Error and leaves r_owner unchanged.
+template <typename Owner> void read_result(Json p_json, Owner &r_owner, auto p_finish) {
 	try {
 		upgrade(p_json);
 		Owner owner = r_owner;
 		describe_result(Reader{ p_json }, owner);
+		p_finish(owner);
 		r_owner = std::move(owner);
 	} catch (const Json::exception &error) {
 		fail("Record \"", r_owner.record, "\" has another form: ", error.what(), ".");
@@ -347,7 +362,7 @@ ReportMachine read_cell_machine(const Json &p_json) {
 
 void read_cell_result(const Json &p_json, Report &r_report, ReportCell &r_cell) {
 	const ReportMachine machine = read_cell_machine(p_json);
-	read_result(p_json, r_cell);
+	read_result(p_json, r_cell, [&](ReportCell &r_read) { read_part_result(r_report, r_read); });
 	auto &machines = r_report.machines;
 	const auto found = std::ranges::find(machines, machine);
 	r_cell.machine_index = static_cast<size_t>(found - machines.begin());
@@ -369,11 +384,11 @@ Json scene_image_result_to_json(const ReportSceneImage &p_image) {
 }
 
 void read_scene_image_result(const Json &p_json, ReportSceneImage &r_image) {
-	read_result(p_json, r_image);
+	read_result(p_json, r_image, [](const ReportSceneImage &) {});
 }
 
 void read_reference_result(const Json &p_json, ReportConfiguration &r_configuration) {
-	read_result(p_json, r_configuration);
+	read_result(p_json, r_configuration, [](const ReportConfiguration &) {});
 }
 
 Json to_json(const Report &p_report) {

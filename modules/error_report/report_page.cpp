@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/error_report/page_files.h"
-#include "modules/error_report/report.h"
+#include "modules/error_report/report_part.h"
 #include "modules/masks/mask_png.h"
 
 #include <nlohmann/json.hpp>
@@ -56,10 +56,21 @@ std::string escape_html(const std::string &p_text) {
 	return replace_all(replace_all(replace_all(p_text, "&", "&amp;"), "<", "&lt;"), ">", "&gt;");
 }
 
-/// Concatenates the embedded files of a folder that have the extension p_extension, sorted by name.
+/// Returns the embedded files of the page and of all report parts, in this order.
+std::vector<PageFile> list_page_files() {
+	const std::span<const PageFile> own = get_page_files();
+	std::vector<PageFile> files(own.begin(), own.end());
+	for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
+		const std::span<const PageFile> added = info.part->get_page_files();
+		files.insert(files.end(), added.begin(), added.end());
+	}
+	return files;
+}
+
+/// Concatenates the embedded files of a folder that have the extension p_extension.
 std::string join_files(std::string_view p_folder, std::string_view p_extension) {
 	std::string joined;
-	for (const PageFile &file : get_page_files()) {
+	for (const PageFile &file : list_page_files()) {
 		const size_t slash = file.name.rfind('/');
 		const std::string_view folder =
 				slash == std::string_view::npos ? std::string_view() : file.name.substr(0, slash);
@@ -74,7 +85,7 @@ std::string join_files(std::string_view p_folder, std::string_view p_extension) 
 
 std::string join_licenses() {
 	std::string joined;
-	for (const PageFile &file : get_page_files()) {
+	for (const PageFile &file : list_page_files()) {
 		if (file.name.find("LICENSE") != std::string_view::npos) {
 			joined += text(file.name, ":\n", file.text, "\n");
 		}
@@ -108,10 +119,9 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	const Json &configurations = p_report.at("configurations");
 	for (size_t index = 0; index < configurations.size(); ++index) {
 		const Json &configuration = configurations[index];
-		// Most points of stability sweeps have no images of techniques; their references are
-		// omitted.
+		// Most cells of report parts have no images of techniques; their references are omitted.
 		if (configuration.contains("reference_mask") &&
-				(configuration.value("group", "") != STABILITY_GROUP ||
+				(configuration.value("group", "") == MATRIX_GROUP ||
 						with_images.count(index) != 0)) {
 			add_image(configuration.at("reference_mask"), p_store, images);
 		}

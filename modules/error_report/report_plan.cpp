@@ -153,9 +153,9 @@ public:
 		}
 	}
 
-	void add_parts() {
+	void add_parts(std::span<const ReportScene> p_scenes) {
 		for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
-			info.part->plan(options,
+			info.part->plan(options, p_scenes,
 					[this](ReportConfiguration p_configuration, ReportPlan::MakeTask p_make_task) {
 						add_configuration(std::move(p_configuration), std::move(p_make_task),
 								ExpensiveSettings::SKIPPED);
@@ -359,10 +359,7 @@ private:
 	void add_cell(size_t p_configuration, const std::string &p_technique,
 			const QualitySetting &p_setting) {
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
-		// Only tasks of the matrix use these. Stability scenes set the penumbra widths themselves
-		// (sweep "fin_width").
-		PropertyValues properties =
-				configuration.is_stability() ? PropertyValues() : make_derived_widths();
+		PropertyValues properties = make_derived_widths(); // only tasks of the matrix use them
 		ReportCell cell;
 		cell.configuration_index = p_configuration;
 		cell.technique = p_technique;
@@ -389,9 +386,14 @@ private:
 
 } // namespace
 
-bool ReportOptions::has_sweep(const std::string &p_id) const {
-	return stability != ReportExtent::NONE &&
-			(sweeps.empty() || std::find(sweeps.begin(), sweeps.end(), p_id) != sweeps.end());
+std::vector<std::string> ReportOptions::get_part_option(const std::string &p_name) const {
+	const auto found = part_options.find(p_name);
+	return found == part_options.end() ? std::vector<std::string>() : found->second;
+}
+
+ReportExtent ReportOptions::get_part_extent(const std::string &p_name) const {
+	const std::vector<std::string> values = get_part_option(p_name);
+	return values.empty() ? ReportExtent::NONE : parse_extent(values.front());
 }
 
 ReportView find_report_view(const ReportScene &p_scene) {
@@ -419,7 +421,7 @@ ReportPlan make_report_plan(const ReportOptions &p_options,
 		planner.add_scene(scene);
 	}
 	planner.add_scaling();
-	planner.add_parts();
+	planner.add_parts(p_scenes);
 	return planner.finish();
 }
 

@@ -7,14 +7,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace gnomon {
-
-/// Id of the stability sweep over ReportOptions::stability_scenes.
-inline constexpr const char *PROJECT_SCENES_SWEEP = "scenes";
 
 /// A scene of a project, or the reason why it could not be loaded.
 struct ReportScene {
@@ -48,14 +46,18 @@ struct ReportOptions {
 	double precision_percent = 5;
 	uint64_t filter_hash = 0; // see MaskTask::filter_hash
 	ReportExtent scaling = ReportExtent::QUICK;
-	ReportExtent stability = ReportExtent::QUICK; // NONE if the build has no stability_report
-	std::vector<std::string> sweeps;			  // ids of stability sweeps; empty: all
-	std::vector<ReportScene> stability_scenes;	  // scenes of the sweep PROJECT_SCENES_SWEEP
-	ReportExtent animation = ReportExtent::QUICK; // of ANIMATION_GROUP; the option --change
-	std::vector<ReportScene> animated_scenes;	  // scenes without an animation are skipped
+	/// Values of the options that report parts declare (ReportPart::list_options), by the option's
+	/// name. Without any, no part measures anything.
+	std::map<std::string, std::vector<std::string>> part_options;
+	/// The scenes that the project names for a report part alone, by the part's id; only of parts
+	/// for which ReportPart::needs_own_scenes is true.
+	std::map<std::string, std::vector<ReportScene>> part_scenes;
 
-	/// Returns whether the stability sweep is to be measured.
-	bool has_sweep(const std::string &p_id) const;
+	/// Returns the values of an option of a part; empty if it has none.
+	std::vector<std::string> get_part_option(const std::string &p_name) const;
+	/// Returns the value of an option of a part that has one of the values of parse_extent; NONE if
+	/// it is not set.
+	ReportExtent get_part_extent(const std::string &p_name) const;
 };
 
 /// The planned measurements: a report whose references and cells are MISSING, and functions that

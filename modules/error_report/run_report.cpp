@@ -85,9 +85,8 @@ private:
 	/// Returns whether this shard measures the configuration.
 	bool is_in_shard(size_t p_configuration) const {
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
-		if (configuration.is_stability()) {
-			// A shard gets whole curves, since points are compared with the centre of their curve.
-			// A curve is a sweep with one type of light.
+		if (!configuration.sweep.empty()) {
+			// A shard gets whole curves, see ReportConfiguration::sweep.
 			const uint64_t hash = compute_text_hash(
 					configuration.light_type, compute_text_hash(configuration.sweep, /*p_seed=*/1));
 			return hash % options.shard_count == options.shard_index;
@@ -256,7 +255,7 @@ private:
 		if (failure) {
 			cell.message = *failure;
 			cell.error.reset();
-			cell.stability.reset();
+			cell.part_result.reset();
 			cell.image.clear();
 			log_error(configuration.id, ", ", cell.technique, ", ", cell.setting, ": ", *failure);
 		}

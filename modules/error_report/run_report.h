@@ -16,7 +16,8 @@ struct ReportRunOptions {
 	/// deletes this shard's records and those of other plans.
 	bool resumes = false;
 	/// This run measures shard shard_index, from 0, of shard_count of the plan. Configurations are
-	/// assigned by index, stability sweeps by whole curves; see is_in_shard in run_report.cpp.
+	/// assigned by index, sweeps of report parts by whole curves; see is_in_shard in
+	/// run_report.cpp.
 	uint32_t shard_index = 0;
 	uint32_t shard_count = 1;
 	/// Called with the results so far, after each configuration of which cells were measured. May

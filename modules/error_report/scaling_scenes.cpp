@@ -1,11 +1,14 @@
 #include "modules/error_report/scaling_scenes.h"
 
+#include "modules/core/error.h"
 #include "modules/core/text.h"
 #include "modules/scene/box_mesh.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace gnomon {
@@ -102,6 +105,12 @@ const std::vector<ScalingSeries> SERIES[] = {
 };
 
 } // namespace
+
+ReportExtent parse_extent(std::string_view p_name) {
+	const auto found = std::ranges::find(EXTENT_NAMES, p_name);
+	GNOMON_ASSERT(found != std::end(EXTENT_NAMES), p_name, " is no extent of a report");
+	return static_cast<ReportExtent>(found - EXTENT_NAMES);
+}
 
 const std::vector<ScalingSeries> &get_scaling_series(ReportExtent p_extent) {
 	return SERIES[static_cast<int>(p_extent)];

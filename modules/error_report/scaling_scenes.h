@@ -6,24 +6,25 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace gnomon {
 
-/// How much of a part of the report is measured.
+/// How much of the scaling curves, or of a report part (ReportPart), is measured.
 enum class ReportExtent {
 	NONE,
 	/// Scaling: three points per curve, cheap enough for a software device, without techniques that
-	/// have expensive settings. Stability: two or three values of each sweep, the centre among them
-	/// (all points of "guards" and "scenes"), at 64 x 64 pixels (but not "resolution") and with one
-	/// type of light ("light_size" and "scenes": with all). Animation: 4 moments of each scene's
-	/// first animation.
+	/// have expensive settings.
 	QUICK,
 	/// Scaling: 2000 to 1 million triangles, 1 to 64 lights, 128 to 2048 pixels, light radii of
-	/// 0.02 to 2.4 m. Stability: all values of each sweep, at 128 x 128 pixels (but not
-	/// "resolution"). Animation: 16 moments of each scene's first animation.
+	/// 0.02 to 2.4 m.
 	FULL,
 };
+/// The names of the extents, in their order.
+inline constexpr const char *EXTENT_NAMES[] = { "none", "quick", "full" };
+/// Returns the extent with that name. A name that is not in EXTENT_NAMES is a programming error.
+ReportExtent parse_extent(std::string_view p_name);
 
 /// A scaling curve: run time against one quantity.
 struct ScalingSeries {

@@ -10,6 +10,7 @@
 #include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
 #include "modules/error_report/report_page.h"
+#include "modules/error_report/report_part.h"
 #include "modules/error_report/report_ranking.h"
 #include "modules/error_report/run_report.h"
 #include "modules/main/commands.h"
@@ -46,7 +47,7 @@ bool add_budget_and_comparison(const Report &p_report, const ReportArguments &p_
 		for (size_t index = 0; index < p_report.configurations.size(); ++index) {
 			const ReportConfiguration &configuration = p_report.configurations[index];
 			if (!configuration.is_matrix()) {
-				continue; // of a scaling curve, animation or sweep
+				continue; // of a scaling curve or a report part
 			}
 			Json choice = { { "configuration", index } };
 			const auto best = find_within_budget(p_report, index, *p_arguments.budget_ms);
@@ -174,10 +175,11 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	const SelectedScenes selected = select_scenes(p_arguments);
 	ReportOptions options = make_report_options(p_arguments, selected.project);
 	const std::vector<ReportScene> scenes = load_scenes(selected.scenes, p_common, options.size_px);
-	options.animated_scenes = scenes;
-	if (options.has_sweep(PROJECT_SCENES_SWEEP)) {
-		options.stability_scenes =
-				load_scenes(selected.stability_scenes, p_common, options.size_px);
+	for (const auto &[id, files] : selected.part_scenes) {
+		const ReportPart *part = ReportPartRegistry::find_part(id);
+		if (part != nullptr && part->needs_own_scenes(options)) {
+			options.part_scenes[id] = load_scenes(files, p_common, options.size_px);
+		}
 	}
 	if (std::none_of(scenes.begin(), scenes.end(),
 				[](const ReportScene &p_scene) { return p_scene.scene != nullptr; })) {
@@ -219,6 +221,38 @@ void run_merge_command(const ReportArguments &p_arguments) {
 	finish_report(report, p_arguments.merge_out, p_arguments, old_report, MissingCells::REFUSED);
 }
 
+/// Adds the options that the report parts of this build declare, and, hidden, those of parts that
+/// it lacks, for which any value but "none" is a UsageError.
+void add_part_options(CLI::App &r_command, ReportOptions &r_options) {
+	for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
+		for (const ReportPartOption &option : info.part->list_options()) {
+			std::vector<std::string> &values = r_options.part_options[option.name];
+			values = option.default_values;
+			CLI::Option *added = r_command.add_option(option.name, values, option.help);
+			if (option.is_list) {
+				added->delimiter(',');
+			} else {
+				added->expected(1)->allow_extra_args(false)->check(CLI::IsMember(option.values));
+			}
+		}
+	}
+	for (const MissingOption &missing : get_missing_report_options()) {
+		r_command
+				.add_option_function<std::vector<std::string>>(missing.name,
+						[missing](const std::vector<std::string> &p_values) {
+							if (p_values == std::vector<std::string>{ "none" }) {
+								return;
+							}
+							throw UsageError(text("`gnomon report ", missing.name,
+									"` needs the module ", missing.module,
+									", which this build lacks. Build with module_", missing.module,
+									"_enabled=yes."));
+						})
+				->allow_extra_args(false)
+				->group(""); // not in --help
+	}
+}
+
 void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	static ReportArguments arguments;
 	CLI::App *command = r_app.add_subcommand(
@@ -254,16 +288,7 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--scaling", arguments.scaling,
 				   "Curves of run time: none, quick (default) or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
-	command->add_option("--change", arguments.change,
-				   "Errors of change while each scene's animation plays: none, quick (default) or "
-				   "full")
-			->check(CLI::IsMember({ "none", "quick", "full" }));
-	command->add_option("--stability", arguments.stability,
-				   "Sweeps into stiff and extreme cases: none, quick (default) or full")
-			->check(CLI::IsMember({ "none", "quick", "full" }));
-	command->add_option(
-				   "--sweeps", arguments.options.sweeps, "A,B: only these sweeps of --stability")
-			->delimiter(',');
+	add_part_options(*command, arguments.options);
 	command->add_option("--precision", arguments.options.precision_percent,
 				   "Percent: timing of a cell ends early once the standard error of its median is "
 				   "at most this; 0 = never; default 5")

@@ -29,12 +29,6 @@ LightType parse_light_type(const std::string &p_name) {
 			"\" must be own, or some of spot, omni and directional, separated by commas."));
 }
 
-ReportExtent parse_extent(const std::string &p_name) {
-	return p_name == "none"	   ? ReportExtent::NONE
-			: p_name == "full" ? ReportExtent::FULL
-							   : ReportExtent::QUICK;
-}
-
 NamedFiles name_files(const std::vector<fs::path> &p_files, const fs::path &p_folder) {
 	NamedFiles named;
 	std::map<std::string, fs::path> by_name;
@@ -70,25 +64,6 @@ bool matches_pattern(std::string_view p_pattern, std::string_view p_name) {
 		p_pattern.remove_prefix(next + 1);
 	}
 	return p_name.ends_with(p_pattern);
-}
-
-/// Reads --stability and --sweeps. Without the module stability_report there are no sweeps, and
-/// requesting them is a UsageError.
-void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r_options) {
-	const std::string extent = p_arguments.stability.value_or("quick");
-	const ReportPart *part = ReportPartRegistry::find_part(STABILITY_GROUP);
-	if (part == nullptr) {
-		const bool is_requested = p_arguments.stability && extent != "none";
-		if (is_requested || !r_options.sweeps.empty()) {
-			throw UsageError(text("`gnomon report ", is_requested ? "--stability" : "--sweeps",
-					"` needs the module stability_report, which this build lacks. Build with ",
-					"module_stability_report_enabled=yes."));
-		}
-		r_options.stability = ReportExtent::NONE;
-		return;
-	}
-	r_options.stability = parse_extent(extent);
-	check_names("--sweeps", r_options.sweeps, part->list_sweeps());
 }
 
 } // namespace
@@ -161,8 +136,11 @@ ReportOptions make_report_options(
 	}
 	options.size_px = parse_size(p_arguments.size);
 	options.scaling = parse_extent(p_arguments.scaling);
-	options.animation = parse_extent(p_arguments.change);
-	read_stability_options(p_arguments, options);
+	for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
+		for (const ReportPartOption &option : info.part->list_options()) {
+			check_names(option.name.c_str(), options.get_part_option(option.name), option.values);
+		}
+	}
 	return options;
 }
 
@@ -183,7 +161,9 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 			log_warning("Scene ", missing, " does not exist and is skipped.");
 		}
 		all = name_files(project.scenes, project.folder);
-		selected.stability_scenes = name_files(project.stability_scenes, project.folder);
+		for (const auto &[part, files] : project.part_scenes) {
+			selected.part_scenes[part] = name_files(files, project.folder);
+		}
 	} else {
 		selected.folder = fs::absolute(path).parent_path();
 		selected.project = path.stem().string();

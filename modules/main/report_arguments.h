@@ -3,6 +3,7 @@
 #include "modules/error_report/run_report.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,9 +24,7 @@ struct ReportArguments {
 	std::vector<std::string> light_types;	 // "spot", "omni", "directional", or only "own"
 	std::string size = "256x256";			 // of the masks, pixels
 	std::string scaling = "quick";			 // or "none", "full"
-	std::string change = "quick";			 // or "none", "full"
-	std::optional<std::string> stability; // as scaling; unset: "quick" if the build has the sweeps
-	ReportOptions options;				  // receives options that need no conversion
+	ReportOptions options; // receives options that need no conversion, and those of report parts
 	std::filesystem::path out;
 	bool resumes = false;					   // --resume
 	std::filesystem::path against;			   // an older report.json; empty: none
@@ -52,10 +51,10 @@ struct SelectedScenes {
 	std::string project;		  // name of the project, else of the scene file
 	std::filesystem::path folder; // of the project or scene file
 	NamedFiles scenes;			  // scenes of the report's matrix (MATRIX_GROUP); at least one
-	NamedFiles stability_scenes;  // scenes of the stability sweep "scenes"
+	std::map<std::string, NamedFiles> part_scenes; // see Project::part_scenes
 };
 /// Selects the scenes of the project or scene file. --scenes and --skip restrict
-/// SelectedScenes::scenes, but not stability_scenes. Throws an Error if the project does not exist,
+/// SelectedScenes::scenes, but not part_scenes. Throws an Error if the project does not exist,
 /// two scenes of one list have the same name or no scene remains in `scenes`, and a UsageError for
 /// an unknown scene in --scenes.
 SelectedScenes select_scenes(const ReportArguments &p_arguments);

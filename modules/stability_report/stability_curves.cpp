@@ -1,6 +1,7 @@
 #include "modules/stability_report/stability_curves.h"
 
 #include "modules/stability_report/stability_part.h"
+#include "modules/stability_report/stability_result.h"
 #include "modules/stability_report/stability_sweeps.h"
 
 #include <nlohmann/json.hpp>
@@ -23,10 +24,14 @@ const double MIN_BREAKING_MAE = 1.0 / 256;
 const double MAX_WRONG_SHARE = 0.02;
 const double NOISE_STANDARD_ERRORS = 2.0; // tolerated noise, in standard errors of the reference
 
+bool is_stability(const ReportConfiguration &p_configuration) {
+	return p_configuration.group == STABILITY_GROUP;
+}
+
 /// Returns whether two configurations are points of the same curve.
 bool are_in_same_curve(
 		const ReportConfiguration &p_configuration, const ReportConfiguration &p_other) {
-	return p_configuration.is_stability() && p_other.is_stability() &&
+	return is_stability(p_configuration) && is_stability(p_other) &&
 			p_configuration.sweep == p_other.sweep &&
 			p_configuration.light_type == p_other.light_type;
 }
@@ -58,7 +63,7 @@ std::vector<double> find_values(const Report &p_report, const StabilitySweep &p_
 	}
 	std::set<double> values;
 	for (const ReportConfiguration &at : p_report.configurations) {
-		if (at.is_stability() && at.sweep == p_sweep.id) {
+		if (is_stability(at) && at.sweep == p_sweep.id) {
 			values.insert(at.value);
 		}
 	}
@@ -73,7 +78,7 @@ StabilityCurve make_curve(const Report &p_report, const std::string &p_technique
 		for (size_t index = 0; index < p_report.cells.size(); ++index) {
 			const ReportCell &cell = p_report.cells[index];
 			const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
-			if (cell.technique != p_technique || !at.is_stability() || at.sweep != p_sweep.id ||
+			if (cell.technique != p_technique || !is_stability(at) || at.sweep != p_sweep.id ||
 					at.light_type != p_light_type || at.value != value) {
 				continue;
 			}
@@ -116,14 +121,15 @@ std::optional<StabilityError> get_stability_error(const ReportCell &p_cell) {
 
 StabilityState classify_stability(
 		const ReportCell &p_cell, const ReportReference &p_reference, const ReportCell *p_center) {
-	if (p_cell.status != ReportStatus::OK || !p_cell.stability) {
+	const StabilityResult *result = p_cell.find_result<StabilityResult>();
+	if (p_cell.status != ReportStatus::OK || result == nullptr) {
 		return p_cell.status == ReportStatus::FAILED ? StabilityState::FAILED
 													 : StabilityState::MISSING;
 	}
-	if (!p_cell.stability->refusal.empty()) {
+	if (!result->refusal.empty()) {
 		return StabilityState::REFUSED;
 	}
-	if (p_cell.stability->wrong_share > MAX_WRONG_SHARE) {
+	if (result->wrong_share > MAX_WRONG_SHARE) {
 		return StabilityState::NONSENSE;
 	}
 	const std::optional<StabilityError> error = get_stability_error(p_cell);

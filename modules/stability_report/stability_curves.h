@@ -16,7 +16,7 @@ enum class StabilityState {
 	/// The error exceeds both twice that of the centre and 1/256, each plus two standard errors of
 	/// the reference.
 	DOUBLED,
-	NONSENSE, // more than 2 % of the receivers are wrong, see ReportStability::wrong_share
+	NONSENSE, // more than 2 % of the receivers are wrong, see StabilityResult::wrong_share
 	REFUSED,  // the technique drew nothing and threw an Error instead
 	FAILED,	  // values not finite or outside 0..1, a validation message, or another failure
 };

@@ -12,14 +12,21 @@ namespace {
 
 const char *const SCENE_NAME = "stability, generated";
 
+/// Returns whether the options request the sweep.
+bool has_sweep(const ReportOptions &p_options, const std::string &p_id) {
+	const std::vector<std::string> ids = p_options.get_part_option(SWEEPS_OPTION);
+	return p_options.get_part_extent(STABILITY_OPTION) != ReportExtent::NONE &&
+			(ids.empty() || std::ranges::find(ids, p_id) != ids.end());
+}
+
 using TaskCache = LastValue<std::tuple<const StabilitySweep *, LightType, double>, MaskTask>;
 
 /// Returns the task of a point. The cache avoids building its scene again for each technique.
 MaskTask get_task(TaskCache &r_cache, const StabilitySweep &p_sweep, LightType p_type,
 		double p_value, const ReportOptions &p_options) {
 	return r_cache.get({ &p_sweep, p_type, p_value }, [&] {
-		const StabilitySetup point =
-				make_stability_setup(p_sweep, p_type, p_value, p_options.stability);
+		const StabilitySetup point = make_stability_setup(
+				p_sweep, p_type, p_value, p_options.get_part_extent(STABILITY_OPTION));
 		return MaskTask{ build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front()),
 			point.light, point.size_px, p_options.filter_hash };
 	});
@@ -28,11 +35,16 @@ MaskTask get_task(TaskCache &r_cache, const StabilitySweep &p_sweep, LightType p
 /// Plans the sweep "scenes": each light of the project's stability scenes, unchanged.
 void plan_project_scenes(
 		const ReportOptions &p_options, const ReportPart::AddConfiguration &p_add) {
+	const auto scenes = p_options.part_scenes.find(STABILITY_GROUP);
+	if (scenes == p_options.part_scenes.end()) {
+		return;
+	}
 	ReportConfiguration configuration;
 	configuration.group = STABILITY_GROUP;
 	configuration.sweep = PROJECT_SCENES_SWEEP;
-	configuration.size_px = glm::uvec2(get_stability_size_px(p_options.stability));
-	for (const ReportScene &item : p_options.stability_scenes) {
+	configuration.size_px =
+			glm::uvec2(get_stability_size_px(p_options.get_part_extent(STABILITY_OPTION)));
+	for (const ReportScene &item : scenes->second) {
 		configuration.scene = item.name;
 		try {
 			const ReportView view = find_report_view(item);
@@ -59,19 +71,27 @@ void plan_project_scenes(
 
 } // namespace
 
-std::vector<std::string> StabilityPart::list_sweeps() const {
-	std::vector<std::string> ids;
+std::vector<ReportPartOption> StabilityPart::list_options() const {
+	ReportPartOption sweeps = { SWEEPS_OPTION, "A,B: only these sweeps of --stability" };
+	sweeps.is_list = true;
 	for (const StabilitySweep &sweep : get_stability_sweeps()) {
-		ids.push_back(sweep.id);
+		sweeps.values.push_back(sweep.id);
 	}
-	return ids;
+	return { make_extent_option(STABILITY_OPTION,
+					 "Sweeps into stiff and extreme cases: none, quick (default) or full"),
+		sweeps };
 }
 
-void StabilityPart::plan(const ReportOptions &p_options, const AddConfiguration &p_add) const {
-	const bool is_quick = p_options.stability == ReportExtent::QUICK;
+bool StabilityPart::needs_own_scenes(const ReportOptions &p_options) const {
+	return has_sweep(p_options, PROJECT_SCENES_SWEEP);
+}
+
+void StabilityPart::plan(const ReportOptions &p_options, std::span<const ReportScene> /*p_scenes*/,
+		const AddConfiguration &p_add) const {
+	const bool is_quick = p_options.get_part_extent(STABILITY_OPTION) == ReportExtent::QUICK;
 	const auto cache = std::make_shared<TaskCache>();
 	for (const StabilitySweep &sweep : get_stability_sweeps()) {
-		if (!p_options.has_sweep(sweep.id)) {
+		if (!has_sweep(p_options, sweep.id)) {
 			continue;
 		}
 		if (sweep.has_project_scenes) {

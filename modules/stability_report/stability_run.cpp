@@ -2,7 +2,7 @@
 #include "modules/error_report/light_variant.h"
 #include "modules/stability_report/stability_curves.h"
 #include "modules/stability_report/stability_part.h"
-#include "modules/stability_report/visibility_condition.h"
+#include "modules/stability_report/stability_result.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -41,7 +41,7 @@ void check_values(const std::vector<MaskImage> &p_frames) {
 	}
 }
 
-/// See ReportStability::wrong_share.
+/// See StabilityResult::wrong_share.
 double compute_wrong_share(const MaskImage &p_reference, const MaskImage &p_mask) {
 	uint64_t wrong_count = 0;
 	uint64_t receiver_count = 0;
@@ -183,7 +183,8 @@ MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 	ReportCell &cell = r_report.cells[p_cell];
 	const TracedReference &unmoved = p_references.front();
 	const TracedReference *moved = p_references.size() > 1 ? &p_references[1] : nullptr;
-	ReportStability stability;
+	const auto result = std::make_shared<StabilityResult>();
+	cell.part_result = result;
 	std::vector<MaskTask> tasks = { p_task };
 	if (moved != nullptr) {
 		tasks.push_back(move_light(p_task));
@@ -194,11 +195,10 @@ MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 	} catch (const DeviceLost &) {
 		throw; // not a refusal: it ends the run, which --resume continues
 	} catch (const Error &error) {
-		stability.refusal = error.what();
-		cell.stability = stability;
+		result->refusal = error.what();
 		return {};
 	}
-	stability.warnings = drawn.warnings;
+	result->warnings = drawn.warnings;
 	if (drawn.validation_message_count > 0) {
 		fail(drawn.validation_message_count, " validation messages.");
 	}
@@ -206,12 +206,11 @@ MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 	const MaskImage &mask = drawn.frames.front();
 	cell.error = ReportError{ compute_mask_metrics(unmoved.mask, mask), {} };
 	cell.error->whole_light = cell.error->all; // not measured separately in report parts
-	stability.wrong_share = compute_wrong_share(unmoved.mask, mask);
+	result->wrong_share = compute_wrong_share(unmoved.mask, mask);
 	if (moved != nullptr && unmoved.mask.receiver == moved->mask.receiver) {
 		const MaskImage references[] = { unmoved.mask, moved->mask };
-		stability.temporal_rmse = compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
+		result->temporal_rmse = compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
 	}
-	cell.stability = stability;
 	ReportCell judged = cell; // run_report sets the cell's status only after this function
 	judged.status = ReportStatus::OK;
 	const std::optional<size_t> center = find_stability_center(r_report, cell);
@@ -219,18 +218,20 @@ MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskTask &p_task,
 			classify_stability(judged, r_report.configurations[cell.configuration_index].reference,
 					center ? &r_report.cells[*center] : nullptr);
 	if (state == StabilityState::DOUBLED || state == StabilityState::NONSENSE) {
-		cell.stability->condition = compute_visibility_condition(*p_task.scene,
+		result->condition = compute_visibility_condition(*p_task.scene,
 				get_light(*p_task.scene, p_task.light), find_worst_points(unmoved, mask));
 	}
 	const bool keeps_image = state == StabilityState::NONSENSE || center == p_cell;
 	return keeps_image ? std::move(drawn.frames.front()) : MaskImage();
 }
 
-bool StabilityPart::is_unusable(const ReportCell &p_cell) const {
+std::optional<std::string> StabilityPart::find_problem(const ReportCell &p_cell) const {
 	// Without the centre, since a doubled error is usable.
 	const StabilityState state =
 			classify_stability(p_cell, /*p_reference=*/{}, /*p_center=*/nullptr);
-	return state == StabilityState::REFUSED || state == StabilityState::NONSENSE;
+	return state == StabilityState::REFUSED || state == StabilityState::NONSENSE
+			? std::optional(p_cell.find_result<StabilityResult>()->refusal)
+			: std::nullopt;
 }
 
 } // namespace gnomon

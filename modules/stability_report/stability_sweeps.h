@@ -11,6 +11,9 @@
 
 namespace gnomon {
 
+/// Id of the sweep over the scenes that the project lists for StabilityPart.
+inline constexpr const char *PROJECT_SCENES_SWEEP = "scenes";
+
 /// A sweep: generated scenes in which one quantity varies from harmless to extreme and everything
 /// else is constant (exceptions: has_cases). The report shows one curve per technique and light
 /// type.
@@ -23,8 +26,8 @@ struct StabilitySweep {
 	std::vector<double> quick_values; // subset of `values` for ReportExtent::QUICK
 	/// Names of separate scenes, whose indices are `values`. Empty if the values are a quantity.
 	std::vector<std::string> labels = {};
-	/// True: the points are the lights of ReportOptions::stability_scenes, numbered from 0, and
-	/// there is no centre.
+	/// True: the points are the lights of ReportOptions::part_scenes, numbered from 0, and there is
+	/// no centre.
 	bool has_project_scenes = false;
 
 	/// True: the points are separate scenes, which form no curve.

@@ -19,6 +19,11 @@ const double EXPLAINING_FRACTION = 0.5;
 
 } // namespace
 
+const char *get_name(ErrorCause p_cause) {
+	static const char *const NAMES[] = { "method", "rounding", "reference_mask" };
+	return NAMES[static_cast<int>(p_cause)];
+}
+
 DoubleVisibility::DoubleVisibility(const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
 		scene(p_scene), light(p_light) {
 	for (const InstanceSnapshot &instance : p_scene.instances) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "modules/error_report/report.h"
 #include "modules/mesh_tools/ray_tree.h"
 #include "modules/scene/scene_snapshot.h"
 
@@ -11,6 +10,27 @@
 #include <vector>
 
 namespace gnomon {
+
+/// The cause of a technique's error, see VisibilityCondition.
+enum class ErrorCause {
+	METHOD,	   // the method itself: exact arithmetic would not reduce the error
+	ROUNDING,  // ill-conditioned: rounding the receiver position to float32 changes v as much
+	REFERENCE, // the float32 reference has an error of this size
+};
+/// Returns "method", "rounding" or "reference_mask".
+const char *get_name(ErrorCause p_cause);
+
+/// How sensitive visibility v is to rounding at some points, computed in double precision. All
+/// values are means over the points.
+struct VisibilityCondition {
+	/// Condition number: change of v divided by the relative change of the receiver's position P,
+	/// |dv| rho / |dP|, with rho the distance to the light (directional: S).
+	double number = 0;
+	double rounding = 0;		// change of v when P moves by a float32 rounding error
+	double reference_error = 0; // |v in double - v of the reference|
+	double error = 0;			// |v of the technique - v of the reference|
+	ErrorCause cause = ErrorCause::METHOD;
+};
 
 /// Computes the visibility of one light in double precision on the CPU, with 256 rays per point. It
 /// is slow: meant for telling rounding errors from errors of a method at few points, and for

@@ -31,6 +31,7 @@ SMALL_REPORT = ("report", SCENE, "--size", "16x16", "--samples", "4", "--scaling
 PARTIAL_BUILDS = (
     (("stability_report",), (*SMALL_REPORT, "--stability", "quick"), "stability_report", SMALL_REPORT),
     (("stability_report",), (*SMALL_REPORT, "--sweeps", "scale"), "stability_report", SMALL_REPORT),
+    (("animation_report", "stability_report"), (*SMALL_REPORT, "--change", "quick"), "animation_report", SMALL_REPORT),
     (("animation_report", "stability_report", "error_report"), SMALL_REPORT, "error_report", ("compare", "mask.exr", "mask.exr")),
     (
         ("animation_report", "stability_report", "error_report", "masks", "editor"),

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Deletes a technique's module, shaders and golden images in a copy of the tree, which must still build and pass its tests.
+"""Deletes a technique's module, shaders and golden images, or the module of a report part, in a copy of the tree, which must
+still build and pass its tests.
 
     test_removal.py [--all] [--module NAME] [--jobs N]
 
-Without --all and --module the technique with the fewest bytes of C++ source files is removed. --all removes every module that
-registers a technique, in turn. Mask filters count as techniques here.
+Without --all and --module the technique with the fewest bytes of C++ source files and all report parts are removed together,
+since each build takes minutes. --all removes every module that registers a technique or a report part, in turn. Mask filters
+count as techniques here.
 The copy includes the build folder, so that mainly the link has to be repeated.
 """
 
@@ -46,7 +48,14 @@ def copy_tree(target):
         shutil.copytree(os.path.join(ROOT, "build", "release"), os.path.join(target, "build", "release"))
 
 
-def remove_technique(target, module, ids):
+def find_report_parts(tree):
+    """Return module -> ids, which are empty, for the modules that register report parts."""
+    paths = {name: "modules/%s/register_types.cpp" % name for name in tree.configs}
+    return {name: set() for name, path in paths.items() if path in tree.files and "ReportPartRegistry::add" in tree.get_text(path)}
+
+
+def remove_module(target, module, ids):
+    """Delete what belongs to a module. ids: of its techniques."""
     shutil.rmtree(os.path.join(target, "modules", module))
     for folder in ("shaders/" + module, "build/release/modules/" + module, "build/release/shaders/" + module):
         shutil.rmtree(os.path.join(target, folder), ignore_errors=True)
@@ -78,8 +87,8 @@ def run(target, what, command):
 
 
 def build_exclude_options(tree):
-    """Return doctest's options that skip tests which the removal of a technique cannot affect: those of other techniques,
-    since techniques never depend on each other (tests/layers), and of modules below the technique registry.
+    """Return doctest's options that skip tests which the removal of a technique or report part cannot affect: those of
+    other techniques, since techniques never depend on each other (tests/layers), and of modules below the technique registry.
     """
     unaffected = set(tree.find_techniques())
     unaffected |= {name for name, config in tree.configs.items() if config["layer"] < tree.configs["shadows"]["layer"]}
@@ -89,12 +98,14 @@ def build_exclude_options(tree):
     ]
 
 
-def test_module(tree, module, ids, jobs):
-    """Return (passed, failed) of one module."""
-    what = "without " + module
+def test_modules(tree, removed, jobs):
+    """Return (passed, failed) of a tree without some modules. removed: module -> ids of its techniques."""
+    what = "without " + ", ".join(sorted(removed))
+    ids = set().union(*removed.values())
     with tempfile.TemporaryDirectory() as target:
         copy_tree(target)
-        remove_technique(target, module, ids)
+        for module in removed:
+            remove_module(target, module, removed[module])
         print("removal: %s: build" % what, flush=True)
         if not run(target, what, ["scons", "-Q", "-j%d" % jobs, "compiledb=no"]):
             return 0, 1
@@ -111,23 +122,25 @@ def test_module(tree, module, ids, jobs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Removes techniques and checks that nothing misses them.")
-    parser.add_argument("--all", action="store_true", help="every technique module, in turn")
+    parser = argparse.ArgumentParser(description="Removes techniques and report parts and checks that nothing misses them.")
+    parser.add_argument("--all", action="store_true", help="every module of a technique or report part, in turn")
     parser.add_argument("--module", help="this module only")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="build jobs (default: one per core)")
     arguments = parser.parse_args()
     tree = test_layers.Tree(ROOT)
     techniques = {name: ids for name, (ids, _) in tree.find_techniques().items()}
-    requested = sorted(techniques) if arguments.all else [arguments.module or find_smallest(techniques)]
+    parts = find_report_parts(tree)
+    removable = techniques | parts
+    if arguments.module and arguments.module not in removable:
+        parser.error("%s registers no technique or report part. Those that do: %s" % (arguments.module, ", ".join(sorted(removable))))
+    requested = [[find_smallest(techniques), *parts]]
+    if arguments.all or arguments.module:
+        requested = [[module] for module in ([arguments.module] if arguments.module else sorted(removable))]
     passed = failed = 0
-    for module in requested:
-        if module not in techniques:
-            failed += 1
-            print("FAILED: %s registers no technique. Those that do: %s" % (module, ", ".join(sorted(techniques))))
-            continue
-        module_passed, module_failed = test_module(tree, module, techniques[module], arguments.jobs)
-        passed += module_passed
-        failed += module_failed
+    for modules in requested:
+        group_passed, group_failed = test_modules(tree, {module: removable[module] for module in modules}, arguments.jobs)
+        passed += group_passed
+        failed += group_failed
     print("%d passed, %d failed, 0 skipped" % (passed, failed))
     return 1 if failed else 0
 

@@ -34,9 +34,7 @@ ReportPlan make_plan(ReportExtent p_extent, const std::vector<ReportScene> &p_sc
 		const std::vector<MeasurableTechnique> &p_techniques) {
 	ReportOptions options;
 	options.scaling = ReportExtent::NONE;
-	options.stability = ReportExtent::NONE;
-	options.animation = p_extent;
-	options.animated_scenes = p_scenes;
+	options.part_options[CHANGE_OPTION] = { EXTENT_NAMES[size_t(p_extent)] };
 	options.size_px = glm::uvec2(8);
 	return make_report_plan(options, p_scenes, p_techniques);
 }

@@ -45,7 +45,8 @@ TEST_CASE(
 							   "stability_scenes=[\"scenes/a.gltf\", \"scenes/b.gltf\"]\n");
 	const Project project = Project::load(folder.path);
 	CHECK(project.scenes.empty());
-	CHECK(project.stability_scenes == std::vector<fs::path>{ folder.path / "scenes/a.gltf" });
+	CHECK(project.part_scenes.at("stability") ==
+			std::vector<fs::path>{ folder.path / "scenes/a.gltf" });
 	CHECK(project.missing_scenes == std::vector<fs::path>{ folder.path / "scenes/b.gltf" });
 }
 
@@ -65,7 +66,8 @@ TEST_CASE("[Project] a name may have commas, and a list of one item needs no bra
 	const Project project = Project::load(folder.path);
 	CHECK(project.missing_scenes ==
 			std::vector<fs::path>{ folder.path / "scenes/a, b.gltf", folder.path / "c.gltf" });
-	CHECK(project.stability_scenes == std::vector<fs::path>{ folder.path / "scenes/a.gltf" });
+	CHECK(project.part_scenes.at("stability") ==
+			std::vector<fs::path>{ folder.path / "scenes/a.gltf" });
 	CHECK(project.disabled_modules == std::vector<std::string>{ "one" });
 }
 

@@ -1,10 +1,13 @@
 /* Shared by all files of the page: loading the data, formatting numbers, and creating elements. The files are joined in
-   alphabetical order, so this one comes first and defines GnomonReport, the only global. */
+   alphabetical order, those of report parts last, so this one comes first and defines GnomonReport, the only global. */
 (function () {
 	"use strict";
 
 	const report = {};
 	window.GnomonReport = report;
+	/* The sections of report parts, in the order of the page: by the part's key in report.json a function that is called with the
+	   value of that key and drawOnEverySize (report.js), and returns the section. */
+	report.parts = new Map();
 
 	// Filled symbols of d3 that are distinguishable at 9 pixels. Shapes distinguish techniques of similar colour.
 	const SYMBOLS = ["circle", "square", "triangle", "diamond", "star", "cross", "wye"];

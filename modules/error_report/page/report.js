@@ -1,4 +1,4 @@
-/* Builds the sections of the page in order, and starts when it is loaded. It is the last file in alphabetical order. */
+/* Builds the sections of the page in order, and starts when all files are loaded. */
 (function () {
 	"use strict";
 
@@ -237,12 +237,7 @@
 		const scenes = d3.groups(report.matrix, (item) => item.scene);
 		const sections = [makeRanking(data), report.makeBudget(data),
 			...scenes.map(([scene, configurations], index) => makeScene(scene, configurations, index)), makeScaling(data)];
-		if (data.animation) { // absent if the build lacks the module animation_report
-			sections.push(report.makeChange(data.animation, drawOnEverySize));
-		}
-		if (data.stability) { // absent if the build lacks the module stability_report
-			sections.push(report.makeStability(data.stability, drawOnEverySize));
-		}
+		report.parts.forEach((makeSection, id) => sections.push(makeSection(data[id], drawOnEverySize)));
 		const against = report.makeAgainst(data.against);
 		if (against) {
 			sections.push(report.makeSection("against", "Against the other report", against));
@@ -263,9 +258,9 @@
 		root.dataset.ready = "yes";
 	}
 
-	start().catch((error) => {
+	document.addEventListener("DOMContentLoaded", () => start().catch((error) => {
 		root.dataset.ready = "failed";
 		document.body.prepend(make("p", { id: "fatal", class: "fatal", role: "alert" },
 			`This report cannot be shown: ${error.message} Make it again with gnomon report.`));
-	});
+	}));
 })();

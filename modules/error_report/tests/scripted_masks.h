@@ -126,7 +126,7 @@ inline std::vector<MeasurableTechnique> make_scripted_techniques() {
 		{ { "soft", "Soft", "Test", "#ff0000", false }, two_settings } };
 }
 
-/// Returns options for masks of 16 x 16 pixels, without scaling curves and stability sweeps.
+/// Returns options for masks of 16 x 16 pixels, without scaling curves and report parts.
 inline ReportOptions make_scripted_options() {
 	ReportOptions options;
 	options.project = "scripted";
@@ -134,7 +134,6 @@ inline ReportOptions make_scripted_options() {
 	options.size_px = glm::uvec2(16u);
 	options.sample_count = 64;
 	options.scaling = ReportExtent::NONE;
-	options.stability = ReportExtent::NONE;
 	return options;
 }
 

@@ -5,6 +5,7 @@
 #include "modules/error_report/tests/scripted_masks.h"
 #include "modules/stability_report/stability_curves.h"
 #include "modules/stability_report/stability_part.h"
+#include "modules/stability_report/stability_result.h"
 #include "modules/stability_report/stability_sweeps.h"
 
 #include <doctest/doctest.h>
@@ -25,8 +26,7 @@ bool contains(const std::vector<double> &p_values, double p_value) {
 
 ReportOptions make_options(const std::vector<std::string> &p_sweeps) {
 	ReportOptions options = make_scripted_options();
-	options.stability = ReportExtent::QUICK;
-	options.sweeps = p_sweeps;
+	options.part_options = { { STABILITY_OPTION, { "quick" } }, { SWEEPS_OPTION, p_sweeps } };
 	return options;
 }
 
@@ -57,7 +57,7 @@ Report make_light_size_report(const std::vector<double> &p_errors) {
 		cell.error = ReportError();
 		cell.error->all.receiver.pixel_count = 1000;
 		cell.error->all.penumbra = { .pixel_count = 500, .mae = p_errors[index] };
-		cell.stability = ReportStability();
+		cell.part_result = std::make_shared<StabilityResult>();
 		report.cells.push_back(cell);
 	}
 	return report;
@@ -171,11 +171,14 @@ TEST_CASE("[Stability] a curve breaks where its error exceeds twice that of the 
 TEST_CASE("[Stability] nonsense, refusals and failures are distinguished") {
 	Report report = make_light_size_report({ 0.01, 0.01 });
 	ReportCell &cell = report.cells[0];
+	StabilityResult result;
+	// Not owned, so that the cell sees each change of the result.
+	cell.part_result = std::shared_ptr<const PartResult>(std::shared_ptr<void>(), &result);
 	const auto judge = [&] { return classify_stability(cell, {}, &report.cells[1]); };
 	CHECK(judge() == StabilityState::OK);
-	cell.stability->wrong_share = 0.05;
+	result.wrong_share = 0.05;
 	CHECK(judge() == StabilityState::NONSENSE);
-	cell.stability->refusal = "too large";
+	result.refusal = "too large";
 	CHECK(judge() == StabilityState::REFUSED);
 	cell.status = ReportStatus::FAILED;
 	CHECK(judge() == StabilityState::FAILED);
@@ -191,10 +194,11 @@ TEST_CASE("[Stability] a run measures every point and stores its results") {
 	CHECK(report.count(ReportStatus::FAILED) == 0);
 	CHECK(report.count(ReportStatus::MISSING) == 0);
 	for (const ReportCell &cell : report.cells) {
-		REQUIRE(cell.stability);
+		const StabilityResult *result = cell.find_result<StabilityResult>();
+		REQUIRE(result != nullptr);
 		CHECK(cell.error);
-		CHECK(cell.stability->warnings == masks.warnings);
-		CHECK(cell.stability->temporal_rmse == 0.0); // scripted: nothing moves
+		CHECK(result->warnings == masks.warnings);
+		CHECK(result->temporal_rmse == 0.0); // scripted: nothing moves
 	}
 	// The saved report can be loaded again.
 	const TemporaryFolder folder;
@@ -202,6 +206,25 @@ TEST_CASE("[Stability] a run measures every point and stores its results") {
 	save_file_atomically(path, dump_json(to_json(report)));
 	const Report read = load_report(path);
 	CHECK(to_json(read) == to_json(report));
+}
+
+TEST_CASE("[Stability] a result is read as it was written, also that of version 1") {
+	const StabilityPart part;
+	StabilityResult result;
+	result.temporal_rmse = 0.5;
+	result.wrong_share = 0.25;
+	result.warnings = { "that is wide" };
+	result.condition = { 4.0, 0.5, 0.25, 0.125, ErrorCause::REFERENCE };
+	nlohmann::ordered_json json = result.to_json();
+	CHECK(part.read_result(json)->to_json() == json);
+	const nlohmann::ordered_json current = json;
+	nlohmann::ordered_json &condition = json["condition"];
+	condition["truth_error"] = condition["reference_error"];
+	condition.erase("reference_error");
+	condition["cause"] = "truth";
+	CHECK(part.read_result(json)->to_json() == current);
+	condition["cause"] = "weather";
+	CHECK_THROWS_WITH_AS(part.read_result(json), doctest::Contains("weather"), Error);
 }
 
 TEST_CASE("[Stability] NaN, visibility outside 0..1 and validation messages are failures") {
@@ -227,7 +250,8 @@ TEST_CASE("[Stability] an Error of the technique is a refusal with its message, 
 	const Report report = run(make_options({ "scale" }), masks);
 	CHECK(report.count(ReportStatus::FAILED) == 0);
 	for (const ReportCell &cell : report.cells) {
-		CHECK(cell.stability->refusal == (cell.technique == "soft" ? "the device is sad" : ""));
+		CHECK(cell.find_result<StabilityResult>()->refusal ==
+				(cell.technique == "soft" ? "the device is sad" : ""));
 		CHECK(cell.error.has_value() == (cell.technique != "soft"));
 	}
 	// The second curve is that of "soft".
@@ -248,7 +272,7 @@ TEST_CASE("[Stability] a lost device ends the run, and a resumed run measures th
 	CHECK(report.count(ReportStatus::MISSING) == 0);
 	CHECK(rest.draw_count == plan.report.cells.size() - 2);
 	for (const ReportCell &cell : report.cells) {
-		CHECK(cell.stability->refusal.empty());
+		CHECK(cell.find_result<StabilityResult>()->refusal.empty());
 	}
 }
 
@@ -278,7 +302,7 @@ TEST_CASE("[Stability] each curve is measured by a single shard") {
 TEST_CASE("[Stability] the sweep scenes has a point per light of the project's scenes") {
 	ReportOptions options = make_options({ PROJECT_SCENES_SWEEP });
 	// Of each scene: triangles, lights, light size in metres. {}: loading did not fail.
-	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} },
+	options.part_scenes[STABILITY_GROUP] = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} },
 		{ "gone", nullptr, "the file is not there" },
 		{ "hall", make_scaling_scene({ 1100, 1, 0.3 }), {} } };
 	ScriptedMaskSource masks;
@@ -310,12 +334,12 @@ TEST_CASE("[Stability] the sweep scenes has a point per light of the project's s
 
 TEST_CASE("[Stability] scenes of the project are planned only if the sweep scenes is requested") {
 	ReportOptions options = make_options({ "scale" });
-	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), /*failure=*/{} } };
+	options.part_scenes[STABILITY_GROUP] = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }),
+			/*failure=*/{} } };
 	for (const ReportConfiguration &configuration :
 			make_report_plan(options, {}, make_scripted_techniques()).report.configurations) {
 		CHECK(configuration.sweep == "scale");
 	}
-	options.stability = ReportExtent::NONE;
-	options.sweeps = {};
+	options.part_options = { { STABILITY_OPTION, { "none" } } };
 	CHECK(make_report_plan(options, {}, make_scripted_techniques()).report.configurations.empty());
 }

@@ -99,8 +99,8 @@
 		return report.makeTable(`${title}, ${plot.light_type}: MAE`, columns, labels, -1);
 	}
 
-	/* plots: report.json's "stability". drawOnEverySize(host, draw): see report.js. */
-	report.makeStability = function (plots, drawOnEverySize) {
+	/* plots: report.json's "stability". */
+	report.parts.set("stability", (plots, drawOnEverySize) => {
 		const section = report.makeSection("stability", "Stability");
 		if (plots.length === 0) {
 			return report.add(section, make("p", { class: "soft" }, "Not measured; run with --stability."));
@@ -124,5 +124,5 @@
 		section.append(...d3.groups(curves, (plot) => plot.light_type).map(([, list]) => makeBreaks(list)),
 			...plots.filter((plot) => plot.has_cases).map(makeCases));
 		return section;
-	};
+	});
 })();

@@ -27,8 +27,8 @@
 		return make("figure", {}, make("h3", {}, `${title}: ${plot.scene}, ${plot.light}`), host);
 	}
 
-	/* plots: report.json's "animation". drawOnEverySize(host, draw): see report.js. */
-	report.makeChange = function (plots, drawOnEverySize) {
+	/* plots: report.json's "animation". */
+	report.parts.set("animation", (plots, drawOnEverySize) => {
 		const section = report.makeSection("change", "Animation");
 		if (plots.length === 0) {
 			return report.add(section, make("p", { class: "soft" }, "Nothing measured: no scene has an animation, or --change is none."));
@@ -39,5 +39,5 @@
 			makeFigure(plot, "temporal_rmse", "Error of change", "error of change", drawOnEverySize),
 			makeFigure(plot, "mae", "Error", "MAE", drawOnEverySize)])));
 		return section;
-	};
+	});
 })();
