@@ -36,7 +36,7 @@ wants_build=yes
 report_options=()
 skipped=
 scenes=sphere,three_lights,torus_knot,clutter,open_sheets,kitbash,fence,leaf,courtyard,package_duck
-extent=(--sizes own --settings default --scaling none --change none --stability none)
+extent=(--sizes own --settings default)
 while [ $# -gt 0 ]; do
     case $1 in
         --size | --samples | --frames | --scenes | --skip | --out | --jobs | --device)
@@ -98,6 +98,11 @@ python3 demo_project/scenes/make_package_meshes.py || has_failed=yes
 echo "== Report"
 [ -z "$scenes" ] || report_options+=(--scenes "$scenes")
 [ -z "$skipped" ] || report_options+=(--skip "$skipped")
+if [ ${#extent[@]} -gt 0 ]; then
+    # Only the scenes: of every other part of the report, the option for its extent is "none".
+    mapfile -t parts < <("${GNOMON:-bin/gnomon}" report --help | sed -n 's/^ *\(--[a-z]*\) TEXT:{none,quick,full}.*/\1\nnone/p')
+    extent+=("${parts[@]}")
+fi
 "${GNOMON:-bin/gnomon}" report demo_project --out "$out" "${extent[@]}" "${report_options[@]}" || has_failed=yes
 
 if [ "$wants_window" = yes ] && [ -n "${DISPLAY:-}" ]; then

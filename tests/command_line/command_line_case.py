@@ -6,6 +6,7 @@ The program is bin/gnomon, or $GNOMON. Technique ids come from the program itsel
 import copy
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -49,6 +50,12 @@ def load_json(*arguments):
 def find_technique(flag):
     """Return the id of the technique that has the flag in `techniques --json`: is_default, is_fallback or is_reference."""
     return next(item["id"] for item in load_json("techniques", "--json") if item[flag])
+
+
+def list_matrix_only():
+    """Return the arguments with which a report measures only its matrix: each option for the extent of another part, and "none"."""
+    options = re.findall(r"(--\w+) TEXT:{none,quick,full}", run("report", "--help").stdout)
+    return [word for option in options for word in (option, "none")]
 
 
 def read_png_size(path):

@@ -5,11 +5,11 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command_line_case import ROOT, CommandLineTest, load_json, run  # noqa: E402
+from command_line_case import ROOT, CommandLineTest, list_matrix_only, load_json, run  # noqa: E402
 
 PROJECT = os.path.join(ROOT, "demo_project")
 SMALL_REFERENCE = ("--size", "64x64", "--samples", "64")
-QUICK = (*SMALL_REFERENCE, "--scaling", "none", "--stability", "none")
+QUICK = (*SMALL_REFERENCE, *list_matrix_only())
 
 
 def load_report(folder):

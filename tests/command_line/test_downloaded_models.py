@@ -9,7 +9,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command_line_case import ROOT, SCENES, CommandLineTest, find_technique, read_png_size, run  # noqa: E402
+from command_line_case import ROOT, SCENES, CommandLineTest, find_technique, list_matrix_only, read_png_size, run  # noqa: E402
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "benchmark"))
 sys.path.insert(0, SCENES)
@@ -81,8 +81,8 @@ class DownloadedModels(CommandLineTest):
         commands = (
             ("run", path, "--headless", "--capture", image, *SIZE),
             ("visibility", path, "--technique", find_technique("is_default"), "--out", mask_path, *SIZE),
-            ("report", path, "--techniques", self.get_fallback(), "--sizes", "0.1", "--samples", "16", "--scaling", "none",
-             "--stability", "none", "--precision", "100", "--size", "32x32", "--out", os.path.join(out, "report")),
+            ("report", path, "--techniques", self.get_fallback(), "--sizes", "0.1", "--samples", "16",
+             *list_matrix_only(), "--precision", "100", "--size", "32x32", "--out", os.path.join(out, "report")),
         )  # fmt: skip
         for command in commands:
             with self.subTest(command=command[0]):
