@@ -64,6 +64,7 @@ GltfContainer parse_glb(std::span<const uint8_t> p_bytes, const GltfMessages &p_
 	p_bytes = p_bytes.first(length_bytes); // data after the length is ignored
 
 	GltfContainer container;
+	container.format = GltfFormat::BINARY;
 	size_t offset = HEADER_BYTES;
 	for (size_t chunk_index = 0; offset < p_bytes.size(); ++chunk_index) {
 		if (p_bytes.size() - offset < CHUNK_HEADER_BYTES) {
@@ -81,7 +82,7 @@ GltfContainer parse_glb(std::span<const uint8_t> p_bytes, const GltfMessages &p_
 					"; the first, and only the first, must be JSON."));
 		}
 		if (chunk_index == 0) {
-			container.json = parse_gltf_json(to_text(data), p_messages);
+			container.json_text = to_text(data);
 		} else if (chunk_index == 1 && type == CHUNK_BIN) {
 			container.bin_chunk.emplace(data.begin(), data.end());
 		} else {
@@ -101,12 +102,12 @@ GltfContainer parse_gltf_container(
 		return parse_glb(p_bytes, p_messages);
 	}
 	GltfContainer container;
-	container.json = parse_gltf_json(to_text(p_bytes), p_messages);
+	container.json_text = to_text(p_bytes);
 	return container;
 }
 
 std::vector<uint8_t> build_glb(const GltfContainer &p_container, const GltfMessages &p_messages) {
-	const std::string json = p_container.json.dump(-1, ' ', false, Json::error_handler_t::replace);
+	const std::string &json = p_container.json_text;
 	std::vector<uint8_t> bytes;
 	append_u32(bytes, GLB_MAGIC);
 	append_u32(bytes, GLB_VERSION);
@@ -126,10 +127,6 @@ std::vector<uint8_t> build_glb(const GltfContainer &p_container, const GltfMessa
 	const uint32_t length_bytes = static_cast<uint32_t>(bytes.size());
 	std::memcpy(bytes.data() + 8, &length_bytes, sizeof(length_bytes));
 	return bytes;
-}
-
-std::string build_gltf_text(const Json &p_json) {
-	return p_json.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace gnomon

@@ -42,6 +42,7 @@ public:
 	std::string file; // path as given by the user
 	GltfLocation location;
 	GltfContainer container; // contents as read
+	Json json;				 // container.json_text, parsed
 	/// tinygltf's model of the same document, without the bytes of buffers and images, and with
 	/// invalid values replaced by their defaults.
 	tinygltf::Model model;

@@ -42,8 +42,8 @@ public:
 			GltfDocument &r_document, GltfMessages &r_messages, const GltfLoadOptions &p_options) :
 			document(r_document),
 			model(r_document.model), options(p_options), messages(r_messages),
-			buffers(GltfObject(r_document.container.json, /*p_path=*/"", r_messages),
-					r_document.location, get_bin_chunk()),
+			buffers(GltfObject(r_document.json, /*p_path=*/"", r_messages), r_document.location,
+					get_bin_chunk()),
 			accessors(model, buffers, messages), textures(buffers.get_root(), model, buffers),
 			meshes(model, accessors, textures, messages) {}
 
@@ -357,11 +357,12 @@ std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 	document->file = p_path.string();
 	document->location = find_location(p_path, p_options);
 	document->container = parse_gltf_container(p_bytes, messages);
+	document->json = parse_gltf_json(document->container.json_text, messages);
 	auto scene = std::make_unique<Scene>();
 	scene->path = p_path.string();
 	scene->document = document;
 	try {
-		Json checked = document->container.json;
+		Json checked = document->json;
 		check_gltf(checked, messages);
 		document->model = parse_gltf_model(std::move(checked), messages);
 		GltfReader(*document, messages, p_options).read(*scene);

@@ -76,9 +76,9 @@ void GltfSideFiles::save() const {
 }
 
 void relocate_container(const GltfDocument &p_document, const fs::path &p_target,
-		GltfFormat p_format, GltfContainer &r_container, GltfSideFiles &r_files) {
+		GltfFormat p_format, Json &r_json, GltfContainer &r_container, GltfSideFiles &r_files) {
 	GltfMessages messages{ p_document.file, {} };
-	Json read = p_document.container.json;
+	Json read = p_document.json;
 	const GltfObject root(read, "", messages);
 	const size_t buffer_count = root.get_count("buffers");
 	const auto &bin_chunk = p_document.container.bin_chunk;
@@ -86,7 +86,7 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 	const bool is_moved = !is_same_folder(folder, p_document.location.folder);
 	for (size_t index = 0; index < buffer_count; ++index) {
 		const GltfObject buffer = root.get_element("buffers", index);
-		Json &json = r_container.json["buffers"][index];
+		Json &json = r_json["buffers"][index];
 		if (index == 0 && p_format == GltfFormat::BINARY && !bin_chunk && buffer.find("uri")) {
 			GltfBuffers buffers(root, p_document.location, /*p_bin_chunk=*/nullptr);
 			const auto bytes = buffers.load_buffer(index);
@@ -106,7 +106,7 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 	const size_t image_count = is_moved ? root.get_count("images") : 0;
 	for (size_t index = 0; index < image_count; ++index) {
 		copy_uri_file(root.get_element("images", index), p_document.location,
-				/*p_is_required=*/false, r_container.json["images"][index], r_files);
+				/*p_is_required=*/false, r_json["images"][index], r_files);
 	}
 }
 

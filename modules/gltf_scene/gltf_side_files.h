@@ -9,8 +9,6 @@
 
 namespace gnomon {
 
-enum class GltfFormat { TEXT, BINARY }; // .gltf, .glb
-
 /// Collects the buffer and image files that saving a scene writes into p_folder, the folder of the
 /// scene file. Nothing is written before save().
 class GltfSideFiles {
@@ -34,12 +32,12 @@ private:
 	std::map<std::string, std::vector<uint8_t>> files;
 };
 
-/// Changes r_container, a copy of the document's container, so that it can be saved as the file
-/// p_target in the format p_format: moves buffer 0 into or out of the BIN chunk and drops other
-/// chunks from a text file. If p_target is not in the document's folder, it also adds the files
-/// that URIs reference to r_files. A missing buffer file throws an Error; a missing image file is
-/// only logged.
+/// Changes r_json and r_container, copies of the document's JSON and container, so that they can be
+/// saved as the file p_target in the format p_format: moves buffer 0 into or out of the BIN chunk
+/// and drops other chunks from a text file. If p_target is not in the document's folder, it also
+/// adds the files that URIs reference to r_files. A missing buffer file throws an Error; a missing
+/// image file is only logged.
 void relocate_container(const GltfDocument &p_document, const std::filesystem::path &p_target,
-		GltfFormat p_format, GltfContainer &r_container, GltfSideFiles &r_files);
+		GltfFormat p_format, Json &r_json, GltfContainer &r_container, GltfSideFiles &r_files);
 
 } // namespace gnomon

@@ -43,9 +43,9 @@ struct NewBuffer {
 	bool is_in_chunk = false; // whether the buffer is the BIN chunk
 };
 
-NewBuffer choose_buffer(const GltfContainer &p_container, GltfFormat p_format) {
-	const auto buffers = p_container.json.find("buffers");
-	const size_t count = buffers == p_container.json.end() ? 0 : buffers->size();
+NewBuffer choose_buffer(const Json &p_json, const GltfContainer &p_container, GltfFormat p_format) {
+	const auto buffers = p_json.find("buffers");
+	const size_t count = buffers == p_json.end() ? 0 : buffers->size();
 	NewBuffer chosen{ .index = count, .first_byte = 0, .is_in_chunk = false };
 	if (p_format == GltfFormat::BINARY && p_container.bin_chunk && count > 0) {
 		chosen = { .index = 0,
@@ -88,11 +88,11 @@ fs::path find_previous_buffer(const fs::path &p_path) {
 
 /// Stores the bytes of new meshes in p_buffer: in the BIN chunk, or in a file added to r_files.
 void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
-		const fs::path &p_path, GltfContainer &r_container, GltfSideFiles &r_files) {
+		const fs::path &p_path, Json &r_json, GltfContainer &r_container, GltfSideFiles &r_files) {
 	if (p_bytes.empty()) {
 		return;
 	}
-	Json &buffers = r_container.json["buffers"];
+	Json &buffers = r_json["buffers"];
 	if (buffers.size() <= p_buffer.index) {
 		buffers.push_back(Json::object());
 	}
@@ -108,6 +108,12 @@ void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 	// If the bytes differ, so does the name from that of the old buffer, which the old scene file
 	// needs until it is replaced.
 	buffer["uri"] = encode_uri(r_files.add(p_path.stem().string() + ".bin", p_bytes));
+}
+
+std::string build_json_text(const Json &p_json, GltfFormat p_format) {
+	const auto replace = Json::error_handler_t::replace;
+	return p_format == GltfFormat::BINARY ? p_json.dump(-1, ' ', false, replace)
+										  : p_json.dump(1, '\t', false, replace) + "\n";
 }
 
 std::set<const Material *> find_materials(const Scene &p_scene) {
@@ -128,24 +134,29 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 	const GltfMessages messages{ p_path.string(), {} };
 	GltfSideFiles files(fs::absolute(p_path).parent_path());
 	GltfContainer container;
+	Json json = Json::object();
 	if (document) {
 		container = document->container;
-		relocate_container(*document, p_path, format, container, files);
+		json = document->json;
+		relocate_container(*document, p_path, format, json, container, files);
 	}
-	const NewBuffer buffer = choose_buffer(container, format);
+	const NewBuffer buffer = choose_buffer(json, container, format);
 	tinygltf::Model model = document ? document->model : make_empty_model();
 	GltfMeshWriter meshes(
 			model, buffer.index, buffer.first_byte, document, find_materials(p_scene));
 	GltfNodeWriter(document, model, meshes).write(p_scene);
-	container.json = write_gltf_model(
-			model, document ? &container.json : nullptr, document ? &document->model : nullptr);
-	store_bytes(buffer, meshes.get_bytes(), p_path, container, files);
+	json = write_gltf_model(
+			model, document ? &json : nullptr, document ? &document->model : nullptr);
+	store_bytes(buffer, meshes.get_bytes(), p_path, json, container, files);
+	if (!document || document->json != json || document->container.format != format) {
+		container.json_text = build_json_text(json, format);
+	}
 	const fs::path old_buffer = document ? fs::path() : find_previous_buffer(p_path);
 	files.save();
 	if (format == GltfFormat::BINARY) {
 		save_file_atomically(p_path, build_glb(container, messages));
 	} else {
-		save_file_atomically(p_path, build_gltf_text(container.json));
+		save_file_atomically(p_path, container.json_text);
 	}
 	if (!old_buffer.empty() && !files.contains(old_buffer.filename().string())) {
 		std::error_code code;

@@ -30,7 +30,7 @@ GltfContainer make_rich_container() {
 		{ "indices", { { "bufferView", 1 }, { "componentType", GLTF_TEST_USHORT } } },
 		{ "values", { { "bufferView", 0 } } } };
 	json["buffers"][0].erase("uri");
-	return { json, load_file(folder.path / "data.bin"), {} };
+	return { GltfFormat::BINARY, json.dump(), load_file(folder.path / "data.bin"), {} };
 }
 
 /// Loads a file. Returns true if it is a scene, or false if it is rejected with an Error in the
@@ -304,7 +304,7 @@ TEST_CASE("[GltfBadInput] files with random damage load or are rejected, without
 	const GltfContainer container = make_rich_container();
 	const std::vector<uint8_t> glb = build_glb(container, GltfMessages());
 	folder.write("data.bin", *container.bin_chunk);
-	Json json = container.json;
+	Json json = Json::parse(container.json_text);
 	json["buffers"][0]["uri"] = "data.bin";
 	const std::string gltf = json.dump();
 	const std::vector<uint8_t> text(gltf.begin(), gltf.end());

@@ -251,7 +251,8 @@ TEST_CASE("[GltfReader] buffers come from data URIs, escaped names and the BIN c
 								"AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
 	CHECK(get_mesh(*folder.load(json)).positions_node[1] == glm::vec3(1, 0, 0));
 	json["buffers"][0].erase("uri");
-	folder.write(
-			"a.glb", build_glb({ json, bytes, /*other_chunks=*/{} }, { "a.glb", /*logged=*/{} }));
+	folder.write("a.glb",
+			build_glb({ GltfFormat::BINARY, json.dump(), bytes, /*other_chunks=*/{} },
+					{ "a.glb", /*logged=*/{} }));
 	CHECK(get_mesh(*load_gltf(folder.path / "a.glb")).positions_node[1] == glm::vec3(1, 0, 0));
 }
