@@ -76,7 +76,7 @@ void check_morph_weights(const GltfObject &p_object) {
 }
 
 void check_skins(const GltfObject &p_root) {
-	check_elements(p_root, "skins", [&](const GltfObject &p_skin) {
+	p_root.for_each("skins", [&](const GltfObject &p_skin) {
 		const size_t count = p_skin.get_count("joints");
 		if (count == 0 || count > GLTF_MAX_JOINT_COUNT) {
 			p_skin.fail_at("joints",
@@ -91,14 +91,14 @@ void check_skins(const GltfObject &p_root) {
 
 void check_animations(const GltfObject &p_root) {
 	uint64_t channel_count = 0;
-	check_elements(p_root, "animations", [&](const GltfObject &p_animation) {
+	p_root.for_each("animations", [&](const GltfObject &p_animation) {
 		channel_count += p_animation.get_count("channels");
 		if (channel_count > GLTF_MAX_CHANNEL_COUNT) {
 			p_animation.fail_at("channels",
 					text("make ", channel_count, " in all animations, must be at most ",
 							GLTF_MAX_CHANNEL_COUNT, ". Split the scene."));
 		}
-		check_elements(p_animation, "samplers", [&](const GltfObject &p_sampler) {
+		p_animation.for_each("samplers", [&](const GltfObject &p_sampler) {
 			require_index(p_sampler, "input", p_root.get_count("accessors"));
 			require_index(p_sampler, "output", p_root.get_count("accessors"));
 			const std::string kind = p_sampler.get_text("interpolation");
@@ -109,7 +109,7 @@ void check_animations(const GltfObject &p_root) {
 				p_sampler.set("interpolation", "LINEAR");
 			}
 		});
-		check_elements(p_animation, "channels", [&](const GltfObject &p_channel) {
+		p_animation.for_each("channels", [&](const GltfObject &p_channel) {
 			check_channel(p_channel, p_animation, p_root.get_count("nodes"));
 		});
 	});

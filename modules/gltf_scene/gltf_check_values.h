@@ -10,15 +10,6 @@ namespace gnomon {
 // Helpers of the document checks. Those that check a value convert it to a form that tinygltf
 // accepts, or throw an Error with the value's JSON path and allowed range.
 
-/// Calls p_check with each element of the list p_key of p_parent, if there is one.
-template <typename Check>
-void check_elements(const GltfObject &p_parent, std::string_view p_key, const Check &p_check) {
-	const size_t count = p_parent.get_count(p_key);
-	for (size_t index = 0; index < count; ++index) {
-		p_check(p_parent.get_element(p_key, index));
-	}
-}
-
 /// Checks a whole number in p_minimum..p_maximum. The check_ functions accept a missing value, the
 /// require_ functions do not. A number written as "3.0" is rewritten, because tinygltf rejects it.
 void check_integer(

@@ -23,6 +23,12 @@ inline constexpr char GLTF_VOLUME[] = "KHR_materials_volume";
 inline constexpr char GLTF_TEXTURE_TRANSFORM[] = "KHR_texture_transform";
 inline constexpr char GLTF_EMISSIVE_STRENGTH[] = "KHR_materials_emissive_strength";
 
+/// What a file states about a perspective camera.
+struct GltfCamera {
+	float vertical_fov_rad = Camera3D().vertical_fov_rad;
+	float near_m = Camera3D().near_m;
+};
+
 /// A node's state at loading. Saving writes only what differs from it.
 struct GltfNodeState {
 	bool is_loaded = false; // false: the node is not part of the loaded scene
@@ -32,8 +38,9 @@ struct GltfNodeState {
 	bool is_planar_receiver = false;
 };
 
-/// The contents of the file from which a scene was loaded. The scene stores it, and saving applies
-/// the scene's changes to a copy, so that data unknown to the program is preserved.
+/// The file from which a scene was loaded, and what was read from it. The scene stores it. Saving
+/// writes the scene's changes into the file's JSON, so that data unknown to the program is
+/// preserved.
 class GltfDocument : public SceneDocument {
 public:
 	/// Identifies the surfaces of a node by their mesh and material pointers.
@@ -41,11 +48,7 @@ public:
 
 	std::string file; // path as given by the user
 	GltfLocation location;
-	GltfContainer container; // contents as read
-	Json json;				 // container.json_text, parsed
-	/// tinygltf's model of the same document, without the bytes of buffers and images, and with
-	/// invalid values replaced by their defaults.
-	tinygltf::Model model;
+	GltfContainer container;		   // contents as read
 	std::optional<size_t> scene_index; // none: the file has no scenes
 	double scene_size_m = 0;
 	std::vector<GltfNodeState> nodes; // by index in the file
@@ -53,8 +56,7 @@ public:
 	/// node, because the node also has a mesh or a light.
 	std::map<size_t, std::set<std::string>> attachment_names;
 	std::map<size_t, LightSettings> lights; // by node index
-	/// By node index: vertical field of view (rad) and near plane (m).
-	std::map<size_t, std::pair<float, float>> cameras;
+	std::map<size_t, GltfCamera> cameras;	// by node index
 	/// By node index of a light: the index of its parent, if the parent's extras hold properties of
 	/// the light (find_blender_owner).
 	std::map<size_t, size_t> blender_owners;
@@ -81,13 +83,9 @@ public:
 	}
 };
 
-/// Parses a document that has passed check_gltf. Throws an Error if tinygltf rejects it.
-tinygltf::Model parse_gltf_model(Json p_checked, const GltfMessages &p_messages);
-
-/// Converts a model to JSON. p_read and p_before are the JSON document as read and tinygltf's model
-/// of it: only the differences between p_before and p_model are applied, and everything else in
-/// p_read stays unchanged and in its order. Both are null for a new document.
-Json write_gltf_model(
-		const tinygltf::Model &p_model, const Json *p_read, const tinygltf::Model *p_before);
+/// Parses the parts of a document that describe nodes, meshes and motion, after they have
+/// passed check_gltf. Throws an Error if tinygltf rejects them. Changes nothing else in r_checked
+/// than the extensions of primitives.
+tinygltf::Model parse_gltf_model(Json &r_checked, const GltfMessages &p_messages);
 
 } // namespace gnomon

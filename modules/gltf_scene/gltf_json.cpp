@@ -106,11 +106,6 @@ GltfObject::GltfObject(Json &r_json, std::string p_path, GltfMessages &p_message
 	}
 }
 
-GltfObject::GltfObject(std::shared_ptr<Json> p_json, std::string p_path, GltfMessages &p_messages) :
-		GltfObject(*p_json, std::move(p_path), p_messages) {
-	storage = std::move(p_json);
-}
-
 std::string GltfObject::get_member_path(std::string_view p_key) const {
 	const bool needs_dot = !path.empty() && !p_key.starts_with('[');
 	return path + (needs_dot ? "." : "") + std::string(p_key);
@@ -144,6 +139,11 @@ GltfObject GltfObject::require_object(std::string_view p_key) const {
 std::optional<GltfObject> GltfObject::find_extension(std::string_view p_name) const {
 	const std::optional<GltfObject> extensions = find_object("extensions");
 	return extensions ? extensions->find_object(p_name) : std::nullopt;
+}
+
+std::optional<GltfObject> GltfObject::find_extras() const {
+	const Json *extras = find("extras");
+	return extras && extras->is_object() ? find_object("extras") : std::nullopt;
 }
 
 size_t GltfObject::get_count(std::string_view p_key) const {
@@ -253,6 +253,34 @@ double GltfObject::read_number(std::string_view p_key, double p_default, double 
 		return p_default;
 	}
 	return number;
+}
+
+std::optional<size_t> GltfObject::read_index(
+		std::string_view p_key, size_t p_count, std::string_view p_default) const {
+	const std::optional<uint64_t> index = find_whole_number(p_key);
+	if (index && *index < p_count) {
+		return index;
+	}
+	if (find(p_key)) {
+		report_value(p_key, describe_indices(p_count), p_default);
+	}
+	return std::nullopt;
+}
+
+std::optional<uint64_t> GltfObject::read_choice(std::string_view p_key,
+		std::initializer_list<uint64_t> p_choices, std::string_view p_default) const {
+	const std::optional<uint64_t> number = find_whole_number(p_key);
+	if (number && std::find(p_choices.begin(), p_choices.end(), *number) != p_choices.end()) {
+		return number;
+	}
+	if (find(p_key)) {
+		std::string choices;
+		for (const uint64_t choice : p_choices) {
+			choices += (choices.empty() ? "" : ", ") + std::to_string(choice);
+		}
+		report_value(p_key, "one of " + choices, p_default);
+	}
+	return std::nullopt;
 }
 
 bool GltfObject::read_color(

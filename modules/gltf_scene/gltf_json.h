@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -75,8 +74,6 @@ class GltfObject {
 public:
 	/// Both the JSON and the messages must outlive this object.
 	GltfObject(Json &r_json, std::string p_path, GltfMessages &p_messages);
-	/// Shares ownership of the JSON value, so that it stays alive.
-	GltfObject(std::shared_ptr<Json> p_json, std::string p_path, GltfMessages &p_messages);
 
 	const Json &get_json() const { return *json; }
 	const std::string &get_path() const { return path; }
@@ -98,10 +95,22 @@ public:
 	GltfObject require_object(std::string_view p_key) const;
 	/// Returns `extensions.<name>`; nothing if absent.
 	std::optional<GltfObject> find_extension(std::string_view p_name) const;
+	/// Returns the extras if they are an object; nothing otherwise, because they may be of any
+	/// type.
+	std::optional<GltfObject> find_extras() const;
 	/// Returns the length of an array; 0 if absent. Fails if the value is not an array.
 	size_t get_count(std::string_view p_key) const;
 	/// Returns an array's element; fails unless it is an object. p_index is below get_count.
 	GltfObject get_element(std::string_view p_key, size_t p_index) const;
+
+	/// Calls p_read with each element of an array, which may be absent. Fails unless it is an array
+	/// of objects.
+	template <typename Read> void for_each(std::string_view p_key, const Read &p_read) const {
+		const size_t count = get_count(p_key);
+		for (size_t index = 0; index < count; ++index) {
+			p_read(get_element(p_key, index));
+		}
+	}
 
 	/// Returns a whole number of at least 0; nothing if absent or any other value.
 	std::optional<uint64_t> find_whole_number(std::string_view p_key) const;
@@ -127,6 +136,13 @@ public:
 	/// returned.
 	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
 			std::string_view p_unit = "") const;
+	/// Returns an index into an array of p_count elements, or one of the whole numbers p_choices;
+	/// nothing if absent. Any other value is reported, and nothing returned. p_default: what is
+	/// used instead, for the message.
+	std::optional<size_t> read_index(
+			std::string_view p_key, size_t p_count, std::string_view p_default) const;
+	std::optional<uint64_t> read_choice(std::string_view p_key,
+			std::initializer_list<uint64_t> p_choices, std::string_view p_default) const;
 	/// Reads the first three of 3 or 4 numbers, in 0..p_maximum. Any other value is reported. If it
 	/// is absent or reported, leaves r_color unchanged and returns false.
 	bool read_color(std::string_view p_key, double p_maximum, std::span<float, 3> r_color) const;
@@ -143,7 +159,6 @@ public:
 			std::string_view p_key, std::string_view p_range, std::string_view p_default) const;
 
 private:
-	std::shared_ptr<Json> storage; // owns json; null if json is part of a document
 	Json *json;
 	std::string path;
 	GltfMessages *messages;

@@ -4,17 +4,19 @@
 #include "modules/core/limits.h"
 #include "modules/core/property.h"
 #include "modules/gltf_scene/gltf_document.h"
-#include "modules/gltf_scene/gltf_values.h"
+#include "modules/gltf_scene/gltf_edit.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace gnomon {
 
-using tinygltf::Value;
-
 namespace {
 
+const double DEFAULT_OUTER_CONE_RAD = 0.785398163397448; // KHR_lights_punctual: pi / 4
+const double MAX_READ_CONE_RAD =
+		1.57079632679490 + 1e-6;		// exporters round pi / 2 up as often as down
 const float MAX_CONE_RAD = 1.57079637f; // the float nearest to pi / 2
 
 /// An alternative name of a Light3D property in files.
@@ -150,12 +152,58 @@ bool read_area_size(const GltfObject &p_area, PropertyValues &r_properties) {
 	return true;
 }
 
-void read_cones(const tinygltf::SpotLight &p_spot, Light3D &r_light) {
-	r_light.outer_cone_rad = std::min(static_cast<float>(p_spot.outerConeAngle), MAX_CONE_RAD);
+void read_cones(const GltfObject &p_definition, LightSettings &r_light) {
+	double outer = DEFAULT_OUTER_CONE_RAD;
+	double inner = 0;
+	const Json *json = p_definition.find("spot");
+	if (json && !json->is_object()) {
+		p_definition.report_value("spot", "an object", "the default");
+	} else if (json) {
+		const GltfObject spot = *p_definition.find_object("spot");
+		outer = spot.read_number("outerConeAngle", outer, 0, MAX_READ_CONE_RAD, "rad");
+		inner = spot.read_number("innerConeAngle", inner, 0, MAX_READ_CONE_RAD, "rad");
+		if (!(outer > 0)) {
+			spot.report_value("outerConeAngle", "above 0", text(DEFAULT_OUTER_CONE_RAD));
+			outer = DEFAULT_OUTER_CONE_RAD;
+			inner = 0;
+		} else if (inner > outer) {
+			spot.report_value("innerConeAngle", text("at most outerConeAngle, ", outer), "0");
+			inner = 0;
+		}
+	}
+	r_light.outer_cone_rad = std::min(static_cast<float>(outer), MAX_CONE_RAD);
 	// Files with a hard edge set both angles to the same value, although the extension requires a
 	// smaller inner angle.
-	r_light.inner_cone_rad = std::min(static_cast<float>(p_spot.innerConeAngle),
-			std::nextafter(r_light.outer_cone_rad, 0.0f));
+	r_light.inner_cone_rad =
+			std::min(static_cast<float>(inner), std::nextafter(r_light.outer_cone_rad, 0.0f));
+}
+
+/// Returns nothing if the type is unknown.
+std::optional<LightSettings> read_definition(const GltfObject &p_definition) {
+	LightSettings light;
+	const std::string type = p_definition.get_text("type");
+	const bool is_known = type == "point" || type == "spot" || type == "directional";
+	if (!is_known) {
+		p_definition.report_value("type", "\"point\", \"spot\" or \"directional\"", "no light");
+	}
+	light.type = type == "point" ? LightType::OMNI
+			: type == "spot"	 ? LightType::SPOT
+								 : LightType::DIRECTIONAL;
+	p_definition.read_color("color", FLT_MAX, std::span<float, 3>(&light.color.x, 3));
+	light.intensity =
+			static_cast<float>(p_definition.read_number("intensity", light.intensity, 0, FLT_MAX));
+	if (const Json *range = p_definition.find("range")) {
+		const double range_m = range->is_number() ? range->get<double>() : NAN;
+		if (range_m > 0 && range_m <= FLT_MAX) {
+			light.range_m = static_cast<float>(range_m);
+		} else {
+			p_definition.report_value("range", "a finite number above 0 m", "no limit");
+		}
+	}
+	if (light.type == LightType::SPOT) {
+		read_cones(p_definition, light);
+	}
+	return is_known ? std::optional(light) : std::nullopt;
 }
 
 void check_finite(const Light3D &p_light, const char *p_quantity, double p_value) {
@@ -178,126 +226,114 @@ void check_light(const Light3D &p_light) {
 	}
 }
 
-void write_punctual(
-		const Light3D &p_light, const LightSettings *p_before, tinygltf::Light &r_light) {
-	if (!p_before || p_light.type != p_before->type) {
-		r_light.type = p_light.type == LightType::OMNI ? "point"
-				: p_light.type == LightType::SPOT	   ? "spot"
-													   : "directional";
+void write_punctual(const Light3D &p_light, const LightSettings *p_before, Json &r_light) {
+	const bool has_same_type = p_before && p_light.type == p_before->type;
+	if (!has_same_type) {
+		r_light["type"] = p_light.type == LightType::OMNI ? "point"
+				: p_light.type == LightType::SPOT		  ? "spot"
+														  : "directional";
 	}
 	if (!p_before || p_light.color != p_before->color) {
-		const glm::vec3 &color = p_light.color;
-		r_light.color = { to_shortest_decimal(color.x), to_shortest_decimal(color.y),
-			to_shortest_decimal(color.z) };
+		write_color(r_light, "color", p_light.color);
 	}
 	if (!p_before || p_light.intensity != p_before->intensity) {
-		r_light.intensity = to_shortest_decimal(p_light.intensity);
+		write_float(r_light, "intensity", p_light.intensity);
 	}
-	if (!p_before || p_light.range_m != p_before->range_m) {
-		// 0: unlimited; tinygltf then writes no range.
-		r_light.range = p_light.range_m > 0 ? to_shortest_decimal(p_light.range_m) : 0.0;
+	if (p_light.range_m != (p_before ? p_before->range_m : 0)) {
+		if (p_light.range_m > 0) {
+			write_float(r_light, "range", p_light.range_m);
+		} else {
+			r_light.erase("range"); // absent: unlimited
+		}
 	}
-	const bool has_same_cones = p_before && p_light.type == p_before->type &&
-			p_light.inner_cone_rad == p_before->inner_cone_rad &&
-			p_light.outer_cone_rad == p_before->outer_cone_rad;
-	if (p_light.type == LightType::SPOT && !has_same_cones) {
-		r_light.spot.innerConeAngle = to_shortest_decimal(p_light.inner_cone_rad);
-		r_light.spot.outerConeAngle = to_shortest_decimal(p_light.outer_cone_rad);
+	if (p_light.type != LightType::SPOT) {
+		if (!has_same_type) {
+			r_light.erase("spot");
+		}
+	} else if (!has_same_type || p_light.inner_cone_rad != p_before->inner_cone_rad ||
+			p_light.outer_cone_rad != p_before->outer_cone_rad) {
+		Json &spot = require_object(r_light, "spot");
+		write_float(spot, "innerConeAngle", p_light.inner_cone_rad);
+		write_float(spot, "outerConeAngle", p_light.outer_cone_rad);
 	}
 }
 
-void erase_property(Value &r_extras, const std::string &p_name) {
-	if (!r_extras.IsObject()) {
-		return;
-	}
-	Value::Object &members = r_extras.Get<Value::Object>();
-	members.erase(p_name);
+void erase_property(Json &r_element, const std::string &p_name) {
+	erase_member(r_element, "extras", p_name);
 	for (const PropertyAlias &alias : ALIASES) {
 		if (alias.property == p_name) {
-			members.erase(std::string(alias.alias));
+			erase_member(r_element, "extras", std::string(alias.alias));
 		}
 	}
 }
 
-void set_property(Value &r_extras, const std::string &p_name, const PropertyValue &p_value) {
-	Value::Object &members = require_extras(r_extras);
-	members[p_name] = to_value(property_to_json<Json>(p_value));
+void set_property(Json &r_light, const std::string &p_name, const PropertyValue &p_value) {
+	Json &members = require_extras(r_light);
+	members[p_name] = property_to_json<Json>(p_value);
 	// Also updates the aliases, so that programs that know only those do not read the old value.
 	for (const PropertyAlias &alias : ALIASES) {
 		const double *number = std::get_if<double>(&p_value);
 		const auto other = members.find(std::string(alias.alias));
 		if (alias.property == p_name && number && other != members.end()) {
-			other->second = Value(*number / alias.factor);
+			*other = *number / alias.factor;
 		}
 	}
 }
 
 } // namespace
 
-bool read_light(const tinygltf::Model &p_model, const GltfLightSources &p_sources,
-		const GltfLoadOptions &p_options, GltfMessages &r_messages, Light3D &r_light) {
-	const tinygltf::Light &light = p_model.lights[p_sources.light_index];
-	if (light.type.empty()) { // GltfChecker::check_light empties an unknown type
-		return false;
+std::vector<std::optional<LightSettings>> read_light_definitions(const GltfObject &p_root) {
+	std::vector<std::optional<LightSettings>> lights;
+	if (const auto punctual = p_root.find_extension(GLTF_PUNCTUAL)) {
+		punctual->for_each("lights", [&](const GltfObject &p_definition) {
+			lights.push_back(read_definition(p_definition));
+		});
 	}
-	r_light.type = light.type == "point" ? LightType::OMNI
-			: light.type == "spot"		 ? LightType::SPOT
-										 : LightType::DIRECTIONAL;
-	if (!light.color.empty()) {
-		r_light.color = glm::vec3(light.color[0], light.color[1], light.color[2]);
-	}
-	r_light.intensity = static_cast<float>(light.intensity);
-	r_light.range_m = static_cast<float>(light.range);
-	if (r_light.type == LightType::SPOT) {
-		read_cones(light.spot, r_light);
-	}
-	r_light.file_path = text("lights[", p_sources.light_index, "]");
+	return lights;
+}
 
+void read_light_properties(const GltfLightSources &p_sources, const GltfLoadOptions &p_options,
+		PropertyValues &r_properties) {
 	std::vector<GltfObject> all_extras;
-	const auto add_extras = [&](const Value &p_extras, const std::string &p_path) {
-		if (const auto extras = find_object(p_extras, p_path + ".extras", r_messages)) {
+	const auto add_extras = [&](const GltfObject &p_owner) {
+		if (const auto extras = p_owner.find_extras()) {
 			all_extras.push_back(*extras);
 		}
 	};
-	add_extras(light.extras, text("extensions.", GLTF_PUNCTUAL, ".", r_light.file_path));
-	for (const size_t node : p_sources.nodes) {
-		add_extras(p_model.nodes[node].extras, text("nodes[", node, "]"));
-	}
-	const bool has_area_size =
-			p_sources.area && read_area_size(*p_sources.area, r_light.properties);
+	add_extras(p_sources.definition);
+	std::for_each(p_sources.nodes.begin(), p_sources.nodes.end(), add_extras);
+	const bool has_area_size = p_sources.area && read_area_size(*p_sources.area, r_properties);
 	for (const PropertyInfo &info : Light3D::get_property_list().get_properties()) {
 		if (!(has_area_size && info.name == "light_size")) {
-			read_declared_property(info, all_extras, r_light.properties);
+			read_declared_property(info, all_extras, r_properties);
 		}
 	}
-	read_technique_properties(all_extras, p_options, r_light.properties);
-	return true;
+	read_technique_properties(all_extras, p_options, r_properties);
 }
 
-void write_light(const Light3D &p_light, const LightSettings *p_before, tinygltf::Light &r_light,
-		const std::vector<tinygltf::Node *> &p_nodes, Value *r_area) {
+void write_light(const Light3D &p_light, const LightSettings *p_before, Json &r_light,
+		const std::vector<Json *> &p_nodes, Json *r_area) {
 	check_light(p_light);
 	write_punctual(p_light, p_before, r_light);
 	const PropertyValues nothing;
 	const PropertyValues &before = p_before ? p_before->properties : nothing;
 	for (const auto &[name, value] : before) {
 		if (!p_light.properties.contains(name)) {
-			erase_property(r_light.extras, name);
-			for (tinygltf::Node *node : p_nodes) {
-				erase_property(node->extras, name);
+			erase_property(r_light, name);
+			for (Json *node : p_nodes) {
+				erase_property(*node, name);
 			}
 		}
 	}
 	for (const auto &[name, value] : p_light.properties) {
 		const auto found = before.find(name);
 		if (found == before.end() || found->second != value) {
-			set_property(r_light.extras, name, value);
+			set_property(r_light, name, value);
 		}
 	}
 	if (r_area) {
-		const PropertyList &list = Light3D::get_property_list();
-		require_object(*r_area)["size"] =
-				Value(2 * get_float(list, p_light.properties, "light_size"));
+		(*r_area)["size"] =
+				2 * get_float(Light3D::get_property_list(), p_light.properties, "light_size");
 	}
 }
 

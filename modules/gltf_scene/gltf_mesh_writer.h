@@ -11,15 +11,17 @@
 
 namespace gnomon {
 
-/// Writes new meshes and new or changed materials into a document's model, each once. The vertex
+/// Writes new meshes and new or changed materials into a document's JSON, each once. The vertex
 /// and index bytes are collected for one buffer, which the caller stores.
 class GltfMeshWriter {
 public:
-	/// p_buffer_index, p_first_byte: index of the buffer that will hold the bytes, and their offset
-	/// in it. p_document: the document that the scene was loaded from; may be null. p_used: the
-	/// materials of the scene that is written. r_model and p_document must outlive this object.
-	GltfMeshWriter(tinygltf::Model &r_model, size_t p_buffer_index, size_t p_first_byte,
-			const GltfDocument *p_document, std::set<const Material *> p_used);
+	/// p_document: the document that the scene was loaded from; may be null. p_loaded: its JSON as
+	/// read. r_root: a copy of it, or the JSON of a new document, which is changed. p_buffer_index,
+	/// p_first_byte: index of the buffer that will hold the bytes, and their offset in it. p_used:
+	/// the materials of the scene that is written. The document and the JSON must outlive this
+	/// object.
+	GltfMeshWriter(const GltfDocument *p_document, const Json &p_loaded, Json &r_root,
+			size_t p_buffer_index, size_t p_first_byte, std::set<const Material *> p_used);
 	/// Writes a new mesh, at rest and without textures, and returns its index. At least one of
 	/// p_surfaces has triangles.
 	size_t append_mesh(
@@ -33,12 +35,11 @@ public:
 
 private:
 	struct Accessors {
-		std::map<std::string, int> attributes; // by glTF's name of the attribute
-		int indices = 0;
+		Json attributes = Json::object(); // indices by glTF's name of the attribute
+		size_t indices = 0;
 	};
 	Accessors append_vertices(const Mesh &p_mesh);
-	int append_accessor(
-			std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target);
+	size_t append_accessor(std::span<const uint8_t> p_data, Json p_accessor, int p_target);
 	/// Writes a material if needed and returns its index. A changed material replaces its original
 	/// in the file, unless the scene uses the original, a node that is not loaded may use it
 	/// (shares_materials), or a different material has replaced it already: then it is appended.
@@ -47,8 +48,9 @@ private:
 	std::optional<size_t> find_loaded_mesh(
 			const std::vector<MeshInstance3D::Surface> &p_surfaces) const;
 
-	tinygltf::Model &model;
 	const GltfDocument *document;
+	const Json &loaded;
+	Json &root;
 	size_t buffer_index;
 	size_t first_byte;
 	std::vector<uint8_t> bytes;
@@ -56,8 +58,8 @@ private:
 	std::map<const Material *, size_t> material_indices;
 	/// The materials as loaded, by index in the file; null if the loaded scene did not use one.
 	std::vector<const Material *> original_materials;
-	std::set<const Material *> used;			   // by the scene that is written
-	std::map<size_t, tinygltf::Material> replaced; // the replaced materials as loaded
+	std::set<const Material *> used;	// by the scene that is written
+	std::set<size_t> replaced;			// indices of the file's materials that were replaced
 	std::vector<size_t> changed_meshes; // indices of the meshes that change_materials appended
 };
 

@@ -1,7 +1,6 @@
 #include "modules/gltf_scene/gltf_meshes.h"
 
 #include "modules/core/error.h"
-#include "modules/gltf_scene/gltf_materials.h"
 #include "modules/gltf_scene/gltf_rigs.h"
 
 #include <algorithm>
@@ -85,10 +84,14 @@ std::vector<T> gather(const std::vector<T> &p_vectors, const std::vector<uint32_
 
 } // namespace
 
-GltfMeshes::GltfMeshes(const tinygltf::Model &p_model, GltfAccessors &p_accessors,
-		GltfTextures &p_textures, GltfMessages &r_messages) :
+GltfMeshes::GltfMeshes(const GltfObject &p_root, const tinygltf::Model &p_model,
+		GltfAccessors &p_accessors, GltfTextures &p_textures) :
 		model(p_model),
-		accessors(p_accessors), textures(p_textures), messages(r_messages) {
+		accessors(p_accessors), textures(p_textures), messages(p_root.get_messages()) {
+	const size_t texture_count = p_root.get_count("textures");
+	p_root.for_each("materials", [&](const GltfObject &p_material) {
+		read_materials.push_back(read_material(p_material, read_materials.size(), texture_count));
+	});
 	for (const tinygltf::Node &node : model.nodes) {
 		if (node.skin >= 0) {
 			skinned_meshes.insert(node.mesh);
@@ -279,8 +282,8 @@ std::shared_ptr<const Material> GltfMeshes::load_material(const tinygltf::Primit
 	const size_t index = static_cast<size_t>(p_primitive.material);
 	std::shared_ptr<const Material> &material = materials[index];
 	if (!material) {
-		material =
-				std::make_shared<const Material>(read_material(model, index, textures, messages));
+		material = std::make_shared<const Material>(
+				load_material_textures(read_materials[index], textures, messages));
 	}
 	return material;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/gltf_scene/gltf_accessors.h"
+#include "modules/gltf_scene/gltf_materials.h"
 #include "modules/gltf_scene/gltf_textures.h"
 #include "modules/scene/mesh_rig.h"
 #include "modules/scene/nodes.h"
@@ -17,9 +18,10 @@ namespace gnomon {
 /// and lines are not drawn: they are skipped with one warning.
 class GltfMeshes {
 public:
-	/// The arguments must outlive this object.
-	GltfMeshes(const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfTextures &p_textures,
-			GltfMessages &r_messages);
+	/// Reads and checks all materials of p_root, the document's JSON. The arguments must outlive
+	/// this object.
+	GltfMeshes(const GltfObject &p_root, const tinygltf::Model &p_model, GltfAccessors &p_accessors,
+			GltfTextures &p_textures);
 
 	/// Returns one surface per primitive that has triangles. Its mesh may contain vertices that no
 	/// triangle uses, if it has at least as many indices as vertices.
@@ -55,6 +57,7 @@ private:
 	GltfTextures &textures;
 	GltfMessages &messages;
 	std::map<size_t, std::vector<MeshInstance3D::Surface>> meshes;
+	std::vector<GltfMaterial> read_materials; // all of the file, by index
 	std::map<size_t, std::shared_ptr<const Material>> materials;
 	std::map<const Mesh *, size_t> primitive_indices;
 	std::shared_ptr<const Material> default_material = std::make_shared<const Material>();

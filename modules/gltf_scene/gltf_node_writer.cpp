@@ -2,8 +2,8 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/gltf_scene/gltf_edit.h"
 #include "modules/gltf_scene/gltf_tree.h"
-#include "modules/gltf_scene/gltf_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,11 +25,11 @@ bool is_saved(const Node3D &p_node) {
 
 void GltfNodeWriter::write(const Scene &p_scene) {
 	std::vector<size_t> roots;
-	const Node3D &root = *p_scene.root;
-	if (typeid(root) != typeid(Node3D) || root.parent_from_node != glm::dmat4(1.0)) {
-		roots.push_back(*assign(root, nullptr)); // it has data, so it becomes a node
+	const Node3D &scene_root = *p_scene.root;
+	if (typeid(scene_root) != typeid(Node3D) || scene_root.parent_from_node != glm::dmat4(1.0)) {
+		roots.push_back(*assign(scene_root, nullptr)); // it has data, so it becomes a node
 	} else {
-		for (const std::unique_ptr<Node3D> &child : root.children) {
+		for (const std::unique_ptr<Node3D> &child : scene_root.children) {
 			if (is_saved(*child)) {
 				roots.push_back(*assign(*child, nullptr));
 			}
@@ -79,8 +79,7 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 	entry.is_new = !is_in_file;
 	entry.index = file_index;
 	if (entry.is_new) {
-		model.nodes.emplace_back();
-		entry.index = model.nodes.size() - 1;
+		entry.index = append_element(root, "nodes", Json::object());
 		used_nodes.insert(entry.index);
 	}
 	for (const std::unique_ptr<Node3D> &child : p_node.children) {
@@ -96,7 +95,7 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 
 void GltfNodeWriter::write_entry(const Entry &p_entry) {
 	const Node3D &node = *p_entry.node;
-	tinygltf::Node &target = get_node(p_entry);
+	Json &target = get_node(p_entry);
 	if (!p_entry.is_attachment) {
 		const GltfNodeState defaults;
 		const GltfNodeState &before = p_entry.is_new ? defaults : document->nodes[p_entry.index];
@@ -104,7 +103,7 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 		if (node.parent_from_node != before.parent_from_node) {
 			write_transform(node, before.parent_from_node, target);
 		}
-		target.children.assign(p_entry.children.begin(), p_entry.children.end());
+		write_indices(target, "children", p_entry.children);
 	}
 	if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&node)) {
 		write_mesh(p_entry, *instance);
@@ -119,39 +118,40 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 /// always gets its parent's name with the suffix BLENDER_ORIENTATION, by which find_blender_owner
 /// recognizes it.
 void GltfNodeWriter::write_name(
-		const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const {
+		const Entry &p_entry, const std::string &p_before, Json &r_node) const {
 	if (p_entry.node->name != p_before) {
-		r_node.name = p_entry.node->name;
+		r_node["name"] = p_entry.node->name;
 	}
 	if (p_entry.is_new) {
 		return;
 	}
 	const auto owner = document->blender_owners.find(p_entry.index);
 	if (owner != document->blender_owners.end()) {
-		const std::string name = model.nodes[owner->second].name + BLENDER_ORIENTATION;
+		const std::string name =
+				root["nodes"][owner->second]["name"].get<std::string>() + BLENDER_ORIENTATION;
 		if (p_entry.node->name != p_before && p_entry.node->name != name) {
 			log_warning("Light \"", p_entry.node->name, "\" is saved as \"", name,
 					"\": its name follows its parent's. Rename the parent.");
 		}
-		r_node.name = name;
+		r_node["name"] = name;
 	}
 }
 
 /// Removes from the remaining nodes each mesh, light or camera that was deleted since loading.
 void GltfNodeWriter::remove_deleted_attachments() {
 	for (const size_t index : used_nodes) {
-		tinygltf::Node &node = model.nodes[index];
+		Json &node = root["nodes"][index];
 		if (document->node_surfaces.contains(index) && !mesh_nodes.contains(index)) {
-			node.mesh = -1;
-			node.skin = -1;
-			node.weights.clear();
+			for (const char *key : { "mesh", "skin", "weights" }) {
+				node.erase(key);
+			}
 		}
 		if (document->cameras.contains(index) && !camera_nodes.contains(index)) {
-			node.camera = -1;
+			node.erase("camera");
 		}
 		if (document->lights.contains(index) && !light_nodes.contains(index)) {
-			node.extensions.erase(GLTF_PUNCTUAL);
-			node.extensions.erase(GLTF_AREA);
+			erase_member(node, "extensions", GLTF_PUNCTUAL);
+			erase_member(node, "extensions", GLTF_AREA);
 		}
 	}
 }
@@ -161,9 +161,14 @@ void GltfNodeWriter::remove_deleted_attachments() {
 void GltfNodeWriter::detach_moved_children() {
 	for (size_t index = 0; index < document->nodes.size(); ++index) {
 		if (!used_nodes.contains(index) && document->nodes[index].is_loaded) {
-			std::erase_if(model.nodes[index].children, [this](int p_child) {
-				return used_nodes.contains(static_cast<size_t>(p_child));
-			});
+			Json &node = root["nodes"][index];
+			std::vector<size_t> children;
+			if (node.contains("children") && !node["children"].is_null()) {
+				node["children"].get_to(children);
+			}
+			std::erase_if(
+					children, [this](size_t p_child) { return used_nodes.contains(p_child); });
+			write_indices(node, "children", children);
 		}
 	}
 }
@@ -177,20 +182,20 @@ void GltfNodeWriter::write_scene(const Scene &p_scene, const std::vector<size_t>
 		// longer enough: after nodes were added or deleted, or for a scene size.
 		const bool is_same = p_scene.scene_size_m == size_before_m &&
 				used_nodes.size() == document->nodes.size() &&
-				model.nodes.size() == used_nodes.size();
+				(used_nodes.empty() || *used_nodes.rbegin() < document->nodes.size());
 		if (is_same) {
 			return;
 		}
-		model.scenes.resize(1);
-		model.defaultScene = 0;
+		root["scenes"] = Json::array({ Json::object() });
+		root["scene"] = 0;
 	}
-	tinygltf::Scene &scene = model.scenes[scene_index];
-	scene.nodes.assign(p_roots.begin(), p_roots.end());
+	Json &scene = root["scenes"][scene_index];
+	write_indices(scene, "nodes", p_roots);
 	if (p_scene.scene_size_m != size_before_m) {
-		tinygltf::Value::Object &extras = require_extras(scene.extras);
-		extras.erase("scene_size");
 		if (p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m)) {
-			extras["scene_size"] = tinygltf::Value(p_scene.scene_size_m);
+			require_extras(scene)["scene_size"] = p_scene.scene_size_m;
+		} else {
+			erase_member(scene, "extras", "scene_size");
 		}
 	}
 }

@@ -8,7 +8,6 @@
 #include "modules/gltf_scene/gltf_rigs.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/gltf_scene/gltf_tree.h"
-#include "modules/gltf_scene/gltf_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,11 @@
 namespace gnomon {
 
 namespace {
+
+const double MAX_NEAR_M = 1e9;
+const double MIN_NEAR_M = 1e-6;
+const double MAX_FOV_RAD = 3.14159; // must be below pi
+const double MIN_FOV_RAD = 1e-4;	// a narrower view would show nothing
 
 /// Makes the names of the scene's nodes unique by appending numbers.
 class UniqueNames {
@@ -35,17 +39,42 @@ private:
 	std::unordered_map<std::string, unsigned> counts;
 };
 
+/// Reads and checks a camera. An invalid value is reported, and its default used. Returns nothing
+/// for a camera that is not perspective.
+std::optional<GltfCamera> read_camera(const GltfObject &p_camera) {
+	const auto perspective = p_camera.find_object("perspective");
+	if (p_camera.get_text("type") != "perspective" || !perspective) {
+		p_camera.get_messages().warn(
+				"camera", p_camera.get_path(), "is not perspective; it is skipped.");
+		return std::nullopt;
+	}
+	GltfCamera camera;
+	camera.vertical_fov_rad = static_cast<float>(perspective->read_number(
+			"yfov", camera.vertical_fov_rad, MIN_FOV_RAD, MAX_FOV_RAD, "rad"));
+	camera.near_m = static_cast<float>(
+			perspective->read_number("znear", camera.near_m, MIN_NEAR_M, MAX_NEAR_M, "m"));
+	return camera;
+}
+
+std::vector<std::optional<GltfCamera>> read_cameras(const GltfObject &p_root) {
+	std::vector<std::optional<GltfCamera>> cameras;
+	p_root.for_each("cameras",
+			[&](const GltfObject &p_camera) { cameras.push_back(read_camera(p_camera)); });
+	return cameras;
+}
+
 /// Builds the scene from a parsed document, and records in the document what saving needs.
 class GltfReader {
 public:
-	GltfReader(
-			GltfDocument &r_document, GltfMessages &r_messages, const GltfLoadOptions &p_options) :
+	/// p_root: the document's JSON, which has passed check_gltf. p_model: tinygltf's model of it.
+	GltfReader(GltfDocument &r_document, const GltfObject &p_root, const tinygltf::Model &p_model,
+			const GltfLoadOptions &p_options) :
 			document(r_document),
-			model(r_document.model), options(p_options), messages(r_messages),
-			buffers(GltfObject(r_document.json, /*p_path=*/"", r_messages), r_document.location,
-					get_bin_chunk()),
-			accessors(model, buffers, messages), textures(buffers.get_root(), model, buffers),
-			meshes(model, accessors, textures, messages) {}
+			root(p_root), model(p_model), options(p_options), messages(p_root.get_messages()),
+			lights(read_light_definitions(root)), cameras(read_cameras(root)),
+			buffers(root, r_document.location, get_bin_chunk()),
+			accessors(model, buffers, messages), textures(root, model, buffers),
+			meshes(root, model, accessors, textures) {}
 
 	void read(Scene &r_scene);
 
@@ -61,13 +90,17 @@ private:
 	std::unique_ptr<Light3D> read_light_node(
 			size_t p_index, const GltfTree &p_tree, std::string &r_name);
 	std::unique_ptr<Camera3D> read_camera_node(size_t p_index, std::string &r_name);
-	std::optional<GltfObject> find_area_light(const tinygltf::Node &p_node) const;
+	std::optional<GltfObject> find_area_light(const GltfObject &p_node) const;
+	GltfObject get_node(size_t p_index) const { return root.get_element("nodes", p_index); }
 	void record_node_state(size_t p_index, const Node3D &p_node);
 
 	GltfDocument &document;
+	const GltfObject root;
 	const tinygltf::Model &model;
 	const GltfLoadOptions &options;
 	GltfMessages &messages;
+	std::vector<std::optional<LightSettings>> lights; // by index in the file; null: not read
+	std::vector<std::optional<GltfCamera>> cameras;	  // likewise
 	GltfBuffers buffers;
 	GltfAccessors accessors;
 	GltfTextures textures;
@@ -116,8 +149,8 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 	const size_t scene_index = static_cast<size_t>(std::max(model.defaultScene, 0));
 	document.scene_index = scene_index;
 	const tinygltf::Scene &scene = model.scenes[scene_index];
-	const std::string path = text("scenes[", scene_index, "]");
-	if (const auto extras = find_object(scene.extras, path + ".extras", messages)) {
+	const GltfObject scene_json = root.get_element("scenes", scene_index);
+	if (const auto extras = scene_json.find_extras()) {
 		if (const Json *size = extras->find("scene_size")) {
 			const double size_m = size->is_number() ? size->get<double>() : 0.0;
 			if (size_m > 0 && std::isfinite(size_m)) {
@@ -134,7 +167,7 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 	for (size_t i = 0; i < scene.nodes.size(); ++i) {
 		const size_t index = static_cast<size_t>(scene.nodes[i]);
 		if (p_tree.parents[index] != GltfTree::NONE || !seen.insert(index).second) {
-			messages.fail(text(path, ".nodes[", i, "]"),
+			messages.fail(text(scene_json.get_path(), ".nodes[", i, "]"),
 					text("is ", index,
 							", must be a node without a parent that is listed once. Export the "
 							"file again."));
@@ -204,7 +237,7 @@ std::unique_ptr<Node3D> GltfReader::read_mesh_node(size_t p_index, const GltfTre
 		}
 	}
 	read_motion(node, path, p_tree, *instance);
-	if (const auto extras = find_object(node.extras, path + ".extras", messages)) {
+	if (const auto extras = get_node(p_index).find_extras()) {
 		instance->casts_shadow = extras->read_bool("casts_shadow", true);
 		instance->is_planar_receiver = extras->read_bool("shadow_planar_receiver", false);
 	}
@@ -248,65 +281,68 @@ void GltfReader::read_motion(const tinygltf::Node &p_node, const std::string &p_
 	r_instance.skin = skin;
 }
 
-std::optional<GltfObject> GltfReader::find_area_light(const tinygltf::Node &p_node) const {
-	const tinygltf::Value *reference = find_extension(p_node.extensions, GLTF_AREA);
-	const tinygltf::Value *area = find_extension(model.extensions, GLTF_AREA);
+std::optional<GltfObject> GltfReader::find_area_light(const GltfObject &p_node) const {
+	const auto reference = p_node.find_extension(GLTF_AREA);
+	const auto area = root.find_extension(GLTF_AREA);
 	if (!reference || !area) {
 		return std::nullopt;
 	}
-	const int index = reference->Get("light").GetNumberAsInt();
-	return find_object(area->Get("lights").Get(index),
-			text("extensions.", GLTF_AREA, ".lights[", index, "]"), messages);
+	return area->get_element(
+			"lights", reference->require_index("light", area->get_count("lights")));
 }
 
 /// Returns null if the node has no light that can be read. r_name: receives the name of the light's
 /// definition. read_camera_node does the same for a camera.
 std::unique_ptr<Light3D> GltfReader::read_light_node(
 		size_t p_index, const GltfTree &p_tree, std::string &r_name) {
-	const tinygltf::Node &node = model.nodes[p_index];
-	const tinygltf::Value *reference = find_extension(node.extensions, GLTF_PUNCTUAL);
+	const GltfObject node = get_node(p_index);
+	const auto reference = node.find_extension(GLTF_PUNCTUAL);
 	const std::optional<GltfObject> area = find_area_light(node);
 	if (!reference) {
 		if (area) {
-			messages.warn("area light", text("nodes[", p_index, "]"),
+			messages.warn("area light", node.get_path(),
 					"has an area light without a KHR_lights_punctual light, which is "
 					"required; it is skipped.");
 		}
 		return nullptr;
 	}
-	GltfLightSources sources{ static_cast<size_t>(reference->Get("light").GetNumberAsInt()), area,
-		{ p_index } };
+	const size_t index = reference->require_index("light", lights.size());
+	GltfLightSources sources{ root.find_extension(GLTF_PUNCTUAL)->get_element("lights", index),
+		area, { node } };
 	if (const std::optional<size_t> owner = find_blender_owner(p_index, p_tree, model)) {
-		sources.nodes.push_back(*owner);
+		sources.nodes.push_back(get_node(*owner));
 		document.blender_owners[p_index] = *owner;
 	}
-	auto light = std::make_unique<Light3D>();
-	if (!read_light(model, sources, options, messages, *light)) {
+	if (!lights[index]) {
 		return nullptr;
 	}
+	auto light = std::make_unique<Light3D>();
+	static_cast<LightSettings &>(*light) = *lights[index];
+	light->file_path = text("lights[", index, "]");
+	read_light_properties(sources, options, light->properties);
 	for (const auto &[name, value] : light->properties) { // see GLTF_MAX_LIGHT_VALUE_COUNT
 		const std::string *string_value = std::get_if<std::string>(&value);
 		light_value_count += 1 + (name.size() + (string_value ? string_value->size() : 0)) / 64;
 	}
 	if (light_value_count > GLTF_MAX_LIGHT_VALUE_COUNT) {
-		messages.fail(text("extensions.", GLTF_PUNCTUAL, ".", light->file_path, ".extras"),
+		messages.fail(sources.definition.get_member_path("extras"),
 				text("make more than ", GLTF_MAX_LIGHT_VALUE_COUNT,
 						" values in all nodes with lights. Shorten them, or split the scene."));
 	}
-	r_name = make_name(model.lights[sources.light_index].name, text("Light ", sources.light_index));
+	r_name = make_name(sources.definition.get_text("name"), text("Light ", index));
 	return light;
 }
 
 std::unique_ptr<Camera3D> GltfReader::read_camera_node(size_t p_index, std::string &r_name) {
-	const int index = model.nodes[p_index].camera;
-	if (index < 0 || model.cameras[static_cast<size_t>(index)].type != "perspective") {
+	const int node_camera = model.nodes[p_index].camera;
+	if (node_camera < 0 || !cameras[static_cast<size_t>(node_camera)]) {
 		return nullptr;
 	}
-	const tinygltf::Camera &camera = model.cameras[static_cast<size_t>(index)];
+	const size_t index = static_cast<size_t>(node_camera);
 	auto node = std::make_unique<Camera3D>();
-	node->vertical_fov_rad = static_cast<float>(camera.perspective.yfov);
-	node->near_m = static_cast<float>(camera.perspective.znear);
-	r_name = make_name(camera.name, text("Camera ", index));
+	node->vertical_fov_rad = cameras[index]->vertical_fov_rad;
+	node->near_m = cameras[index]->near_m;
+	r_name = make_name(root.get_element("cameras", index).get_text("name"), text("Camera ", index));
 	return node;
 }
 
@@ -357,15 +393,15 @@ std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 	document->file = p_path.string();
 	document->location = find_location(p_path, p_options);
 	document->container = parse_gltf_container(p_bytes, messages);
-	document->json = parse_gltf_json(document->container.json_text, messages);
 	auto scene = std::make_unique<Scene>();
 	scene->path = p_path.string();
 	scene->document = document;
 	try {
-		Json checked = document->json;
-		check_gltf(checked, messages);
-		document->model = parse_gltf_model(std::move(checked), messages);
-		GltfReader(*document, messages, p_options).read(*scene);
+		Json json = parse_gltf_json(document->container.json_text, messages);
+		check_gltf(json, messages);
+		const tinygltf::Model model = parse_gltf_model(json, messages);
+		const GltfObject root(json, /*p_path=*/"", messages);
+		GltfReader(*document, root, model, p_options).read(*scene);
 	} catch (const std::bad_alloc &) {
 		fail(messages.describe("the scene", "does not fit into memory. Split it."));
 	}

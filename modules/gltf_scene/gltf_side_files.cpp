@@ -15,10 +15,10 @@ bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
 	return fs::equivalent(p_first, p_second, code);
 }
 
-/// Adds the file that an element's relative URI names to r_files, and writes its new URI to r_json.
+/// Adds the file that an element's relative URI names to r_files, and writes its new URI.
 /// A file that cannot be read throws an Error if it is required, and is otherwise only logged.
 void copy_uri_file(const GltfObject &p_object, const GltfLocation &p_location, bool p_is_required,
-		Json &r_json, GltfSideFiles &r_files) {
+		GltfSideFiles &r_files) {
 	const Json *uri = p_object.find("uri");
 	if (!uri || !uri->is_string() || is_data_uri(uri->get_ref<const std::string &>())) {
 		return;
@@ -27,7 +27,7 @@ void copy_uri_file(const GltfObject &p_object, const GltfLocation &p_location, b
 		const fs::path path =
 				resolve_uri(uri->get_ref<const std::string &>(), p_location, p_object);
 		std::vector<uint8_t> bytes = load_file(path, GLTF_MAX_FILE_BYTES);
-		r_json["uri"] = encode_uri(r_files.add(path.filename().string(), std::move(bytes)));
+		p_object.set("uri", encode_uri(r_files.add(path.filename().string(), std::move(bytes))));
 	} catch (const Error &error) {
 		if (p_is_required) {
 			throw;
@@ -78,25 +78,23 @@ void GltfSideFiles::save() const {
 void relocate_container(const GltfDocument &p_document, const fs::path &p_target,
 		GltfFormat p_format, Json &r_json, GltfContainer &r_container, GltfSideFiles &r_files) {
 	GltfMessages messages{ p_document.file, {} };
-	Json read = p_document.json;
-	const GltfObject root(read, "", messages);
+	const GltfObject root(r_json, "", messages);
 	const size_t buffer_count = root.get_count("buffers");
 	const auto &bin_chunk = p_document.container.bin_chunk;
 	const fs::path folder = fs::absolute(p_target).parent_path();
 	const bool is_moved = !is_same_folder(folder, p_document.location.folder);
 	for (size_t index = 0; index < buffer_count; ++index) {
 		const GltfObject buffer = root.get_element("buffers", index);
-		Json &json = r_json["buffers"][index];
 		if (index == 0 && p_format == GltfFormat::BINARY && !bin_chunk && buffer.find("uri")) {
 			GltfBuffers buffers(root, p_document.location, /*p_bin_chunk=*/nullptr);
 			const auto bytes = buffers.load_buffer(index);
 			r_container.bin_chunk.emplace(bytes.begin(), bytes.end());
-			json.erase("uri");
+			buffer.erase("uri");
 		} else if (index == 0 && p_format == GltfFormat::TEXT && bin_chunk && !buffer.find("uri")) {
 			const std::string name = p_target.stem().string() + ".bin";
-			json["uri"] = encode_uri(r_files.add(name, *bin_chunk));
+			buffer.set("uri", encode_uri(r_files.add(name, *bin_chunk)));
 		} else if (is_moved) {
-			copy_uri_file(buffer, p_document.location, /*p_is_required=*/true, json, r_files);
+			copy_uri_file(buffer, p_document.location, /*p_is_required=*/true, r_files);
 		}
 	}
 	if (p_format == GltfFormat::TEXT) {
@@ -106,7 +104,7 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 	const size_t image_count = is_moved ? root.get_count("images") : 0;
 	for (size_t index = 0; index < image_count; ++index) {
 		copy_uri_file(root.get_element("images", index), p_document.location,
-				/*p_is_required=*/false, r_json["images"][index], r_files);
+				/*p_is_required=*/false, r_files);
 	}
 }
 

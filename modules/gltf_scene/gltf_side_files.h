@@ -32,11 +32,11 @@ private:
 	std::map<std::string, std::vector<uint8_t>> files;
 };
 
-/// Changes r_json and r_container, copies of the document's JSON and container, so that they can be
-/// saved as the file p_target in the format p_format: moves buffer 0 into or out of the BIN chunk
-/// and drops other chunks from a text file. If p_target is not in the document's folder, it also
-/// adds the files that URIs reference to r_files. A missing buffer file throws an Error; a missing
-/// image file is only logged.
+/// Changes r_json and r_container, the document's JSON and a copy of its container, so that they
+/// can be saved as the file p_target in the format p_format: moves buffer 0 into or out of the BIN
+/// chunk and drops other chunks from a text file. If p_target is not in the document's folder, it
+/// also adds the files that URIs reference to r_files. A missing buffer file throws an Error; a
+/// missing image file is only logged.
 void relocate_container(const GltfDocument &p_document, const std::filesystem::path &p_target,
 		GltfFormat p_format, Json &r_json, GltfContainer &r_container, GltfSideFiles &r_files);
 

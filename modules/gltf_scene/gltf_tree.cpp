@@ -42,7 +42,7 @@ std::optional<NodeTransform> decompose(const glm::dmat4 &p_matrix) {
 	return trs;
 }
 
-std::vector<double> to_vector(const glm::dvec3 &p_vector) {
+Json to_json(const glm::dvec3 &p_vector) {
 	return { p_vector.x, p_vector.y, p_vector.z };
 }
 
@@ -121,7 +121,7 @@ glm::dmat4 read_transform(const tinygltf::Node &p_node) {
 	return matrix;
 }
 
-void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_target) {
+void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, Json &r_target) {
 	const glm::dmat4 &matrix = p_node.parent_from_node;
 	for (int element = 0; element < 16; ++element) {
 		if (!std::isfinite(matrix[element / 4][element % 4])) {
@@ -129,24 +129,27 @@ void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf:
 					"store. Correct it before saving.");
 		}
 	}
+	const auto found = r_target.find("matrix");
+	const bool has_matrix = found != r_target.end() && !found->is_null();
 	const bool is_only_moved = has_affine_row(matrix) && glm::dmat3(matrix) == glm::dmat3(p_before);
-	if (is_only_moved && r_target.matrix.empty()) {
-		r_target.translation = to_vector(glm::dvec3(matrix[3]));
+	if (is_only_moved && !has_matrix) {
+		r_target["translation"] = to_json(glm::dvec3(matrix[3]));
 		return;
 	}
-	r_target.translation.clear();
-	r_target.rotation.clear();
-	r_target.scale.clear();
 	const std::optional<NodeTransform> trs =
-			has_affine_row(matrix) && r_target.matrix.empty() ? decompose(matrix) : std::nullopt;
-	if (!trs) {
-		const double *first = glm::value_ptr(matrix);
-		r_target.matrix.assign(first, first + 16);
+			has_affine_row(matrix) && !has_matrix ? decompose(matrix) : std::nullopt;
+	if (trs) {
+		r_target["translation"] = to_json(trs->translation);
+		r_target["rotation"] = { trs->rotation.x, trs->rotation.y, trs->rotation.z,
+			trs->rotation.w };
+		r_target["scale"] = to_json(trs->scale);
 		return;
 	}
-	r_target.translation = to_vector(trs->translation);
-	r_target.rotation = { trs->rotation.x, trs->rotation.y, trs->rotation.z, trs->rotation.w };
-	r_target.scale = to_vector(trs->scale);
+	for (const char *key : { "translation", "rotation", "scale" }) {
+		r_target.erase(key);
+	}
+	const double *first = glm::value_ptr(matrix);
+	r_target["matrix"] = std::vector<double>(first, first + 16);
 }
 
 std::optional<size_t> find_blender_owner(

@@ -35,7 +35,7 @@ glm::dmat4 read_transform(const tinygltf::Node &p_node);
 /// rotation and scale if these can represent it, because animations need them and people can read
 /// them; otherwise as a matrix. p_before: the transform as loaded. Throws an Error if the transform
 /// is not finite.
-void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_target);
+void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, Json &r_target);
 
 /// Suffix that older Blender exporters give the child node of a light; see find_blender_owner.
 constexpr char BLENDER_ORIENTATION[] = "_Orientation";

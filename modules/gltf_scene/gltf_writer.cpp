@@ -26,13 +26,9 @@ GltfFormat choose_format(const fs::path &p_path) {
 
 const char GENERATOR[] = "Gnomon";
 
-tinygltf::Model make_empty_model() {
-	tinygltf::Model model;
-	model.asset.version = "2.0";
-	model.asset.generator = GENERATOR;
-	model.scenes.resize(1);
-	model.defaultScene = 0;
-	return model;
+Json make_empty_json() {
+	return { { "asset", { { "version", "2.0" }, { "generator", GENERATOR } } }, { "scene", 0 },
+		{ "scenes", Json::array({ Json::object() }) } };
 }
 
 /// Where the bytes of new meshes are stored: after the existing bytes of the BIN chunk, or in a new
@@ -110,10 +106,14 @@ void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 	buffer["uri"] = encode_uri(r_files.add(p_path.stem().string() + ".bin", p_bytes));
 }
 
+/// Returns the JSON as text, indented for a .gltf. Throws an Error if a name is not UTF-8.
 std::string build_json_text(const Json &p_json, GltfFormat p_format) {
-	const auto replace = Json::error_handler_t::replace;
-	return p_format == GltfFormat::BINARY ? p_json.dump(-1, ' ', false, replace)
-										  : p_json.dump(1, '\t', false, replace) + "\n";
+	try {
+		return p_format == GltfFormat::BINARY ? p_json.dump() : p_json.dump(1, '\t') + "\n";
+	} catch (const Json::exception &error) {
+		fail("The scene cannot be saved: ", to_one_line(error.what()),
+				". Change the names of its nodes to plain text.");
+	}
 }
 
 std::set<const Material *> find_materials(const Scene &p_scene) {
@@ -134,21 +134,19 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 	const GltfMessages messages{ p_path.string(), {} };
 	GltfSideFiles files(fs::absolute(p_path).parent_path());
 	GltfContainer container;
-	Json json = Json::object();
+	Json loaded;
+	Json json = make_empty_json();
 	if (document) {
 		container = document->container;
-		json = document->json;
+		json = loaded = parse_gltf_json(container.json_text, messages);
 		relocate_container(*document, p_path, format, json, container, files);
 	}
 	const NewBuffer buffer = choose_buffer(json, container, format);
-	tinygltf::Model model = document ? document->model : make_empty_model();
 	GltfMeshWriter meshes(
-			model, buffer.index, buffer.first_byte, document, find_materials(p_scene));
-	GltfNodeWriter(document, model, meshes).write(p_scene);
-	json = write_gltf_model(
-			model, document ? &json : nullptr, document ? &document->model : nullptr);
+			document, loaded, json, buffer.index, buffer.first_byte, find_materials(p_scene));
+	GltfNodeWriter(document, loaded, json, meshes).write(p_scene);
 	store_bytes(buffer, meshes.get_bytes(), p_path, json, container, files);
-	if (!document || document->json != json || document->container.format != format) {
+	if (json != loaded || container.format != format) {
 		container.json_text = build_json_text(json, format);
 	}
 	const fs::path old_buffer = document ? fs::path() : find_previous_buffer(p_path);

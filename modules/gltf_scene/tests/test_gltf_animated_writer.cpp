@@ -39,7 +39,7 @@ TEST_CASE("[GltfWriter] a copied node has the skin and morph weights of its orig
 	save_gltf(*scene, folder.path / "again.gltf");
 	const Json json = folder.read_json("again.gltf");
 	REQUIRE(json["nodes"].size() == 6);
-	CHECK(json["nodes"][4] == Json::parse(R"({"mesh": 0, "name": "Skinned 2", "skin": 0})"));
+	CHECK(json["nodes"][4] == Json::parse(R"({"name": "Skinned 2", "mesh": 0, "skin": 0})"));
 	CHECK(json["nodes"][5]["weights"] == Json::parse("[0.25]"));
 	CHECK(json["nodes"][5]["mesh"] == 1);
 	CHECK(json["skins"].size() == 1);
