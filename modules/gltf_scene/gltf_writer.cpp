@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/gltf_scene/gltf_document.h"
+#include "modules/gltf_scene/gltf_json_text.h"
 #include "modules/gltf_scene/gltf_mesh_writer.h"
 #include "modules/gltf_scene/gltf_node_writer.h"
 #include "modules/gltf_scene/gltf_scene.h"
@@ -106,10 +107,19 @@ void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 	buffer["uri"] = encode_uri(r_files.add(p_path.stem().string() + ".bin", p_bytes));
 }
 
-/// Returns the JSON as text, indented for a .gltf. Throws an Error if a name is not UTF-8.
-std::string build_json_text(const Json &p_json, GltfFormat p_format) {
+/// Returns the changed JSON as text. What did not change keeps its text if p_document is a file in
+/// the same format; null: a new document. Throws an Error if a name is not UTF-8.
+std::string build_json_text(const Json &p_json, GltfFormat p_format, const GltfDocument *p_document,
+		const Json &p_loaded) {
 	try {
-		return p_format == GltfFormat::BINARY ? p_json.dump() : p_json.dump(1, '\t') + "\n";
+		if (!p_document || p_document->container.format != p_format) {
+			return p_format == GltfFormat::BINARY ? p_json.dump() : p_json.dump(1, '\t') + "\n";
+		}
+		std::string json = update_json_text(p_document->container.json_text, p_loaded, p_json);
+		if (p_format == GltfFormat::BINARY && p_json != p_loaded) {
+			json.erase(json.find_last_of('}') + 1); // spaces that filled the chunk
+		}
+		return json;
 	} catch (const Json::exception &error) {
 		fail("The scene cannot be saved: ", to_one_line(error.what()),
 				". Change the names of its nodes to plain text.");
@@ -146,9 +156,7 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 			document, loaded, json, buffer.index, buffer.first_byte, find_materials(p_scene));
 	GltfNodeWriter(document, loaded, json, meshes).write(p_scene);
 	store_bytes(buffer, meshes.get_bytes(), p_path, json, container, files);
-	if (json != loaded || container.format != format) {
-		container.json_text = build_json_text(json, format);
-	}
+	container.json_text = build_json_text(json, format, document, loaded);
 	const fs::path old_buffer = document ? fs::path() : find_previous_buffer(p_path);
 	files.save();
 	if (format == GltfFormat::BINARY) {
