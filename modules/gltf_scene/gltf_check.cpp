@@ -2,7 +2,6 @@
 
 #include "modules/core/error.h"
 #include "modules/gltf_scene/gltf_check_motion.h"
-#include "modules/gltf_scene/gltf_check_values.h"
 #include "modules/gltf_scene/gltf_document.h"
 
 #include <tiny_gltf.h>
@@ -62,9 +61,9 @@ void GltfChecker::check() {
 	check_skins(root);
 	check_animations(root);
 	root.for_each("scenes",
-			[&](const GltfObject &p_scene) { check_indices(p_scene, "nodes", count("nodes")); });
+			[&](const GltfObject &p_scene) { p_scene.check_indices("nodes", count("nodes")); });
 	if (count("scenes") > 0) {
-		check_index(root, "scene", count("scenes"));
+		root.find_index("scene", count("scenes"));
 	}
 }
 
@@ -92,29 +91,28 @@ void GltfChecker::check_header() const {
 /// is checked when it is loaded.
 void GltfChecker::check_buffers() const {
 	root.for_each("buffers", [](const GltfObject &p_buffer) {
-		require_integer(p_buffer, "byteLength", 1, GLTF_MAX_BUFFER_BYTES);
+		p_buffer.require_integer("byteLength", 1, GLTF_MAX_BUFFER_BYTES);
 		if (const Json *uri = p_buffer.find("uri"); uri && !uri->is_string()) {
 			p_buffer.fail_value("uri", "text");
 		}
 	});
 	root.for_each("bufferViews", [&](const GltfObject &p_view) {
-		require_index(p_view, "buffer", count("buffers"));
-		check_integer(p_view, "byteOffset", 0, GLTF_MAX_BUFFER_BYTES);
-		require_integer(p_view, "byteLength", 1, GLTF_MAX_BUFFER_BYTES);
+		p_view.require_index("buffer", count("buffers"));
+		p_view.find_integer("byteOffset", 0, GLTF_MAX_BUFFER_BYTES);
+		p_view.require_integer("byteLength", 1, GLTF_MAX_BUFFER_BYTES);
 		const auto stride = p_view.find_integer("byteStride", 4, MAX_STRIDE_BYTES);
 		if (stride && *stride % 4 != 0) {
 			p_view.fail_value("byteStride", text("a multiple of 4 in 4..", MAX_STRIDE_BYTES));
 		}
-		check_integer(p_view, "byteStride", 4, MAX_STRIDE_BYTES);
 	});
 }
 
 void GltfChecker::check_accessor(const GltfObject &p_accessor) const {
-	check_index(p_accessor, "bufferView", count("bufferViews"));
-	check_integer(p_accessor, "byteOffset", 0, MAX_OFFSET_BYTES);
-	require_integer(p_accessor, "count", 1, GLTF_MAX_INDEX_COUNT);
-	require_integer(p_accessor, "componentType", TINYGLTF_COMPONENT_TYPE_BYTE,
-			TINYGLTF_COMPONENT_TYPE_FLOAT);
+	p_accessor.find_index("bufferView", count("bufferViews"));
+	p_accessor.find_integer("byteOffset", 0, MAX_OFFSET_BYTES);
+	p_accessor.require_integer("count", 1, GLTF_MAX_INDEX_COUNT);
+	p_accessor.require_integer(
+			"componentType", TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_FLOAT);
 	const std::string type = p_accessor.get_text("type");
 	if (type != "SCALAR" && type != "VEC2" && type != "VEC3" && type != "VEC4" && type != "MAT2" &&
 			type != "MAT3" && type != "MAT4") {
@@ -128,33 +126,32 @@ void GltfChecker::check_accessor(const GltfObject &p_accessor) const {
 		p_accessor.erase("sparse"); // it may be null
 		return;
 	}
-	require_integer(
-			*sparse, "count", 1, p_accessor.require_integer("count", 1, GLTF_MAX_INDEX_COUNT));
+	sparse->require_integer(
+			"count", 1, p_accessor.require_integer("count", 1, GLTF_MAX_INDEX_COUNT));
 	for (const char *part : { "indices", "values" }) {
 		const GltfObject object = sparse->require_object(part);
-		require_index(object, "bufferView", count("bufferViews"));
-		check_integer(object, "byteOffset", 0, MAX_OFFSET_BYTES);
+		object.require_index("bufferView", count("bufferViews"));
+		object.find_integer("byteOffset", 0, MAX_OFFSET_BYTES);
 	}
-	require_integer(sparse->require_object("indices"), "componentType",
-			TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_FLOAT);
+	sparse->require_object("indices").require_integer(
+			"componentType", TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_FLOAT);
 }
 
 void GltfChecker::check_attributes(const GltfObject &p_attributes) const {
 	for (auto item = p_attributes.get_json().begin(); item != p_attributes.get_json().end();
 			++item) {
-		require_index(p_attributes, item.key(), count("accessors"));
+		p_attributes.require_index(item.key(), count("accessors"));
 	}
 }
 
 void GltfChecker::check_mesh(const GltfObject &p_mesh) const {
 	check_morph_weights(p_mesh);
 	p_mesh.for_each("primitives", [&](const GltfObject &p_primitive) {
-		check_integer(p_primitive, "mode", TINYGLTF_MODE_POINTS, TINYGLTF_MODE_TRIANGLE_FAN);
+		p_primitive.find_integer("mode", TINYGLTF_MODE_POINTS, TINYGLTF_MODE_TRIANGLE_FAN);
 		check_attributes(p_primitive.require_object("attributes"));
 		p_primitive.for_each(
 				"targets", [&](const GltfObject &p_target) { check_attributes(p_target); });
-		check_index(p_primitive, "material", count("materials"));
-		check_index(p_primitive, "indices", count("accessors"));
+		p_primitive.find_index("material", count("materials"));
 		if (const auto indices = p_primitive.find_index("indices", count("accessors"))) {
 			const GltfObject accessor = root.get_element("accessors", *indices);
 			if (!accessor.find("bufferView")) { // tinygltf needs it
@@ -188,16 +185,16 @@ void GltfChecker::check_transform(const GltfObject &p_node) {
 }
 
 void GltfChecker::check_node(const GltfObject &p_node) const {
-	check_index(p_node, "mesh", count("meshes"));
-	check_index(p_node, "camera", count("cameras"));
-	check_index(p_node, "skin", count("skins"));
+	p_node.find_index("mesh", count("meshes"));
+	p_node.find_index("camera", count("cameras"));
+	p_node.find_index("skin", count("skins"));
 	check_morph_weights(p_node);
-	check_indices(p_node, "children", count("nodes"));
+	p_node.check_indices("children", count("nodes"));
 	check_transform(p_node);
 	for (const char *name : { GLTF_PUNCTUAL, GLTF_AREA }) {
 		if (const auto reference = p_node.find_extension(name)) {
 			const auto lights = root.find_extension(name);
-			require_index(*reference, "light", lights ? lights->get_count("lights") : 0);
+			reference->require_index("light", lights ? lights->get_count("lights") : 0);
 		}
 	}
 }

@@ -1,7 +1,6 @@
 #include "modules/gltf_scene/gltf_check_motion.h"
 
 #include "modules/core/error.h"
-#include "modules/gltf_scene/gltf_check_values.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -51,8 +50,6 @@ void check_channel(
 								  : text("0..", p_node_count - 1),
 				"no motion");
 	} else {
-		p_channel.set("sampler", *sampler);
-		target->set("node", *node);
 		return;
 	}
 	disable_channel(p_channel);
@@ -83,9 +80,9 @@ void check_skins(const GltfObject &p_root) {
 					text("has ", count, " elements, must be 1..", GLTF_MAX_JOINT_COUNT,
 							". Export the mesh with a number of joints in this range."));
 		}
-		check_indices(p_skin, "joints", p_root.get_count("nodes"));
-		check_index(p_skin, "skeleton", p_root.get_count("nodes"));
-		check_index(p_skin, "inverseBindMatrices", p_root.get_count("accessors"));
+		p_skin.check_indices("joints", p_root.get_count("nodes"));
+		p_skin.find_index("skeleton", p_root.get_count("nodes"));
+		p_skin.find_index("inverseBindMatrices", p_root.get_count("accessors"));
 	});
 }
 
@@ -99,8 +96,8 @@ void check_animations(const GltfObject &p_root) {
 							GLTF_MAX_CHANNEL_COUNT, ". Split the scene."));
 		}
 		p_animation.for_each("samplers", [&](const GltfObject &p_sampler) {
-			require_index(p_sampler, "input", p_root.get_count("accessors"));
-			require_index(p_sampler, "output", p_root.get_count("accessors"));
+			p_sampler.require_index("input", p_root.get_count("accessors"));
+			p_sampler.require_index("output", p_root.get_count("accessors"));
 			const std::string kind = p_sampler.get_text("interpolation");
 			if (p_sampler.find("interpolation") && kind != "LINEAR" && kind != "STEP" &&
 					kind != "CUBICSPLINE") {

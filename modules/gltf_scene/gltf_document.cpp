@@ -31,6 +31,9 @@ tinygltf::Model parse_gltf_model(Json &r_checked, const GltfMessages &p_messages
 	for (const char *name : PARSED_MEMBERS) {
 		const auto member = r_checked.find(name);
 		if (member != r_checked.end() && !member->is_null()) {
+			if (member->is_structured()) {
+				convert_whole_numbers(*member); // tinygltf rejects an index such as 3.0
+			}
 			json += text(json.empty() ? "{" : ",", "\"", name, "\":", member->dump());
 		}
 	}

@@ -23,7 +23,7 @@ std::optional<uint64_t> to_integer(const Json &p_value) {
 	if (p_value.is_number_float()) {
 		const double number = p_value.get<double>();
 		// Up to 2^53, doubles represent every whole number.
-		if (number >= 0 && number <= 9007199254740992.0 && std::floor(number) == number) {
+		if (!std::signbit(number) && number <= 9007199254740992.0 && std::floor(number) == number) {
 			return static_cast<uint64_t>(number);
 		}
 	}
@@ -96,6 +96,19 @@ std::string describe_json(const Json &p_value) {
 		description += "...";
 	}
 	return description;
+}
+
+void convert_whole_numbers(Json &r_json) {
+	for (auto item = r_json.begin(); item != r_json.end(); ++item) {
+		if (r_json.is_object() && (item.key() == "extras" || item.key() == "extensions")) {
+			continue;
+		}
+		if (item->is_structured()) {
+			convert_whole_numbers(*item);
+		} else if (const std::optional<uint64_t> integer = to_integer(*item)) {
+			*item = *integer;
+		}
+	}
 }
 
 GltfObject::GltfObject(Json &r_json, std::string p_path, GltfMessages &p_messages) :
@@ -206,16 +219,18 @@ size_t GltfObject::require_index(std::string_view p_key, size_t p_count) const {
 	return *index;
 }
 
-size_t GltfObject::require_index_at(
-		std::string_view p_key, size_t p_position, size_t p_count) const {
-	const Json &value = (*find(p_key))[p_position];
-	const std::optional<uint64_t> index = to_integer(value);
-	if (!index || *index >= p_count) {
-		fail_at(text(p_key, "[", p_position, "]"),
-				text("is ", describe_json(value), ", must be ", describe_indices(p_count), ". ",
-						CORRECT_OR_EXPORT));
+void GltfObject::check_indices(std::string_view p_key, size_t p_count) const {
+	const size_t count = get_count(p_key);
+	const Json *list = find(p_key);
+	for (size_t position = 0; position < count; ++position) {
+		const Json &value = (*list)[position];
+		const std::optional<uint64_t> index = to_integer(value);
+		if (!index || *index >= p_count) {
+			fail_at(text(p_key, "[", position, "]"),
+					text("is ", describe_json(value), ", must be ", describe_indices(p_count), ". ",
+							CORRECT_OR_EXPORT));
+		}
 	}
-	return *index;
 }
 
 bool GltfObject::find_numbers(std::string_view p_key, std::span<double> r_numbers) const {

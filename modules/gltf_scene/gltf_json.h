@@ -67,6 +67,9 @@ std::string describe_json(const Json &p_value);
 /// above.
 Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages);
 
+/// Converts whole numbers such as 3.0 to integers, except in extras and extensions.
+void convert_whole_numbers(Json &r_json);
+
 /// Refers to a JSON object of a document, and knows its JSON path. Every access is checked. "Fails"
 /// below means: throws an Error with file, path, value and range; "reported": logged as an error,
 /// after which loading continues.
@@ -123,8 +126,8 @@ public:
 	/// absent, find_ returns nothing and require_ fails.
 	std::optional<size_t> find_index(std::string_view p_key, size_t p_count) const;
 	size_t require_index(std::string_view p_key, size_t p_count) const;
-	/// Returns an element of the array p_key as an index; fails on any other value.
-	size_t require_index_at(std::string_view p_key, size_t p_position, size_t p_count) const;
+	/// Fails unless the value is an array of such indices, or absent.
+	void check_indices(std::string_view p_key, size_t p_count) const;
 	/// Fills the span from an array of the same number of finite numbers; fails on any other value.
 	/// Returns false if absent.
 	bool find_numbers(std::string_view p_key, std::span<double> r_numbers) const;

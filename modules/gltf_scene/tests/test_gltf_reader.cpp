@@ -256,3 +256,27 @@ TEST_CASE("[GltfReader] buffers come from data URIs, escaped names and the BIN c
 					{ "a.glb", /*logged=*/{} }));
 	CHECK(get_mesh(*load_gltf(folder.path / "a.glb")).positions_node[1] == glm::vec3(1, 0, 0));
 }
+
+TEST_CASE("[GltfReader] whole numbers may be written as 3.0, also in lists of indices") {
+	GltfTestFolder folder;
+	Json json = make_triangle(folder);
+	json["nodes"][0]["children"] = { 1 };
+	json["nodes"].push_back({ { "name", "Bone" } });
+	json["nodes"][0]["skin"] = 0;
+	json["skins"] = Json::parse(R"([{"joints": [1, 0]}])");
+	json["nodes"][0]["extras"] = { { "casts_shadow", 0 } };
+	const auto scene = folder.load(json);
+	const std::string integers = json.dump();
+	std::string numbers;
+	for (size_t index = 0; index < integers.size(); ++index) {
+		const bool ends_number = std::isdigit(uint8_t(integers[index])) &&
+				std::strchr(",]}", integers[index + 1]) && integers[index + 1] != '\0';
+		numbers += integers[index];
+		numbers += ends_number ? ".0" : "";
+	}
+	const auto same = folder.load(Json::parse(numbers));
+	CHECK(numbers.find("\"joints\":[1.0,0.0]") != numbers.npos);
+	CHECK(find_difference(*scene, *same) == "");
+	REQUIRE(same->find_nodes<MeshInstance3D>().size() == 1);
+	CHECK(same->find_nodes<MeshInstance3D>()[0]->skin->joints == std::vector<int>{ 1, 0 });
+}
