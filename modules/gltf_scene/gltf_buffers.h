@@ -47,7 +47,6 @@ public:
 	/// Loads the data of a buffer or image from its URI, a relative path or base64 data. Throws an
 	/// Error about p_object's "uri" if it cannot be read.
 	std::vector<uint8_t> load_uri(const GltfObject &p_object, const std::string &p_uri);
-	const GltfObject &get_root() const { return root; }
 	/// Returns the external files requested so far, including those that could not be read.
 	const std::vector<std::filesystem::path> &get_files() const { return files; }
 

@@ -35,10 +35,11 @@ std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
 
 /// Writes the scene, in binary form if the name ends in .glb and as text if it ends in .gltf. If
-/// the scene was loaded from a file, only changes are rewritten, and data unknown to the program is
-/// preserved, except chunks of a .glb other than JSON and BIN, which a .gltf cannot hold. The file
-/// is replaced atomically, after the files that it references. Throws an Error if a value is not
-/// finite or if a file cannot be written.
+/// the scene was loaded from a file of the same form, only changed values are rewritten in its
+/// text, and an unchanged scene gives equal bytes. Data unknown to the program is preserved, except
+/// chunks of a .glb other than JSON and BIN, which a .gltf cannot hold. The file is replaced
+/// atomically, after the files that it references. Throws an Error if a value is not finite or if a
+/// file cannot be written.
 ///
 /// If the scene is saved in another folder, the buffer and image files are copied next to the new
 /// file. A copy gets a number if its name belongs to a file with other content. Meshes that were
