@@ -5,7 +5,7 @@
 # To build and run bin/gnomon.
 BUILD_PACKAGES=(
     build-essential pkg-config python3 scons
-    libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
+    libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools libspirv-cross-c-shared-dev
     libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libpng-dev libturbojpeg0-dev libembree-dev
     libimgui-dev libstb-dev libopenexr-dev libcli11-dev doctest-dev libxxhash-dev
 )
@@ -21,9 +21,9 @@ LARGE_MESH_PACKAGES=(npm)
 FUZZ_PACKAGES=(clang libclang-rt-14-dev)
 # To build the add-on for Windows x86_64 and Linux arm64 (scons platform=windows, scons arch=arm64) and to pack its zip, in
 # addition to BUILD_PACKAGES; 600 MB.
-CROSS_PACKAGES=(g++-mingw-w64-x86-64-posix g++-aarch64-linux-gnu)
+CROSS_PACKAGES=(g++-mingw-w64-x86-64-posix g++-aarch64-linux-gnu cmake)
 # To build the program for Windows and its libraries (scons platform=windows godot=no), in addition.
-WINDOWS_LIBRARY_PACKAGES=(cmake libz-mingw-w64-dev)
+WINDOWS_LIBRARY_PACKAGES=(libz-mingw-w64-dev)
 # To run what they build: tests/run_tests.sh --windows; 1 GB.
 CROSS_RUN_PACKAGES=(wine64 qemu-user-static)
 # For tests/run_tests.sh --only blender, in addition; 160 MB with dependencies.

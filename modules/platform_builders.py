@@ -6,13 +6,15 @@ Source files whose name ends with _posix.cpp or _windows.cpp are compiled for th
 import os
 import shutil
 
-import windows_libraries
+import cross_libraries
 from SCons.Script import Action
 
 # Third-party headers of the add-on. They are independent of the platform, so Debian's own packages provide them.
-HEADERS = ("glm", "glslang", "nlohmann", "xxhash.h")
+HEADERS = ("glm", "nlohmann", "spirv_cross", "xxhash.h")
 PROGRAM_HEADERS = ("CLI", "doctest", "tiny_gltf.h", "vulkan", "vk_video")  # of the program, in addition
-LIBRARY_FOLDER = "build/windows_libraries"  # see windows_libraries.py
+# See cross_libraries.py.
+PROGRAM_LIBRARY_FOLDER = "build/windows_libraries"
+ADDON_LIBRARY_FOLDER = "build/addon_libraries."  # and the platform's name
 HEADER_FOLDER = "/usr/include"
 HOST_ARCH = {"aarch64": "arm64"}.get(os.uname().machine, os.uname().machine)
 MISSING_COMPILER = (
@@ -112,19 +114,18 @@ def make_environment(env, platform):
         clone["CCFLAGS"] = [flag for flag in clone["CCFLAGS"] if flag not in ("-fPIC", "-fvisibility=hidden")]
         clone.Append(LINKFLAGS=["-static"])  # winpthread too, which Windows lacks
         clone["PROGRAM_SUFFIX"] += platform.program_ending
-        if not env["godot"]:
-            add_windows_libraries(clone)
+    add_libraries(clone, platform)
     return clone
 
 
-def add_windows_libraries(env):
-    """Build the libraries of the program now, if they are absent, because modules look for them when they are configured."""
-    folder = env.Dir("#" + LIBRARY_FOLDER).abspath
-    windows_libraries.build(folder)
+def add_libraries(env, platform):
+    """Build third-party libraries now, if they are absent, because modules look for them when they are configured."""
+    folder = env.Dir("#" + (ADDON_LIBRARY_FOLDER + platform.name if env["godot"] else PROGRAM_LIBRARY_FOLDER)).abspath
+    cross_libraries.build(folder, platform, is_addon=env["godot"])
     env["ENV"] = {
         **env["ENV"],
         "CPLUS_INCLUDE_PATH": folder + "/include",  # system folders, as those of the machine's own libraries
-        "PKG_CONFIG_LIBDIR": folder + "/lib/pkgconfig:" + windows_libraries.SYSROOT + "/lib/pkgconfig",
+        "PKG_CONFIG_LIBDIR": folder + "/lib/pkgconfig:" + cross_libraries.get_sysroot(platform) + "/lib/pkgconfig",
     }
     env.Append(LIBPATH=[folder + "/lib"])
     env["PKG_CONFIG"] = "pkg-config --static"

@@ -8,3 +8,7 @@ def get_layer():
 
 def get_description():
     return "Interface of GPU devices: resources, pipelines, command lists, timers; a backend implements it"
+
+
+def configure(env):
+    env.Append(LIBS=["spirv-cross-core"])

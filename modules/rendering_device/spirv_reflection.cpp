@@ -2,157 +2,44 @@
 
 #include "modules/core/error.h"
 
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv_cross/spirv_cross.hpp>
 
 #include <algorithm>
-#include <map>
-#include <optional>
 
 namespace gnomon {
 
 namespace {
 
 constexpr uint32_t PUSH_CONSTANT_ALIGNMENT_BYTES = 16;
-constexpr size_t SPIRV_HEADER_WORDS = 5;
-constexpr uint32_t IMAGE_IS_STORAGE = 2; // operand "Sampled" of OpTypeImage
 
-using Instruction = std::span<const uint32_t>; // word 0: opcode and length in words
-
-/// Reads one SPIR-V module.
+/// Reads one SPIR-V module. Its functions throw spirv_cross::CompilerError if that is damaged.
 class Reflector {
 public:
-	Reflector(std::string_view p_name, std::span<const SpecializationConstant> p_constants) :
-			name(p_name), constants(p_constants) {}
+	Reflector(std::string_view p_name, std::span<const uint32_t> p_words) :
+			name(p_name), compiler(p_words.data(), p_words.size()) {}
 
-	ReflectedShader reflect(std::span<const uint32_t> p_words) {
-		read(p_words);
-		ReflectedShader shader;
-		shader.stage = stage;
-		for (const auto &[id, variable] : variables) {
-			add_variable(id, variable, shader);
-		}
-		std::sort(shader.bindings.begin(), shader.bindings.end(),
+	ReflectedShader reflect(std::span<const SpecializationConstant> p_constants) {
+		shader.stage = get_stage();
+		apply(p_constants);
+		add_resources();
+		std::stable_sort(shader.bindings.begin(), shader.bindings.end(),
 				[](const auto &p_left, const auto &p_right) {
 					return p_left.binding < p_right.binding;
 				});
-		shader.local_size = compute_local_size();
-		shader.uses_subgroups = uses_subgroups;
-		for (const uint32_t id : booleans) {
-			shader.boolean_constants.push_back(find_decoration(id, spv::DecorationSpecId).value());
+		for (const spv::Capability capability : compiler.get_declared_capabilities()) {
+			shader.uses_subgroups = shader.uses_subgroups ||
+					(capability >= spv::CapabilityGroupNonUniform &&
+							capability <= spv::CapabilityGroupNonUniformQuad);
+		}
+		if (shader.stage == ShaderStage::COMPUTE) {
+			set_local_size();
 		}
 		return shader;
 	}
 
 private:
-	struct Variable {
-		uint32_t pointer_type = 0;
-		uint32_t storage_class = 0;
-		bool is_used = false;
-	};
-
-	void read(std::span<const uint32_t> p_words) {
-		if (p_words.size() < SPIRV_HEADER_WORDS || p_words[0] != spv::MagicNumber) {
-			fail("Shader \"", name, "\" holds no SPIR-V. Build it again.");
-		}
-		bool is_in_function = false;
-		for (size_t at = SPIRV_HEADER_WORDS; at < p_words.size();) {
-			const uint32_t length = p_words[at] >> 16;
-			if (length == 0 || at + length > p_words.size()) {
-				fail("Shader \"", name, "\" is damaged at word ", at, ". Build it again.");
-			}
-			const Instruction instruction = p_words.subspan(at, length);
-			is_in_function = is_in_function || get_op(instruction) == spv::OpFunction;
-			if (is_in_function) {
-				mark_used(instruction);
-			} else {
-				read_declaration(instruction);
-			}
-			at += length;
-		}
-	}
-
-	static uint32_t get_op(Instruction p_instruction) { return p_instruction[0] & 0xffffu; }
-
-	void read_declaration(Instruction p_in) {
-		const uint32_t op = get_op(p_in);
-		switch (op) {
-			case spv::OpCapability:
-				uses_subgroups = uses_subgroups ||
-						(p_in[1] >= spv::CapabilityGroupNonUniform &&
-								p_in[1] <= spv::CapabilityGroupNonUniformQuad);
-				break;
-			case spv::OpEntryPoint:
-				stage = get_stage(p_in[1]);
-				break;
-			case spv::OpExecutionMode:
-			case spv::OpExecutionModeId:
-				if (p_in[2] == spv::ExecutionModeLocalSize) {
-					local_size = glm::uvec3(p_in[3], p_in[4], p_in[5]);
-				} else if (p_in[2] == spv::ExecutionModeLocalSizeId) {
-					local_size_ids = glm::uvec3(p_in[3], p_in[4], p_in[5]);
-				}
-				break;
-			case spv::OpDecorate:
-				decorations[{ p_in[1], p_in[2] }] = p_in.size() > 3 ? p_in[3] : 0;
-				break;
-			case spv::OpMemberDecorate:
-				member_decorations[{ p_in[1], p_in[2], p_in[3] }] = p_in.size() > 4 ? p_in[4] : 0;
-				break;
-			case spv::OpSpecConstantTrue:
-			case spv::OpSpecConstantFalse:
-				booleans.push_back(p_in[2]);
-				break;
-			case spv::OpVariable:
-				variables[p_in[2]] = { p_in[1], p_in[3], false };
-				break;
-			default: // types by id, and constants, where the id follows their type
-				if (op >= spv::OpTypeVoid && op <= spv::OpTypePipe) {
-					definitions[p_in[1]] = p_in;
-				} else if (op >= spv::OpConstantTrue && op <= spv::OpSpecConstantOp) {
-					definitions[p_in[2]] = p_in;
-				}
-				break;
-		}
-	}
-
-	/// Marks the variables that an instruction accesses. Checks only operands that are pointers,
-	/// because a literal in another operand could equal an id.
-	void mark_used(Instruction p_in) {
-		switch (get_op(p_in)) {
-			case spv::OpLoad:
-			case spv::OpAccessChain:
-			case spv::OpInBoundsAccessChain:
-			case spv::OpPtrAccessChain:
-			case spv::OpArrayLength:
-			case spv::OpImageTexelPointer:
-			case spv::OpCopyObject:
-				mark_variable(p_in[3]);
-				break;
-			case spv::OpStore:
-				mark_variable(p_in[1]);
-				break;
-			case spv::OpCopyMemory:
-				mark_variable(p_in[1]);
-				mark_variable(p_in[2]);
-				break;
-			case spv::OpFunctionCall:
-				for (const uint32_t argument : p_in.subspan(4)) {
-					mark_variable(argument);
-				}
-				break;
-			default:
-				break;
-		}
-	}
-
-	void mark_variable(uint32_t p_id) {
-		if (const auto found = variables.find(p_id); found != variables.end()) {
-			found->second.is_used = true;
-		}
-	}
-
-	ShaderStage get_stage(uint32_t p_model) const {
-		switch (p_model) {
+	ShaderStage get_stage() const {
+		switch (const spv::ExecutionModel model = compiler.get_execution_model()) {
 			case spv::ExecutionModelVertex:
 				return ShaderStage::VERTEX;
 			case spv::ExecutionModelGeometry:
@@ -162,174 +49,112 @@ private:
 			case spv::ExecutionModelGLCompute:
 				return ShaderStage::COMPUTE;
 			default:
-				fail("Shader \"", name, "\" has execution model ", p_model,
+				fail("Shader \"", name, "\" has execution model ", model,
 						"; vertex, geometry, fragment and compute are supported.");
 		}
 	}
 
-	std::optional<uint32_t> find_decoration(uint32_t p_id, uint32_t p_decoration) const {
-		const auto found = decorations.find({ p_id, p_decoration });
-		return found == decorations.end() ? std::nullopt : std::optional(found->second);
-	}
-
-	uint32_t get_member_decoration(
-			uint32_t p_type, uint32_t p_member, uint32_t p_decoration) const {
-		const auto found = member_decorations.find({ p_type, p_member, p_decoration });
-		return found == member_decorations.end() ? 0 : found->second;
-	}
-
-	Instruction get_definition(uint32_t p_id) const {
-		const auto found = definitions.find(p_id);
-		GNOMON_ASSERT(found != definitions.end(), "shader ", name, ": id ", p_id);
-		return found->second;
-	}
-
-	/// Returns the value of an integer constant, with specialization applied.
-	uint32_t get_constant(uint32_t p_id) const {
-		if (const auto spec_id = find_decoration(p_id, spv::DecorationSpecId)) {
-			for (const SpecializationConstant &constant : constants) {
-				if (constant.constant_id == *spec_id) {
-					return constant.value;
+	/// Gives the specialization constants their values, and lists the boolean ones.
+	void apply(std::span<const SpecializationConstant> p_constants) {
+		for (const auto &[id, constant_id] : compiler.get_specialization_constants()) {
+			spirv_cross::SPIRConstant &constant = compiler.get_constant(id);
+			if (compiler.get_type(constant.constant_type).basetype == Type::Boolean) {
+				shader.boolean_constants.push_back(constant_id);
+			}
+			for (const SpecializationConstant &value : p_constants) {
+				if (value.constant_id == constant_id) {
+					constant.m.c[0].r[0].u32 = value.value;
 				}
 			}
 		}
-		return get_definition(p_id)[3];
 	}
 
-	void add_variable(uint32_t p_id, const Variable &p_variable, ReflectedShader &r_shader) const {
-		const uint32_t type = get_definition(p_variable.pointer_type)[3];
-		if (p_variable.storage_class == spv::StorageClassPushConstant) {
-			r_shader.push_constant_bytes = compute_size_bytes(type, 0);
-			return;
+	void add_resources() {
+		const spirv_cross::ShaderResources found = compiler.get_shader_resources();
+		const auto used = compiler.get_active_interface_variables();
+		const auto add = [&](const auto &p_resources, ResourceKind p_kind) {
+			for (const spirv_cross::Resource &resource : p_resources) {
+				add_binding(resource, p_kind, used.contains(resource.id));
+			}
+		};
+		add(found.uniform_buffers, ResourceKind::UNIFORM_BUFFER);
+		add(found.storage_buffers, ResourceKind::STORAGE_BUFFER);
+		add(found.storage_images, ResourceKind::STORAGE_TEXTURE);
+		add(found.sampled_images, ResourceKind::TEXTURE_WITH_SAMPLER);
+		add(found.separate_images, ResourceKind::TEXTURE);
+		add(found.separate_samplers, ResourceKind::SAMPLER);
+		for (const auto *others : { &found.subpass_inputs, &found.acceleration_structures }) {
+			if (!others->empty()) {
+				fail("Shader \"", name, "\": binding ", get_binding(others->front()),
+						" is neither a buffer nor a texture or sampler. Use one of these.");
+			}
 		}
-		if (p_variable.storage_class != spv::StorageClassUniformConstant &&
-				p_variable.storage_class != spv::StorageClassUniform &&
-				p_variable.storage_class != spv::StorageClassStorageBuffer) {
-			return;
+		for (const spirv_cross::Resource &block : found.push_constant_buffers) {
+			shader.push_constant_bytes = static_cast<uint32_t>(
+					compiler.get_declared_struct_size(compiler.get_type(block.base_type_id)));
 		}
-		const uint32_t set = find_decoration(p_id, spv::DecorationDescriptorSet).value_or(0);
-		ReflectedBinding binding;
-		binding.binding = find_decoration(p_id, spv::DecorationBinding).value_or(0);
-		binding.stages = static_cast<uint32_t>(stage);
-		binding.is_used = p_variable.is_used;
+	}
+
+	uint32_t get_binding(const spirv_cross::Resource &p_resource) const {
+		return compiler.get_decoration(p_resource.id, spv::DecorationBinding);
+	}
+
+	void add_binding(const spirv_cross::Resource &p_resource, ResourceKind p_kind, bool p_is_used) {
+		const uint32_t number = get_binding(p_resource);
+		const uint32_t set = compiler.get_decoration(p_resource.id, spv::DecorationDescriptorSet);
 		if (set != 0) {
-			fail("Shader \"", name, "\": binding ", binding.binding, " is in set ", set,
+			fail("Shader \"", name, "\": binding ", number, " is in set ", set,
 					"; only set 0 is used. Change its layout.");
 		}
-		set_kind(type, p_variable.storage_class, binding);
-		r_shader.bindings.push_back(binding);
-	}
-
-	void set_kind(uint32_t p_type, uint32_t p_storage_class, ReflectedBinding &r_binding) const {
-		Instruction type = get_definition(p_type);
-		if (get_op(type) == spv::OpTypeArray || get_op(type) == spv::OpTypeRuntimeArray) {
-			fail("Shader \"", name, "\": binding ", r_binding.binding,
+		const Type &type = compiler.get_type(p_resource.type_id);
+		if (!type.array.empty()) {
+			fail("Shader \"", name, "\": binding ", number,
 					" is an array of resources, which is not supported. Use one binding for each.");
 		}
-		if (p_storage_class == spv::StorageClassStorageBuffer) {
-			r_binding.kind = ResourceKind::STORAGE_BUFFER;
-			return;
-		}
-		if (p_storage_class == spv::StorageClassUniform) {
-			r_binding.kind = find_decoration(p_type, spv::DecorationBufferBlock)
-					? ResourceKind::STORAGE_BUFFER
-					: ResourceKind::UNIFORM_BUFFER;
-			return;
-		}
-		const bool is_combined = get_op(type) == spv::OpTypeSampledImage;
-		if (is_combined) {
-			type = get_definition(type[2]);
-		}
-		if (get_op(type) == spv::OpTypeSampler) {
-			r_binding.kind = ResourceKind::SAMPLER;
-			return;
-		}
-		if (get_op(type) != spv::OpTypeImage) {
-			fail("Shader \"", name, "\": binding ", r_binding.binding,
-					" is neither a buffer nor a texture or sampler. Use one of these.");
-		}
-		// Operands of OpTypeImage: word 3 is Dim, 5 Arrayed, 7 Sampled.
-		const bool is_buffer = type[3] == spv::DimBuffer;
-		const bool is_storage = type[7] == IMAGE_IS_STORAGE;
-		r_binding.is_arrayed = type[5] == 1;
-		if (is_buffer && is_storage) {
-			fail("Shader \"", name, "\": binding ", r_binding.binding,
+		const bool is_texture = type.basetype == Type::Image || type.basetype == Type::SampledImage;
+		const bool is_texel_buffer = is_texture && type.image.dim == spv::DimBuffer;
+		if (is_texel_buffer && p_kind == ResourceKind::STORAGE_TEXTURE) {
+			fail("Shader \"", name, "\": binding ", number,
 					" is a storage texel buffer, which is not supported. Use a storage buffer.");
 		}
-		if (is_buffer) {
-			r_binding.kind = ResourceKind::TEXEL_BUFFER;
-		} else if (is_storage) {
-			r_binding.kind = ResourceKind::STORAGE_TEXTURE;
-		} else {
-			r_binding.kind =
-					is_combined ? ResourceKind::TEXTURE_WITH_SAMPLER : ResourceKind::TEXTURE;
+		shader.bindings.push_back({ .binding = number,
+				.kind = is_texel_buffer ? ResourceKind::TEXEL_BUFFER : p_kind,
+				.stages = static_cast<uint32_t>(shader.stage),
+				.is_arrayed = is_texture && type.image.arrayed,
+				.is_used = p_is_used });
+	}
+
+	void set_local_size() {
+		spirv_cross::SpecializationConstant sizes[3];
+		// A constant decorated WorkgroupSize has precedence over the execution mode.
+		const uint32_t all =
+				compiler.get_work_group_size_specialization_constants(sizes[0], sizes[1], sizes[2]);
+		for (uint32_t axis = 0; axis < 3; ++axis) {
+			const uint32_t id = sizes[axis].id;
+			shader.local_size[glm::length_t(axis)] = id != 0 ? compiler.get_constant(id).scalar()
+					: all != 0
+					? compiler.get_constant(all).scalar(0, axis)
+					: compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, axis);
 		}
 	}
 
-	/// p_matrix_stride_bytes: stride of the struct member of this type, if it is a matrix.
-	uint32_t compute_size_bytes(uint32_t p_type, uint32_t p_matrix_stride_bytes) const {
-		const Instruction type = get_definition(p_type);
-		switch (get_op(type)) {
-			case spv::OpTypeInt:
-			case spv::OpTypeFloat:
-				return type[2] / 8;
-			case spv::OpTypeVector:
-				return type[3] * compute_size_bytes(type[2], 0);
-			case spv::OpTypeMatrix:
-				return type[3] * p_matrix_stride_bytes;
-			case spv::OpTypeArray:
-				return get_constant(type[3]) *
-						find_decoration(p_type, spv::DecorationArrayStride).value_or(0);
-			case spv::OpTypeStruct: {
-				uint32_t end = 0;
-				for (uint32_t member = 0; member + 2 < type.size(); ++member) {
-					const uint32_t offset =
-							get_member_decoration(p_type, member, spv::DecorationOffset);
-					const uint32_t stride =
-							get_member_decoration(p_type, member, spv::DecorationMatrixStride);
-					end = std::max(end, offset + compute_size_bytes(type[member + 2], stride));
-				}
-				return end;
-			}
-			default:
-				fail("Shader \"", name, "\": a push constant has an unsupported type. Use floats, ",
-						"integers, vectors, matrices, arrays and structures.");
-		}
-	}
-
-	glm::uvec3 compute_local_size() const {
-		// A constant decorated WorkgroupSize has precedence over the execution modes.
-		for (const auto &[key, value] : decorations) {
-			if (key.second == spv::DecorationBuiltIn && value == spv::BuiltInWorkgroupSize) {
-				const Instruction sizes = get_definition(key.first);
-				return { get_constant(sizes[3]), get_constant(sizes[4]), get_constant(sizes[5]) };
-			}
-		}
-		if (local_size_ids) {
-			return { get_constant(local_size_ids->x), get_constant(local_size_ids->y),
-				get_constant(local_size_ids->z) };
-		}
-		return local_size;
-	}
+	using Type = spirv_cross::SPIRType;
 
 	std::string_view name;
-	std::span<const SpecializationConstant> constants;
-	ShaderStage stage = ShaderStage::NONE;
-	bool uses_subgroups = false;
-	glm::uvec3 local_size = glm::uvec3(1);
-	std::optional<glm::uvec3> local_size_ids;
-	std::map<std::pair<uint32_t, uint32_t>, uint32_t> decorations;	// id, decoration -> operand
-	std::map<std::array<uint32_t, 3>, uint32_t> member_decorations; // type, member, decoration
-	std::map<uint32_t, Instruction> definitions;					// types and constants
-	std::map<uint32_t, Variable> variables;
-	std::vector<uint32_t> booleans; // result ids of boolean specialization constants
+	spirv_cross::Compiler compiler;
+	ReflectedShader shader;
 };
 
 } // namespace
 
 ReflectedShader reflect_spirv(std::string_view p_name, std::span<const uint32_t> p_words,
 		std::span<const SpecializationConstant> p_constants) {
-	return Reflector(p_name, p_constants).reflect(p_words);
+	try {
+		return Reflector(p_name, p_words).reflect(p_constants);
+	} catch (const spirv_cross::CompilerError &error) {
+		fail("Shader \"", p_name, "\" cannot be read as SPIR-V: ", error.what(),
+				" Build it again.");
+	}
 }
 
 std::vector<ReflectedBinding> merge_bindings(

@@ -49,7 +49,8 @@ struct ReflectedShader {
 
 /// Reads the interface of a SPIR-V module with one entry point `main`. A construct that the device
 /// does not support (other sets, arrays of resources, storage texel buffers) is an Error
-/// that names the shader.
+/// that names the shader. So are words that are no SPIR-V or are cut off. Other damage is not
+/// always noticed and may crash: p_words must come from a compiler.
 ReflectedShader reflect_spirv(std::string_view p_name, std::span<const uint32_t> p_words,
 		std::span<const SpecializationConstant> p_constants);
 

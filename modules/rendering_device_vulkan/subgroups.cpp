@@ -1,6 +1,7 @@
+// SPIR-V: no pass of SPIRV-Tools adds an extension or an execution mode; SPIRV-Cross only reads.
 #include "modules/rendering_device_vulkan/subgroups.h"
 
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv_cross/spirv.hpp>
 
 #include <algorithm>
 #include <cstring>

@@ -75,7 +75,7 @@ check_size() {
     [ "$size" -lt $((60 * 1048576)) ] || fail "$out has $size bytes, must be below 60 MiB"
 }
 
-# Packages whose code is in the program for Windows, besides the libraries of modules/windows_libraries.py: the compiler's
+# Packages whose code is in the program for Windows, besides the libraries of modules/cross_libraries.py: the compiler's
 # libraries, and headers with code.
 WINDOWS_PACKAGES="gcc-mingw-w64-x86-64-posix-runtime mingw-w64-x86-64-dev libglm-dev nlohmann-json3-dev libcli11-dev libxxhash-dev libvulkan-dev"
 if [ "$is_windows" = yes ]; then

@@ -43,7 +43,7 @@ COMPILERS = {
     "linux.arm64": ["aarch64-linux-gnu-g++", "-fPIC"],
 }
 # The entries of HEADERS in modules/platform_builders.py, whose code is in the libraries -> what the notices call them.
-NOTICES = {"glm": "OpenGL Mathematics", "glslang": "SPIR-V headers", "nlohmann": "JSON for Modern C++", "xxhash.h": "xxHash"}
+NOTICES = {"glm": "OpenGL Mathematics", "nlohmann": "JSON for Modern C++", "spirv_cross": "SPIRV-Cross", "xxhash.h": "xxHash"}
 
 
 def read(*path):

@@ -51,14 +51,20 @@ TEST_CASE("[SpirvReflection] a binding that is declared but not accessed is mark
 TEST_CASE("[SpirvReflection] words that are not SPIR-V, and damaged SPIR-V, are an Error") {
 	const std::vector<uint32_t> words(16, 1);
 	CHECK_THROWS_WITH_AS(reflect_spirv("a.comp", words, {}),
-			"Shader \"a.comp\" holds no SPIR-V. Build it again.", Error);
-	std::vector<uint32_t> damaged;
-	for (const uint32_t word : find_embedded_shader("tests/scale.comp")) {
-		damaged.push_back(word);
+			"Shader \"a.comp\" cannot be read as SPIR-V: Invalid SPIRV format. Build it again.",
+			Error);
+	CHECK_THROWS_AS(reflect_spirv("a.comp", {}, {}), Error);
+	const std::span<const uint32_t> whole = find_embedded_shader("tests/scale.comp");
+	std::vector<uint32_t> damaged(whole.begin(), whole.end());
+	// The first word after the header: an instruction longer than the module, and one of no words.
+	for (const uint32_t length_bits : { 0xffff0000u, 0u }) {
+		damaged[5] = length_bits | (whole[5] & 0xffffu);
+		CHECK_THROWS_AS(reflect_spirv("a.comp", damaged, {}), Error);
 	}
-	// The first word after the header: an instruction longer than the module.
-	damaged[5] = 0xffff0000u | (damaged[5] & 0xffffu);
-	CHECK_THROWS_AS(reflect_spirv("a.comp", damaged, {}), Error);
+	for (size_t count = 0; count < whole.size(); ++count) { // cut off in each place
+		const std::vector<uint32_t> cut(whole.begin(), whole.begin() + ptrdiff_t(count));
+		CHECK_THROWS_AS(reflect_spirv("a.comp", cut, {}), Error);
+	}
 }
 
 TEST_CASE("[SpirvReflection] no embedded shader needs more than SPIR-V 1.3") {

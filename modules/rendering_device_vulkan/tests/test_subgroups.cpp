@@ -3,7 +3,7 @@
 #include "modules/rendering_device_vulkan/pipeline_stages.h"
 
 #include <doctest/doctest.h>
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv_cross/spirv.hpp>
 
 #include <algorithm>
 

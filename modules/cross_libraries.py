@@ -1,10 +1,9 @@
-"""Builds the third-party libraries of the program for Windows.
+"""Builds third-party libraries for platforms other than this machine's: of the program for Windows, and of the add-on.
 
-    windows_libraries.py FOLDER
-
-Debian packages only zlib for Windows (libz-mingw-w64-dev). The others are built here, as static libraries, from the sources of
-Debian's own packages, or from headers with implementations that these packages install. FOLDER receives include/, lib/,
-licences/ and versions.txt. Libraries that it has are not built again. Takes 7 minutes on two cores; needs apt's network.
+Debian packages only zlib for Windows (libz-mingw-w64-dev), and libspirv-cross-c-shared-dev can be installed for one
+architecture only. So libraries are built here, as static libraries, from the sources of Debian's own packages, or from headers
+with implementations that these packages install. The folder of build() receives include/, lib/, licences/ and versions.txt.
+Libraries that it has are not built again. Needs apt's network.
 """
 
 import glob
@@ -16,11 +15,14 @@ import subprocess
 import sys
 import tempfile
 
-COMPILERS = {"C": "x86_64-w64-mingw32-gcc-posix", "CXX": "x86_64-w64-mingw32-g++-posix", "RC": "x86_64-w64-mingw32-windres"}
-TOOLS = "x86_64-w64-mingw32-"
-SYSROOT = "/usr/x86_64-w64-mingw32"
-# Debian's source packages, in the order of their dependencies, with the options of cmake.
-SOURCES = {
+# Debian's source packages, in the order of their dependencies, with the options of cmake: those of the add-on and the program,
+# and those of the program only.
+ADDON_SOURCES = {
+    # only the part that reads SPIR-V
+    "spirv-cross": ["-DSPIRV_CROSS_FORCE_PIC=ON", "-DSPIRV_CROSS_CLI=OFF", "-DSPIRV_CROSS_ENABLE_TESTS=OFF"]
+    + ["-DSPIRV_CROSS_ENABLE_%s=OFF" % part for part in ("GLSL", "HLSL", "MSL", "CPP", "REFLECT", "C_API", "UTIL")]
+}
+PROGRAM_SOURCES = {
     "libpng1.6": ["-DPNG_SHARED=OFF", "-DPNG_TESTS=OFF", "-DPNG_EXECUTABLES=OFF"],
     "libjpeg-turbo": ["-DENABLE_SHARED=OFF", "-DWITH_SIMD=OFF", "-DWITH_JAVA=OFF"],  # SIMD needs an assembler
     "imath": ["-DBUILD_TESTING=OFF", "-DIMATH_INSTALL_PKG_CONFIG=ON"],
@@ -47,6 +49,10 @@ TINYGLTF = "".join("#define %s_IMPLEMENTATION\n" % name for name in ("STB_IMAGE"
 HEADER_PACKAGES = ("libtinygltf-dev", "libstb-dev")
 VULKAN_HEADER = "/usr/include/vulkan/vulkan_core.h"
 HEADERS = ("stb", "nlohmann", "tiny_gltf.h")
+
+
+def get_sysroot(platform):
+    return "/usr/" + platform.tools.rstrip("-")
 
 
 def run(command, **options):
@@ -144,10 +150,12 @@ class _DebianVersion:
         return subprocess.run(["dpkg", "--compare-versions", self.version, "lt", other.version], check=False).returncode == 0
 
 
-def write_toolchain(path, folder):
+def write_toolchain(path, folder, platform):
     """Write cmake's description of the compilers, which also find the libraries that were installed into the folder before."""
-    lines = ["set(CMAKE_SYSTEM_NAME Windows)", "set(CMAKE_SYSTEM_PROCESSOR x86_64)", "set(CMAKE_FIND_ROOT_PATH %s %s)" % (SYSROOT, folder)]
-    lines += ["set(CMAKE_%s_COMPILER %s)" % item for item in COMPILERS.items()]
+    lines = ["set(CMAKE_SYSTEM_NAME %s)" % platform.system.capitalize(), "set(CMAKE_SYSTEM_PROCESSOR %s)" % platform.arch]
+    lines += ["set(CMAKE_FIND_ROOT_PATH %s %s)" % (get_sysroot(platform), folder)]
+    compilers = {"C": platform.compiler.replace("g++", "gcc"), "CXX": platform.compiler, "RC": platform.tools + "windres"}
+    lines += ["set(CMAKE_%s_COMPILER %s)" % item for item in compilers.items()]
     lines += ["set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)"]
     lines += ["set(CMAKE_FIND_ROOT_PATH_MODE_%s ONLY)" % what for what in ("LIBRARY", "INCLUDE", "PACKAGE")]
     write_text(path, "\n".join(lines) + "\n")
@@ -162,7 +170,7 @@ def build_source(source, folder, toolchain, options):
     shutil.rmtree(build)
 
 
-def build_tinygltf(folder, work):
+def build_tinygltf(folder, work, platform):
     links = os.path.join(work, "links")
     os.makedirs(links, exist_ok=True)
     for name in HEADERS:
@@ -172,11 +180,11 @@ def build_tinygltf(folder, work):
     source = os.path.join(work, "tinygltf.cpp")
     write_text(source, TINYGLTF)
     made = os.path.join(work, "tinygltf.o")
-    run([COMPILERS["CXX"], "-O2", "-g1", "-w", "-isystem", links, "-isystem", links + "/stb", "-c", source, "-o", made])
-    run([TOOLS + "ar", "rcs", os.path.join(folder, "lib", "libtinygltf.a"), made])
+    run([platform.compiler, "-O2", "-g1", "-w", "-isystem", links, "-isystem", links + "/stb", "-c", source, "-o", made])
+    run([platform.tools + "ar", "rcs", os.path.join(folder, "lib", "libtinygltf.a"), made])
 
 
-def make_vulkan_import(folder, work):
+def make_vulkan_import(folder, work, platform):
     """Make the import library of vulkan-1.dll, the loader, which comes with every graphics driver. It is loaded at the first call, so
     that a program can say what is missing where there is none."""
     names = re.findall(r"VKAPI_CALL (vk\w+)\(", read_text(VULKAN_HEADER))
@@ -184,7 +192,7 @@ def make_vulkan_import(folder, work):
     exported = [name for name in names if not re.search(r"[A-Z]{2,}$", name) or name.endswith("KHR")]
     definition = os.path.join(work, "vulkan-1.def")
     write_text(definition, "LIBRARY vulkan-1.dll\nEXPORTS\n" + "\n".join(exported) + "\n")
-    run([TOOLS + "dlltool", "-d", definition, "-y", os.path.join(folder, "lib", "libvulkan.a")])
+    run([platform.tools + "dlltool", "-d", definition, "-y", os.path.join(folder, "lib", "libvulkan.a")])
 
 
 def copy_licence(folder, package, source):
@@ -203,14 +211,14 @@ def change_source(source, name, old, new):
     write_text(path, text.replace(old, new))
 
 
-def merge_embree(folder):
+def merge_embree(folder, platform):
     """Make one library of Embree's parts, so that the order in which they are linked does not matter."""
     library = os.path.join(folder, "lib")
     names = ["libembree3.a", "liblexers.a", "libmath.a", "libsimd.a", "libsys.a", "libtasking.a"]
     paths = [os.path.join(library, name) for name in names] + sorted(glob.glob(library + "/libembree_*.a"))
     paths = [path for path in paths if os.path.exists(path)]
     merged = os.path.join(library, "merged.a")
-    run([TOOLS + "ar", "-M"], input="create %s\n%ssave\nend\n" % (merged, "".join("addlib %s\n" % path for path in paths)))
+    run([platform.tools + "ar", "-M"], input="create %s\n%ssave\nend\n" % (merged, "".join("addlib %s\n" % path for path in paths)))
     for path in paths:
         os.remove(path)
     os.rename(merged, os.path.join(library, names[0]))
@@ -220,48 +228,45 @@ def compute_recipe(*parts):
     return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
 
 
-def build(folder):
-    """Build the libraries that the folder does not have with the recipe of this file."""
+def build(folder, platform, is_addon):
+    """Build the libraries of the add-on or of the program that the folder does not have with the recipe of this file."""
     folder = os.path.abspath(folder)
     recipe = compute_recipe(read_text(os.path.abspath(__file__)))
     stamp = os.path.join(folder, "versions.txt")
     if read_text(stamp).startswith(recipe + "\n"):
         return
-    print("Building the program's third-party libraries for Windows in %s (7 minutes on two cores)" % folder, flush=True)
+    duration = "half a minute" if is_addon else "7 minutes"
+    print("Building third-party libraries for %s in %s (%s on two cores)" % (platform.name, folder, duration), flush=True)
     work = os.path.join(folder, "work")
     shutil.rmtree(work, ignore_errors=True)
     os.makedirs(work)
     os.makedirs(os.path.join(folder, "lib"), exist_ok=True)
     toolchain = os.path.join(work, "toolchain.cmake")
-    write_toolchain(toolchain, folder)
+    write_toolchain(toolchain, folder, platform)
     packages = None
     versions = []
-    for index, (package, options) in enumerate(SOURCES.items(), 1):
+    sources = ADDON_SOURCES if is_addon else {**ADDON_SOURCES, **PROGRAM_SOURCES}
+    for index, (package, options) in enumerate(sources.items(), 1):
         made = os.path.join(folder, "made", package)  # the recipe and the version of a library that is complete
         own_recipe = compute_recipe(options, CHANGES.get(package, []))
         if not read_text(made).startswith(own_recipe + "\n"):
             packages = packages or SourcePackages(work)
             version, source = packages.unpack(package)
-            print("%d/%d %s %s" % (index, len(SOURCES), package, version), flush=True)
+            print("%d/%d %s %s" % (index, len(sources), package, version), flush=True)
             for change in CHANGES.get(package, []):
                 change_source(source, *change)
             build_source(source, folder, toolchain, options)
             if package == "embree":
-                merge_embree(folder)
+                merge_embree(folder, platform)
             copy_licence(folder, package, source)
             shutil.rmtree(source)
             write_text(made, own_recipe + "\n" + version + "\n")
         versions.append("%s %s" % (package, read_text(made).splitlines()[1]))
-    build_tinygltf(folder, work)
-    for package in (*HEADER_PACKAGES, "libz-mingw-w64-dev"):
-        copy_licence(folder, package, "/usr/share/doc/" + package)
-        versions.append("%s %s" % (package, run(["dpkg-query", "-W", "-f", "${Version}", package])))
-    make_vulkan_import(folder, work)
+    if not is_addon:
+        build_tinygltf(folder, work, platform)
+        for package in (*HEADER_PACKAGES, "libz-mingw-w64-dev"):
+            copy_licence(folder, package, "/usr/share/doc/" + package)
+            versions.append("%s %s" % (package, run(["dpkg-query", "-W", "-f", "${Version}", package])))
+        make_vulkan_import(folder, work, platform)
     shutil.rmtree(work)
     write_text(stamp, recipe + "\n" + "\n".join(versions) + "\n")
-
-
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        raise SystemExit(__doc__)
-    build(sys.argv[1])
