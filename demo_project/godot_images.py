@@ -1,6 +1,7 @@
 """Reads the images and masks that the demo's Godot project stores, and writes them as PNG and OpenEXR.
 
-They are float32, linear, rows from the top. A mask is -1 where there is no receiver.
+They are float32, linear, rows from the top. A mask is -1 where there is no receiver. Written without a library: Debian has
+no small one that writes OpenEXR in Python, and the demo needs no packages of Python.
 """
 
 import array

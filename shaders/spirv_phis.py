@@ -2,7 +2,7 @@
 
 A phi of a structure or array is legal, but compilers rarely meet one: glslang never makes any, and drivers are tested with
 glslang's output. spirv-opt makes them if it promotes a variable to a value before it has split the variable into scalars and
-vectors.
+vectors. Debian has no Python library for SPIR-V.
 """
 
 import struct

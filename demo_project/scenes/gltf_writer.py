@@ -1,4 +1,4 @@
-"""Meshes and a small glTF 2.0 writer for the demo scenes. Standard library only.
+"""Meshes and a small glTF 2.0 writer for the demo scenes. Standard library only, because the demo needs none of Python.
 
 A mesh is checked before it is written. No triangle has two corners at one position. Unless is_manifold is False, the mesh is
 an oriented 2-manifold after welding by position; if is_closed is True as well, it is closed and its faces point outward.

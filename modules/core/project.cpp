@@ -1,3 +1,4 @@
+// There is no library for Godot's ConfigFile format; one for INI (inih) only reads, without lists.
 #include "modules/core/project.h"
 
 #include "modules/core/error.h"

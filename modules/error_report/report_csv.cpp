@@ -1,3 +1,4 @@
+// Debian has no C++ library that writes CSV; that for C (libcsv) would save few of these lines.
 #include "modules/core/text.h"
 #include "modules/error_report/report_json.h"
 

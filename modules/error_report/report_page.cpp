@@ -1,3 +1,4 @@
+// Base64: Debian has it in C and C++ only as a small part of large libraries (OpenSSL, GLib).
 #include "modules/error_report/report_page.h"
 
 #include "modules/core/error.h"

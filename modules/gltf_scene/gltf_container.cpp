@@ -1,3 +1,4 @@
+// GLB: tinygltf reads it only together with its buffers, and keeps no chunks of other kinds.
 #include "modules/gltf_scene/gltf_container.h"
 
 #include "modules/core/error.h"

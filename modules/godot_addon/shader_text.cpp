@@ -1,3 +1,4 @@
+// There is no library that parses Godot's shading language; Godot's API lacks its own parser.
 #include "modules/godot_addon/shader_text.h"
 
 #include <algorithm>

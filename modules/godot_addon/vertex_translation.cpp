@@ -1,3 +1,4 @@
+// There is no library that translates Godot's shading language, see shader_text.cpp.
 #include "modules/godot_addon/vertex_translation.h"
 
 #include "modules/core/text.h"

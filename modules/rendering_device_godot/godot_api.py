@@ -2,7 +2,7 @@
 
 `godot --headless --dump-extension-api --dump-gdextension-interface` writes extension_api.json and
 gdextension_interface.h. USED lists classes with their methods and enums; a name that this Godot lacks is an error that
-names it. Methods become members of a class of the same name in gnomon::godot, with Godot's names.
+names it. Methods become members of a class of the same name in gnomon::godot, with Godot's names. Debian has no package of godot-cpp, Godot's own bindings.
 """
 
 import json

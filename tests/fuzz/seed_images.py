@@ -1,4 +1,7 @@
-"""Small images, as bytes: PNG and JPEG, valid and truncated, and animated PNG, GIF and WebP."""
+"""Small images, as bytes: PNG and JPEG, valid and truncated, and animated PNG, GIF and WebP.
+
+Written without a library, as libraries write no truncated and no damaged images.
+"""
 
 import struct
 import zlib

@@ -1,4 +1,7 @@
-"""Reads which libraries a shared library needs, and what it exports, from PE files of Windows and ELF files of Linux (64 bit)."""
+"""Reads which libraries a shared library needs, and what it exports, from PE files of Windows and ELF files of Linux (64 bit).
+
+Debian has pyelftools for the latter only: its pefile lacks the long names of sections, such as .debug_info.
+"""
 
 import struct
 
