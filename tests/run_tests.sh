@@ -290,7 +290,7 @@ part_drivers() {
         tests/drivers/test_llvmpipe.py tests/drivers/test_swiftshader.py
 }
 part_command_line() {
-    run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
+    run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py tests/command_line/test_probe.py \
         tests/command_line/test_good_commands.py tests/command_line/test_downloaded_models.py tests/command_line/test_animation.py \
         tests/command_line/test_report.py tests/command_line/test_stopped_report.py \
         tests/command_line/test_device_failures.py tests/command_line/test_memory_patterns.py \

@@ -87,9 +87,9 @@ std::string find_cpu_name() {
 }
 
 double read_thread_time_ms() {
-	FILETIME unused;
-	FILETIME kernel;
-	FILETIME user;
+	FILETIME unused = {};
+	FILETIME kernel = {};
+	FILETIME user = {};
 	::GetThreadTimes(::GetCurrentThread(), &unused, &unused, &kernel, &user);
 	const auto read_ms = [](const FILETIME &p_time) { // in units of 100 ns
 		return (double(p_time.dwHighDateTime) * 4294967296.0 + p_time.dwLowDateTime) / 1e4;

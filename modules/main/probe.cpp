@@ -29,10 +29,11 @@ std::optional<RenderResult> render_reference(Renderer &r_renderer, RenderRequest
 		return std::nullopt;
 	}
 	p_request.technique_override = info->id;
-	return r_renderer.render(p_request);
+	// Its own, since a light's technique loses its caches when another draws the light.
+	return Renderer(r_renderer.get_device()).render(p_request);
 }
 
-/// Returns the receiver with the largest error. 0 if there is none.
+/// Returns the receiver with the largest error. Throws an Error if there is no receiver.
 size_t find_worst_texel(const RenderResult &p_result, const RenderResult &p_reference) {
 	size_t worst = 0;
 	float largest = -1;
@@ -42,6 +43,11 @@ size_t find_worst_texel(const RenderResult &p_result, const RenderResult &p_refe
 			worst = texel;
 			largest = error;
 		}
+	}
+	if (largest < 0) {
+		fail("--probe ", WORST_PIXEL,
+				": the light has no receiver in the image. Check its range and cone, or name a "
+				"pixel.");
 	}
 	return worst;
 }
@@ -156,7 +162,6 @@ std::optional<glm::uvec2> parse_pixel(const std::string &p_text, glm::uvec2 p_si
 ProbeEntry explain_pixel(
 		Renderer &r_renderer, RenderRequest p_request, std::optional<glm::uvec2> p_pixel) {
 	p_request.wants_mask = true;
-	// First, since the technique that draws a light's last mask is the one that explains it.
 	const std::optional<RenderResult> reference = render_reference(r_renderer, p_request);
 	if (!p_pixel && !reference) {
 		fail("--probe ", WORST_PIXEL,

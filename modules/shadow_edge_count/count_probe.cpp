@@ -171,7 +171,8 @@ struct CountProbe::Work {
 	/// Whether a receiver at that distance (CountLeaf::axis_distance) sees the face's LOD.
 	bool is_seen(uint32_t p_face, double p_distance) const;
 	CountItems read_found(double p_distance) const;
-	/// Nothing if receivers see two LODs of one caster.
+	/// Nothing if receivers see two LODs of one caster, or if a mesh is deformed: its topology is
+	/// that at rest.
 	std::optional<CountItems> read_meshes(double p_distance) const;
 	/// The edges in the leaf's list. Nothing if the leaf has none.
 	std::optional<std::vector<CountEdge>> read_listed(const ProbedLeaf &p_leaf) const;
@@ -299,6 +300,9 @@ std::optional<CountItems> CountProbe::Work::read_meshes(double p_distance) const
 	for (uint32_t index = 0; index < casters.casters.size(); ++index) {
 		const CountCaster &caster = casters.casters[index];
 		const shader::CountCasterRecord &record = casters.records[index];
+		if (caster.posed) {
+			return std::nullopt;
+		}
 		if ((record.flags & EDGE_COUNT_CASTER_LOD) != 0) {
 			uint32_t seen_count = 0;
 			for (uint32_t face = 0; face < caster.face_count; ++face) {
@@ -323,14 +327,17 @@ std::optional<CountItems> CountProbe::Work::read_meshes(double p_distance) const
 
 std::optional<std::vector<CountEdge>> CountProbe::Work::read_listed(
 		const ProbedLeaf &p_leaf) const {
-	if (find_kind() == EDGE_COUNT_LEAVES_UNLISTED) {
+	const bool is_filtered_without_list =
+			find_kind() == EDGE_COUNT_LEAVES_FILTERED && p_leaf.result.edge_count == 0;
+	if (find_kind() == EDGE_COUNT_LEAVES_UNLISTED || is_filtered_without_list) {
 		return std::nullopt;
 	}
 	const uint32_t edge_mask = (1u << EDGE_COUNT_EDGE_BITS) - 1u;
 	const shader::CountLeafResult &result = p_leaf.result;
 	const uint32_t first = result.first_word + result.silhouette_count + result.face_count;
 	std::vector<CountEdge> edges;
-	for (uint32_t index = 0; index < result.edge_count; ++index) {
+	const uint32_t edge_count = std::min(result.edge_count, probe.constants.list_capacity);
+	for (uint32_t index = 0; index < edge_count; ++index) {
 		edges.push_back(
 				read_edge(read_item<uint32_t>(probe.copies->lists, first + index) & edge_mask));
 	}
@@ -346,7 +353,12 @@ void CountProbe::Work::describe_leaf(
 		entry.add("kind", "lit: nothing may be between its receivers and the light");
 		return;
 	}
-	entry.add("kind", KIND_NAMES[std::min<size_t>(find_kind(), std::size(KIND_NAMES) - 1)]);
+	const shader::CountLeafResult &result = p_leaf->result;
+	const bool is_lit = find_kind() == EDGE_COUNT_LEAVES_DARK && result.back_facing == 0 &&
+			result.light_facing == 0 && result.double_sided == 0; // it is in no list of leaves
+	entry.add("kind",
+			is_lit ? "lit: nothing is between its receivers and the light"
+				   : KIND_NAMES[std::min<size_t>(find_kind(), std::size(KIND_NAMES) - 1)]);
 	const glm::uvec4 &flags = p_leaf->leaf.pixels_flags;
 	entry.add("receivers", int64_t(std::popcount(flags.x) + std::popcount(flags.y)));
 	entry.add("receivers_minimum_light_m", glm::dvec3(p_leaf->leaf.minimum_w));
@@ -507,8 +519,9 @@ void CountProbe::explain(const ProbedReceiver &p_receiver, const CountCasters &p
 		{ "mask", p_receiver.visibility, is_smooth ? SMOOTH_TOLERANCE : MASK_TOLERANCE,
 				is_smooth ? "The leaf is smooth: 16 of its 64 receivers are counted, and this one "
 							"is interpolated. Set edge_count_interpolation to 0."
-						  : "Rounding or a fault in the passes that count, or a filter after "
-							"them: look for faults in the log, and at edge_count_budget." },
+						  : "Translucent casters or a mask filter changed it after counting, or "
+							"edge_count_budget or edge_count_time_budget was exceeded; else there "
+							"is a fault, which the log names." },
 		{ "leaf_list", listed_visibility, LIST_TOLERANCE,
 				"The leaf's list lacks edges, see is_listed." },
 		{ "all_found", found_visibility, FOUND_TOLERANCE,

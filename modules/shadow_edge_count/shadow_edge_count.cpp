@@ -389,7 +389,8 @@ void ShadowEdgeCount::explain(const ProbedReceiver &p_receiver, ProbeEntry &r_ex
 	if (probe) {
 		probe->explain(p_receiver, cached.casters, r_explanation);
 	} else {
-		r_explanation.add("finding", "No caster is in front of the light: nothing was counted.");
+		r_explanation.add_list("findings")
+				.add("", "No opaque caster is in front of the light: nothing was counted.");
 	}
 }
 
