@@ -62,6 +62,17 @@ struct ProbedFrame {
 				explanation);
 		return explanation;
 	}
+	/// Whether the receiver, off its surface, is in the scene's box.
+	bool is_in_box(size_t p_texel) const {
+		const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+		const auto found = std::ranges::find_if(snapshot->instances,
+				[](const InstanceSnapshot &p_instance) { return p_instance.node_name == "Box"; });
+		const glm::dvec3 position_world = snapshot->camera.position_world +
+				glm::dvec3(result.surfaces[p_texel].compute_receiver_position());
+		const Bounds &box = (*found).bounds_world; // it is not rotated
+		return glm::all(glm::greaterThan(position_world, box.minimum)) &&
+				glm::all(glm::lessThan(position_world, box.maximum));
+	}
 	/// Every p_step-th receiver with a visibility between the limits.
 	std::vector<size_t> list_receivers(float p_minimum, float p_maximum, size_t p_step) const {
 		std::vector<size_t> texels;
@@ -115,11 +126,12 @@ TEST_CASE("[GPU][EdgeCount] all steps of a receiver's visibility agree, for ever
 			CHECK(explanation.find("findings")->entries.empty());
 			const ProbeEntry &solids = *explanation.find("solids_before_the_centre");
 			CHECK(get_integer(solids, "gpu") == get_integer(solids, "in_double"));
-			// The casters are closed, so each solid has two faces; a receiver may be within
-			// rounding of its own.
-			const size_t crossed_count = explanation.find("faces_crossed")->entries.size();
-			CHECK(crossed_count >= size_t(get_integer(solids, "gpu")));
-			CHECK(crossed_count <= 2 * size_t(get_integer(solids, "gpu")));
+			// The casters are closed. Hosts without normals derive them from the depth, so that a
+			// receiver at a corner of the box may be in it: then only one of the box's faces is
+			// crossed.
+			const size_t inside_count = frame.is_in_box(texel) ? 1 : 0;
+			CHECK(explanation.find("faces_crossed")->entries.size() + inside_count ==
+					2 * size_t(get_integer(solids, "gpu")));
 			for (const ProbeEntry &edge : explanation.find("edges_counted")->entries) {
 				CHECK(std::get<bool>(edge.find("is_listed")->value));
 			}
