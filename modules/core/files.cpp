@@ -7,6 +7,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -84,12 +86,22 @@ std::vector<uint8_t> load_file(const fs::path &p_path, uint64_t p_limit_bytes) {
 	return bytes;
 }
 
-void check_outputs(std::span<const OutputFile> p_outputs) {
-	std::set<fs::path> inputs;
-	{
-		const std::lock_guard<std::mutex> lock(loaded_mutex);
-		inputs = loaded_paths;
+void check_image_name(const std::string &p_option, const fs::path &p_path,
+		std::string_view p_ending, std::string_view p_hint) {
+	std::string ending = p_path.extension().string();
+	std::transform(ending.begin(), ending.end(), ending.begin(),
+			[](unsigned char p_letter) { return char(std::tolower(p_letter)); });
+	for (const std::string_view other :
+			{ ".png", ".jpg", ".jpeg", ".exr", ".hdr", ".bmp", ".tga", ".webp" }) {
+		if (ending == other && other != p_ending) {
+			fail(p_option, " ", p_path, ": the image is written as ", p_ending, ", not as ", other,
+					". Name it ", fs::path(p_path).replace_extension(p_ending), ".", p_hint);
+		}
 	}
+}
+
+void check_outputs(std::span<const OutputFile> p_outputs) {
+	const std::lock_guard<std::mutex> lock(loaded_mutex);
 	std::error_code code;
 	std::map<fs::path, std::string> options; // by the path without links
 	for (const OutputFile &output : p_outputs) {
@@ -97,14 +109,15 @@ void check_outputs(std::span<const OutputFile> p_outputs) {
 		if (output.path.empty() || (exists && !fs::is_regular_file(output.path, code))) {
 			continue; // not requested, or a device such as /dev/null
 		}
-		for (const fs::path &input : exists ? inputs : std::set<fs::path>()) {
-			if (fs::equivalent(output.path, input, code)) {
-				fail(output.option, " ", output.path, " would overwrite ", input,
+		for (const fs::path &input : loaded_paths) {
+			if (exists && fs::equivalent(output.path, input, code)) {
+				fail(output.option, " ", output.path, " is the same file as ", input,
 						", which this command reads. Name another file.");
 			}
 		}
-		const fs::path path = fs::weakly_canonical(fs::absolute(output.path), code);
-		if (const auto [found, is_new] = options.emplace(path, output.option); !is_new) {
+		const fs::path path = fs::weakly_canonical(fs::absolute(output.path, code), code);
+		const auto [found, is_new] = options.emplace(path, output.option);
+		if (!code && !is_new) {
 			fail(output.option, " and ", found->second, " both name ", output.path,
 					". Name another file.");
 		}

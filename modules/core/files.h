@@ -31,6 +31,12 @@ struct OutputFile {
 	std::filesystem::path path; // empty: not requested
 };
 
+/// Throws an Error if the name of an image to be written ends as that of another format, in upper
+/// or lower case. Empty: no image is requested. p_option: "--capture". p_ending: ".png". p_hint:
+/// added to the message.
+void check_image_name(const std::string &p_option, const std::filesystem::path &p_path,
+		std::string_view p_ending, std::string_view p_hint = {});
+
 /// Throws an Error if an output is a file that load_file has loaded, or two outputs are one file,
 /// whatever links lead to it. Call it when the inputs are loaded, before anything is computed.
 void check_outputs(std::span<const OutputFile> p_outputs);

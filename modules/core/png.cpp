@@ -7,21 +7,8 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace gnomon {
-
-void check_png_name(const std::string &p_option, const std::filesystem::path &p_path) {
-	std::string ending = p_path.extension().string();
-	std::transform(ending.begin(), ending.end(), ending.begin(),
-			[](unsigned char p_letter) { return std::tolower(p_letter); });
-	for (const char *other : { ".jpg", ".jpeg", ".exr", ".hdr", ".bmp", ".tga", ".webp" }) {
-		if (ending == other) {
-			fail(p_option, " ", p_path, ": the image is a PNG, not ", other, ". Name it ",
-					std::filesystem::path(p_path).replace_extension(".png"), ".");
-		}
-	}
-}
 
 std::vector<uint8_t> encode_png(
 		const glm::uvec2 &p_size_px, uint32_t p_channel_count, std::span<const uint8_t> p_pixels) {

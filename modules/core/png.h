@@ -16,10 +16,6 @@ namespace gnomon {
 void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
 		uint32_t p_channel_count, std::span<const uint8_t> p_pixels);
 
-/// Throws an Error if the name of an image to be saved as PNG ends as that of another format.
-/// Empty: no image is requested. p_option: "--capture".
-void check_png_name(const std::string &p_option, const std::filesystem::path &p_path);
-
 /// Encodes an image, given as for save_png, as the bytes of a PNG file.
 std::vector<uint8_t> encode_png(
 		const glm::uvec2 &p_size_px, uint32_t p_channel_count, std::span<const uint8_t> p_pixels);

@@ -111,7 +111,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 void run(const CommonOptions &p_common) {
 	glm::uvec2 size_px = choose_size(options.size, options.scene);
 	options.antialiasing = choose_antialiasing(options.antialiasing, options.scene);
-	check_png_name("--capture", options.capture);
+	check_image_name("--capture", options.capture, ".png");
 	for (const std::filesystem::path &path : { options.capture, options.dot, options.time_path }) {
 		if (!path.empty()) {
 			check_writable(path);

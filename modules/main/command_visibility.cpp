@@ -73,25 +73,14 @@ void move_light(Light3D &r_light, const glm::dvec3 &p_offset_world) {
 			world_from_parent * r_light.parent_from_node;
 }
 
-/// Refuses names of other image formats: the mask is written as EXR.
-void check_mask_name(const fs::path &p_path) {
-	const std::string extension = p_path.extension().string();
-	for (const char *other : { ".png", ".jpg", ".jpeg", ".hdr" }) {
-		if (extension == other) {
-			fail("--out \"", p_path.string(), "\": the mask is an EXR image, not ", extension,
-					". Name it \"", fs::path(p_path).replace_extension(".exr").string(),
-					"\"; --png FILE also writes it as a grey PNG.");
-		}
-	}
-}
-
 void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_common) {
 	const glm::uvec2 size_px = choose_size(p_options.size, p_options.scene);
 	if (p_options.out.empty() && !p_options.probe) {
 		throw UsageError("`gnomon visibility` needs --out MASK.exr, or --probe X,Y.");
 	}
-	check_mask_name(p_options.out);
-	check_png_name("--png", p_options.png);
+	check_image_name(
+			"--out", p_options.out, ".exr", " --png FILE also writes the mask as a grey PNG.");
+	check_image_name("--png", p_options.png, ".png");
 	const std::optional<glm::uvec2> probed_pixel =
 			p_options.probe ? parse_pixel(*p_options.probe, size_px) : std::nullopt;
 	if (!p_options.surfaces.empty()) {

@@ -33,7 +33,7 @@ void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 	add_path_option(*command, "--heatmap", options.heatmap,
 			"Also writes a PNG of the signed error: blue too dark, red too light");
 	command->callback([] {
-		check_png_name("--heatmap", options.heatmap);
+		check_image_name("--heatmap", options.heatmap, ".png");
 		const MaskImage reference = load_mask_exr(options.reference);
 		const MaskImage result = load_mask_exr(options.result);
 		const OutputFile heatmap = { "--heatmap", options.heatmap };

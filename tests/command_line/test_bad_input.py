@@ -348,6 +348,9 @@ class OutputsThatAreInputs(CommandLineTest):
         self.assert_nothing_changes("--png", "visibility", self.model, "--technique", self.get_fallback(), *SMALL, "--out", both, "--png", both)
 
     def test_images_of_another_format_are_refused(self):
+        for name in ("a.PNG", "a.bmp"):
+            visibility = ("visibility", self.model, "--technique", self.get_fallback(), *SMALL)
+            self.assert_nothing_changes("--out", *visibility, "--out", self.path(name))
         for name in ("a.jpg", "a.JPEG", "a.exr"):
             self.assert_nothing_changes("--capture", "run", self.model, "--headless", *SMALL, "--capture", self.path(name))
 
