@@ -309,18 +309,18 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 	MovedCasters moved;
 	moved.instances = instances;
 	for (const uint32_t index : changed) {
-		uint32_t place = p_casters.first_casters[index];
+		uint32_t caster_index = p_casters.first_casters[index];
 		std::vector<RecordedCaster> made;
 		if (!is_collapsed(instances[index])) {
 			made = maker.make(index);
 		}
-		if (made.empty() != (place == CountCasters::NO_CASTER)) {
+		if (made.empty() != (caster_index == CountCasters::NO_CASTER)) {
 			return {};
 		}
 		for (RecordedCaster &recorded : made) {
 			const CountCaster &caster = recorded.caster;
-			const CountCaster &before = p_casters.casters[place];
-			const shader::CountCasterRecord &before_record = p_casters.records[place];
+			const CountCaster &before = p_casters.casters[caster_index];
+			const shader::CountCasterRecord &before_record = p_casters.records[caster_index];
 			if (before.mesh != caster.mesh ||
 					before_record.flags != recorded.record.flags || // they tell if there are two
 					(caster.may_cut_disc && !p_casters.may_cut_disc)) {
@@ -328,11 +328,11 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 			}
 			recorded.record.first_face = before_record.first_face;
 			recorded.record.first_word = before_record.first_word;
-			if (has_moved(p_casters, place, caster, recorded.record) ||
+			if (has_moved(p_casters, caster_index, caster, recorded.record) ||
 					before.views != caster.views) {
-				moved.casters.emplace_back(place, std::move(recorded));
+				moved.casters.emplace_back(caster_index, std::move(recorded));
 			}
-			++place;
+			++caster_index;
 		}
 	}
 	return moved;
@@ -341,15 +341,15 @@ std::optional<MovedCasters> find_moved_casters(const ShadowTechnique::Inputs &p_
 void MovedCasters::apply_to(CountCasters &r_casters) {
 	r_casters.moved.clear();
 	bool has_same_sums = true;
-	for (auto &[place, recorded] : casters) {
+	for (auto &[caster_index, recorded] : casters) {
 		CountCaster &caster = recorded.caster;
-		CountCaster &replaced = r_casters.casters[place];
+		CountCaster &replaced = r_casters.casters[caster_index];
 		has_same_sums = has_same_sums && replaced.views == caster.views &&
 				replaced.may_cut_disc == caster.may_cut_disc;
-		if (has_moved(r_casters, place, caster, recorded.record)) {
-			r_casters.moved.push_back(place);
+		if (has_moved(r_casters, caster_index, caster, recorded.record)) {
+			r_casters.moved.push_back(caster_index);
 		}
-		r_casters.records[place] = recorded.record;
+		r_casters.records[caster_index] = recorded.record;
 		replaced = std::move(caster);
 	}
 	std::sort(r_casters.moved.begin(), r_casters.moved.end());

@@ -4,6 +4,7 @@
 #include "modules/core/text.h"
 #include "modules/mesh_tools/topology.h"
 #include "modules/scene/cut_levels.h"
+#include "modules/scene/mesh_pose.h"
 #include "modules/shadow_edge_count/count_in_double.h"
 
 #include <glm/gtc/packing.hpp>
@@ -25,6 +26,7 @@ namespace {
 const uint32_t RAY_COUNT = 4096;
 const double ENCLOSING_SHARE = 0.5; // of all directions that a mesh hides from a point inside
 // Differences between steps up to which they agree.
+const double FILTER_TOLERANCE = 1e-3; // both are half floats
 const double MASK_TOLERANCE = 0.004;  // rounding on the GPU, and of the mask to half floats
 const double LIST_TOLERANCE = 1e-3;	  // edges beyond the list's bounds, with next to no effect
 const double FOUND_TOLERANCE = 0.004; // vertices rounded to float in light space
@@ -92,6 +94,22 @@ bool passes_box(const Bounds &p_box, const glm::dvec3 &p_origin, const glm::dvec
 	return begin <= end;
 }
 
+/// The topology of a caster's mesh with its vertices as posed. p_pose: null if it is at rest.
+MeshTopology pose_topology(const std::shared_ptr<const Mesh> &p_mesh, const MeshPose *p_pose) {
+	MeshTopology topology = *get_topology(p_mesh); // that at rest
+	if (p_pose == nullptr || !p_mesh->rest) {
+		return topology;
+	}
+	const std::shared_ptr<const Mesh> posed = p_pose->get_mesh(p_mesh->rest);
+	for (size_t index = 0; index < topology.welded_from_position.size(); ++index) {
+		const uint32_t vertex = topology.welded_from_position[index];
+		if (vertex != NO_VERTEX) {
+			topology.welded_positions_node[vertex] = posed->positions_node[index];
+		}
+	}
+	return topology;
+}
+
 /// The leaf that a receiver belongs to.
 struct ProbedLeaf {
 	shader::CountLeaf leaf;
@@ -123,7 +141,7 @@ CountProbe::CountProbe(const ShadowTechnique::Inputs &p_inputs, const CountSetti
 		size_px(p_inputs.size_px), scene_size_m(p_inputs.scene.scene_size_m) {}
 
 void CountProbe::add_read_back(RenderGraph &r_graph, const CountFrameBuffers &p_light,
-		const CountLeaves &p_leaves, RGTexture p_debug_image) {
+		const CountLeaves &p_leaves, RGTexture p_debug_image, RGTexture p_mask) {
 	const std::vector<std::pair<RGBuffer, std::vector<uint8_t> *>> buffers = {
 		{ p_light.planes, &copies->planes }, { p_light.faces, &copies->faces },
 		{ p_light.edges, &copies->edges }, { p_light.totals, &copies->totals },
@@ -134,8 +152,8 @@ void CountProbe::add_read_back(RenderGraph &r_graph, const CountFrameBuffers &p_
 	for (const auto &[buffer, bytes] : buffers) {
 		pass.reads(buffer, Access::COPY_READ);
 	}
-	pass.reads(p_debug_image, Access::COPY_READ);
-	pass.keep().execute([buffers, p_debug_image, copies = copies](PassContext &p_context) {
+	pass.reads(p_debug_image, Access::COPY_READ).reads(p_mask, Access::COPY_READ);
+	pass.keep().execute([buffers, p_debug_image, p_mask, copies = copies](PassContext &p_context) {
 		const auto receive_into = [&copies](std::vector<uint8_t> *r_bytes) {
 			return [copies, r_bytes](std::span<const uint8_t> p_bytes) {
 				r_bytes->assign(p_bytes.begin(), p_bytes.end());
@@ -145,6 +163,7 @@ void CountProbe::add_read_back(RenderGraph &r_graph, const CountFrameBuffers &p_
 		for (const auto &[buffer, bytes] : buffers) {
 			device.read_back(p_context.get(buffer), receive_into(bytes));
 		}
+		device.read_back(p_context.get(p_mask), /*p_layer=*/0, receive_into(&copies->mask));
 		for (uint32_t layer = 0; layer < EDGE_COUNT_DEBUG_LAYERS; ++layer) {
 			device.read_back(p_context.get(p_debug_image), layer,
 					receive_into(&copies->debug_layers[layer]));
@@ -161,9 +180,13 @@ struct CountProbe::Work {
 	glm::dvec3 position; // in light space
 	std::vector<DiscLookup> masks;
 
-	double read_debug(uint32_t p_layer) const {
+	/// The receiver's texel of a copied R16_SFLOAT texture.
+	double read_texel(const std::vector<uint8_t> &p_texels) const {
 		const size_t index = size_t(receiver.pixel.y) * probe.size_px.x + receiver.pixel.x;
-		return glm::unpackHalf1x16(read_item<uint16_t>(probe.copies->debug_layers[p_layer], index));
+		return glm::unpackHalf1x16(read_item<uint16_t>(p_texels, index));
+	}
+	double read_debug(uint32_t p_layer) const {
+		return read_texel(probe.copies->debug_layers[p_layer]);
 	}
 	/// The kind of the receiver's leaf (EDGE_COUNT_LEAVES_*).
 	uint32_t find_kind() const { return uint32_t(read_debug(EDGE_COUNT_DEBUG_LEAVES)); }
@@ -171,8 +194,7 @@ struct CountProbe::Work {
 	/// Whether a receiver at that distance (CountLeaf::axis_distance) sees the face's LOD.
 	bool is_seen(uint32_t p_face, double p_distance) const;
 	CountItems read_found(double p_distance) const;
-	/// Nothing if receivers see two LODs of one caster, or if a mesh is deformed: its topology is
-	/// that at rest.
+	/// Nothing if receivers see two LODs of one caster, or if a program on the GPU moves vertices.
 	std::optional<CountItems> read_meshes(double p_distance) const;
 	/// The edges in the leaf's list. Nothing if the leaf has none.
 	std::optional<std::vector<CountEdge>> read_listed(const ProbedLeaf &p_leaf) const;
@@ -300,7 +322,8 @@ std::optional<CountItems> CountProbe::Work::read_meshes(double p_distance) const
 	for (uint32_t index = 0; index < casters.casters.size(); ++index) {
 		const CountCaster &caster = casters.casters[index];
 		const shader::CountCasterRecord &record = casters.records[index];
-		if (caster.posed) {
+		const InstanceSnapshot &instance = casters.instances[caster.instance];
+		if (instance.pose && instance.pose->get_move().program) {
 			return std::nullopt;
 		}
 		if ((record.flags & EDGE_COUNT_CASTER_LOD) != 0) {
@@ -315,9 +338,8 @@ std::optional<CountItems> CountProbe::Work::read_meshes(double p_distance) const
 				return std::nullopt;
 			}
 		}
-		meshes.add_mesh(*get_topology(caster.mesh),
-				probe.view.view_from_world * casters.instances[caster.instance].world_from_node,
-				space);
+		meshes.add_mesh(pose_topology(caster.mesh, instance.pose.get()),
+				probe.view.view_from_world * instance.world_from_node, space);
 		items.face_casters.resize(meshes.faces.size(), index);
 	}
 	items.faces = std::move(meshes.faces);
@@ -378,7 +400,9 @@ void CountProbe::Work::describe_items(const CountItems &p_items, const CountDeta
 		const CountFace &face = p_items.faces[index];
 		ProbeEntry &entry = faces.add("");
 		entry.add("caster", describe_caster(p_items.face_casters[index]));
-		entry.add("face", int64_t(index));
+		entry.add("a_world_m", find_world_position(face.corners[0]));
+		entry.add("b_world_m", find_world_position(face.corners[1]));
+		entry.add("c_world_m", find_world_position(face.corners[2]));
 		entry.add("distance_m", find_distance(face));
 		const bool is_in_front = glm::dot(glm::dvec3(face.plane), position) + face.plane.w > 0.0;
 		entry.add("is_towards_receiver", is_in_front);
@@ -430,6 +454,10 @@ void CountProbe::Work::describe_casters(const CountItems &p_items, const CountDe
 		const std::span<const CountFace> faces =
 				std::span(p_items.faces)
 						.subspan(size_t(begin - p_items.face_casters.begin()), size_t(end - begin));
+		if (std::ranges::all_of(faces,
+					[](const CountFace &p_face) { return p_face.plane == glm::dvec4(0.0); })) {
+			continue; // the receiver sees another LOD of it
+		}
 		const bool encloses_light =
 				!space.is_directional && compute_enclosed_share(faces) > ENCLOSING_SHARE;
 		ProbeEntry &entry = r_casters.add("");
@@ -516,12 +544,14 @@ void CountProbe::explain(const ProbedReceiver &p_receiver, const CountCasters &p
 
 	const bool is_smooth = leaf && work.find_kind() == EDGE_COUNT_LEAVES_SMOOTH;
 	const std::vector<Step> steps = {
-		{ "mask", p_receiver.visibility, is_smooth ? SMOOTH_TOLERANCE : MASK_TOLERANCE,
+		{ "mask", p_receiver.visibility, FILTER_TOLERANCE,
+				"Translucent casters or a mask filter changed the mask after counting; only opaque "
+				"casters are explained here." },
+		{ "gpu", work.read_texel(copies->mask), is_smooth ? SMOOTH_TOLERANCE : MASK_TOLERANCE,
 				is_smooth ? "The leaf is smooth: 16 of its 64 receivers are counted, and this one "
 							"is interpolated. Set edge_count_interpolation to 0."
-						  : "Translucent casters or a mask filter changed it after counting, or "
-							"edge_count_budget or edge_count_time_budget was exceeded; else there "
-							"is a fault, which the log names." },
+						  : "The leaf exceeds edge_count_budget or edge_count_time_budget; else "
+							"there is a fault, which the log names." },
 		{ "leaf_list", listed_visibility, LIST_TOLERANCE,
 				"The leaf's list lacks edges, see is_listed." },
 		{ "all_found", found_visibility, FOUND_TOLERANCE,
@@ -553,7 +583,11 @@ void CountProbe::explain(const ProbedReceiver &p_receiver, const CountCasters &p
 			continue;
 		}
 		const double difference = std::abs(*step.visibility - *next->visibility);
-		if (difference > step.tolerance) {
+		double tolerance = 0; // of this step and of those that were not computed
+		for (auto skipped = steps.begin() + long(index); skipped != next; ++skipped) {
+			tolerance += skipped->tolerance;
+		}
+		if (difference > tolerance) {
 			findings.add("",
 					ProbeEntry::Value(text(step.name, " and ", next->name, " differ by ",
 							difference, ". ", step.meaning)));

@@ -18,13 +18,14 @@ public:
 			const CountCapacities &p_capacities);
 
 	/// Adds a pass that reads back what explain() needs. p_debug_image: see add_count_debug_pass.
+	/// p_mask: see add_count_passes.
 	void add_read_back(RenderGraph &r_graph, const CountFrameBuffers &p_light,
-			const CountLeaves &p_leaves, RGTexture p_debug_image);
+			const CountLeaves &p_leaves, RGTexture p_debug_image, RGTexture p_mask);
 	/// Adds, after the frame has finished: the receiver's leaf; the faces that the way to the
 	/// light's centre crosses; the edges that change what it sees, with their casters; its
-	/// visibility as counted on the GPU, from the leaf's list in double, from all faces and edges
-	/// that the GPU found in double, from the meshes in double, and by rays in double; and which of
-	/// these differ. p_casters: of the frame.
+	/// visibility in the mask, as counted on the GPU, from the leaf's list in double, from all
+	/// faces and edges that the GPU found in double, from the meshes in double, and by rays in
+	/// double; and which of these differ. p_casters: of the frame.
 	void explain(const ProbedReceiver &p_receiver, const CountCasters &p_casters,
 			ProbeEntry &r_explanation) const;
 
@@ -34,6 +35,7 @@ private:
 		std::vector<uint8_t> planes, faces, edges, totals;
 		std::vector<uint8_t> leaves, results, lists, counts;
 		std::array<std::vector<uint8_t>, EDGE_COUNT_DEBUG_LAYERS> debug_layers;
+		std::vector<uint8_t> mask; // of opaque casters, before mask filters
 	};
 	struct Work;
 

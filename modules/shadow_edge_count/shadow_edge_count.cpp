@@ -366,11 +366,11 @@ RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	if (p_inputs.wants_debug_views || p_inputs.wants_explanation) {
 		debug_image = add_count_debug_pass(r_graph, passes, leaves);
 	}
+	const RGTexture mask = add_count_passes(r_graph, passes, leaves);
 	if (p_inputs.wants_explanation) {
 		probe.emplace(p_inputs, settings, buffers.get_capacities());
-		probe->add_read_back(r_graph, passes.light, leaves, debug_image);
+		probe->add_read_back(r_graph, passes.light, leaves, debug_image, mask);
 	}
-	const RGTexture mask = add_count_passes(r_graph, passes, leaves);
 	status.add_read_back(r_graph, leaves.status, p_inputs.light.name);
 	return mask;
 }
@@ -389,8 +389,12 @@ void ShadowEdgeCount::explain(const ProbedReceiver &p_receiver, ProbeEntry &r_ex
 	if (probe) {
 		probe->explain(p_receiver, cached.casters, r_explanation);
 	} else {
-		r_explanation.add_list("findings")
-				.add("", "No opaque caster is in front of the light: nothing was counted.");
+		ProbeEntry &values = r_explanation.add("visibility");
+		values.add("mask", p_receiver.visibility);
+		values.add("all_found", 1.0);
+		r_explanation.add_list("notes").add(
+				"", "No opaque caster is in front of the light: nothing was counted.");
+		r_explanation.add_list("findings");
 	}
 }
 

@@ -265,7 +265,6 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.may_skip = options.may_skip,
 		.may_reuse = options.may_reuse,
 		.wants_debug_views = p_wants_debug_views,
-		.wants_explanation = options.wants_explanation,
 		.lit_receivers = p_work.lit_receivers.list,
 	};
 }
@@ -335,7 +334,8 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowSystem::Slot &r_s
 	derive_run(p_work, technique, p_translucent, p_group, wants_debug_views, r_slot.derived_run);
 	const std::vector<LightView> &views = derived.views;
 	const std::vector<CasterList> &casters = derived.casters;
-	const ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
+	ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
+	inputs.wants_explanation = options.wants_explanation && p_run.empty();
 	technique.plan(inputs, technique_plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {
 		if (technique_plan.is_light_view_skipped(index)) {

@@ -116,6 +116,7 @@ TEST_CASE("[GPU][EdgeCount] all steps of a receiver's visibility agree, for ever
 			CAPTURE(texel);
 			const ProbeEntry explanation = frame.explain(texel);
 			CHECK(get_step(explanation, "mask") == frame.result.visibility[texel]);
+			CHECK(get_step(explanation, "gpu") == frame.result.visibility[texel]);
 			CHECK(std::abs(get_step(explanation, "mask") - get_step(explanation, "leaf_list")) <
 					0.004);
 			CHECK(std::abs(get_step(explanation, "leaf_list") -
@@ -202,4 +203,33 @@ TEST_CASE(
 		}
 	}
 	CHECK(noted_count > 0);
+}
+
+TEST_CASE("[GPU][EdgeCount] deformed casters are explained as posed") {
+	const std::shared_ptr<const Mesh> sphere = make_count_sphere(0.4, 8);
+	MeshRig rig;
+	MorphTarget &target = rig.targets.emplace_back();
+	for (const glm::vec3 &position : sphere->positions_node) {
+		target.positions.emplace_back(0.8f * position.x, 0.0f, -0.5f * position.z);
+	}
+	MeshAttributes attributes;
+	attributes.rig = make_mesh_rig(std::move(rig), sphere->positions_node, "bubble");
+	ProbedFrame frame(LightType::SPOT);
+	MeshInstance3D &bubble = add_mesh(frame.scene.scene, "Bubble",
+			make_mesh("bubble", sphere->positions_node, {}, sphere->indices, attributes),
+			glm::dvec3(0.8, 1.2, -0.6));
+	bubble.morph_weights = { 1 };
+	frame.render();
+	size_t involved_count = 0;
+	for (const size_t texel : frame.list_receivers(0.01f, 0.99f, 19)) {
+		CAPTURE(texel);
+		const ProbeEntry explanation = frame.explain(texel);
+		CHECK(std::abs(get_step(explanation, "all_found") - get_step(explanation, "meshes")) <
+				2e-3);
+		CHECK(explanation.find("findings")->entries.empty());
+		for (const ProbeEntry &edge : explanation.find("edges_counted")->entries) {
+			involved_count += std::get<std::string>(edge.find("caster")->value) == "Bubble" ? 1 : 0;
+		}
+	}
+	CHECK(involved_count > 3);
 }
