@@ -31,7 +31,7 @@ private:
 	struct Item {
 		size_t first = 0;	// of the spaces before it
 		size_t key = 0;		// of an array's element: that of the value
-		size_t key_end = 0; // likewise
+		size_t key_end = 0; // of an array's element: also that
 		size_t value = 0;
 		size_t value_end = 0;
 		size_t end = 0; // of the spaces after it: the comma or closing bracket

@@ -100,7 +100,7 @@ private:
 	const GltfLoadOptions &options;
 	GltfMessages &messages;
 	std::vector<std::optional<LightSettings>> lights; // by index in the file; null: not read
-	std::vector<std::optional<GltfCamera>> cameras;	  // likewise
+	std::vector<std::optional<GltfCamera>> cameras;	  // in the same way
 	GltfBuffers buffers;
 	GltfAccessors accessors;
 	GltfTextures textures;

@@ -111,7 +111,8 @@ TEST_CASE("[ReportPart] a registered part is planned, measured and written under
 	CHECK(page.find("/* the section of made_up */") != std::string::npos);
 }
 
-TEST_CASE("[ReportPart] results of a part are loaded, and kept by a build that lacks the part") {
+TEST_CASE(
+		"[ReportPart] results of a part are loaded, and preserved by a build that lacks the part") {
 	const TemporaryFolder folder;
 	const std::filesystem::path path = folder.path / "report.json";
 	ScriptedMaskSource masks;
@@ -131,10 +132,10 @@ TEST_CASE("[ReportPart] results of a part are loaded, and kept by a build that l
 	}
 	const Report report = load_report(path);
 	CHECK(report.cells[0].find_result<FakeResult>() == nullptr);
-	const nlohmann::ordered_json kept = to_json(report);
-	CHECK(kept.at("cells")[0].at("stability").at("number") == 7);
-	CHECK(kept.at("cells")[1] == json.at("cells")[1]);
-	CHECK_FALSE(kept.contains(PART_ID));
+	const nlohmann::ordered_json preserved = to_json(report);
+	CHECK(preserved.at("cells")[0].at("stability").at("number") == 7);
+	CHECK(preserved.at("cells")[1] == json.at("cells")[1]);
+	CHECK_FALSE(preserved.contains(PART_ID));
 }
 
 TEST_CASE("[ReportPart] a result that became unusable is a regression with its message") {

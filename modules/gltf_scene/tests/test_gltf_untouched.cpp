@@ -1,4 +1,4 @@
-// What saving keeps of the text of a file: all of it if nobody changed the scene, else everything
+// What saving preserves of the text of a file: all of it if the scene is unchanged, else everything
 // but the changed values.
 
 #include "modules/gltf_scene/gltf_json_text.h"
@@ -81,8 +81,8 @@ TEST_CASE("[GltfUntouched] saving an untouched file gives equal bytes") {
 	CHECK(compare_saved_files("/usr/share/assimp/models") >= 30); // package assimp-testmodels
 }
 
-TEST_CASE(
-		"[GltfUntouched] any layout of the text is kept: spaces, number formats, byte order mark") {
+TEST_CASE("[GltfUntouched] any layout of the text is preserved: spaces, number formats, byte order "
+		  "mark") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const std::string text = "\xEF\xBB\xBF{ \"asset\" :{\"version\":\"2.0\"},\r\n"
@@ -93,7 +93,7 @@ TEST_CASE(
 	CHECK(load_text_file(folder.path / "again.gltf") == text);
 }
 
-TEST_CASE("[GltfUntouched] a changed value changes only its own place in the text") {
+TEST_CASE("[GltfUntouched] a changed value changes nothing else in the text") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const std::string before = "{\r\n  \"asset\": {\"version\": \"2.0\"},\r\n"

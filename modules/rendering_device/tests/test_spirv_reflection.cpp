@@ -61,7 +61,7 @@ TEST_CASE("[SpirvReflection] words that are not SPIR-V, and damaged SPIR-V, are 
 		damaged[5] = length_bits | (whole[5] & 0xffffu);
 		CHECK_THROWS_AS(reflect_spirv("a.comp", damaged, {}), Error);
 	}
-	for (size_t count = 0; count < whole.size(); ++count) { // cut off in each place
+	for (size_t count = 0; count < whole.size(); ++count) { // cut off after each word
 		const std::vector<uint32_t> cut(whole.begin(), whole.begin() + ptrdiff_t(count));
 		CHECK_THROWS_AS(reflect_spirv("a.comp", cut, {}), Error);
 	}
